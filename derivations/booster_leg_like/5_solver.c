@@ -140,6 +140,8 @@ int booster_leg_like_nearest(const booster_leg_like_solution *list, int count, c
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int booster_leg_like_nearest(const booster_leg_like_solution *list, int count, c
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,16 +211,17 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
-    const double r3 = c1 * c2, r4 = c1 * c3, r5 = s3 * r0, r6 = c2 * s3, r7 = s1 * c3, r8 = s3 * r1;
-    const double r11 = c2 * c3, r14 = r4 + r5, r19 = r7 - r8, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r6;
-    const double r25 = s2 * c4, r26 = s4 * r19, r27 = c4 * r3, r28 = c4 * r14 - s4 * r2, r30 = r22 + r23;
-    const double r32 = c4 * r6 + s2 * s4, r34 = r24 - r25, r36 = c4 * r19 + s4 * r3, r38 = r26 - r27;
-    const double r40 = s5 * r28, r41 = c5 * r30, r42 = s5 * r32, r43 = c5 * r34, r44 = s5 * r36, r45 = c5 * r38;
-    const double r46 = c1 * s3 - c3 * r0, r48 = r40 + r41, r51 = r42 + r43, r53 = s1 * s3 + c3 * r1;
-    const double r55 = r44 + r45, r57 = s6 * r46, r58 = c6 * r48, r59 = s6 * r11, r60 = c6 * r51, r61 = s6 * r53;
-    const double r62 = c6 * r55, r69 = 0.195 * s2 - 0.014 * r6 - 0.28 * r24 + 0.28 * r25;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2;
+    const double r2 = s1 * c2, r3 = c1 * c2, r4 = c1 * c3, r5 = s3 * r0, r6 = c2 * s3, r7 = s1 * c3;
+    const double r8 = s3 * r1, r11 = c2 * c3, r14 = r4 + r5, r19 = r7 - r8, r22 = s4 * r14, r23 = c4 * r2;
+    const double r24 = s4 * r6, r25 = s2 * c4, r26 = s4 * r19, r27 = c4 * r3, r28 = c4 * r14 - s4 * r2;
+    const double r30 = r22 + r23, r32 = c4 * r6 + s2 * s4, r34 = r24 - r25, r36 = c4 * r19 + s4 * r3;
+    const double r38 = r26 - r27, r40 = s5 * r28, r41 = c5 * r30, r42 = s5 * r32, r43 = c5 * r34;
+    const double r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * s3 - c3 * r0, r48 = r40 + r41, r51 = r42 + r43;
+    const double r53 = s1 * s3 + c3 * r1, r55 = r44 + r45, r57 = s6 * r46, r58 = c6 * r48, r59 = s6 * r11;
+    const double r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55;
+    const double r69 = 0.195 * s2 - 0.014 * r6 - 0.28 * r24 + 0.28 * r25;
     const double r77 = r69 - 0.012 * r42 - 0.012 * r43 + 0.03 * r59 - 0.03 * r60;
     const double r103 = 0.014 * r8 + (0.195 * r3 + 0.02 * c1 - 0.014 * r7);
     const double r106 = 0.28 * r27 + (r103 - 0.28 * r26) - 0.012 * r44;
@@ -283,23 +288,24 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
-    const double r3 = c1 * c2, r4 = c1 * c3, r5 = s3 * r0, r6 = c2 * s3, r7 = s1 * c3, r8 = s3 * r1;
-    const double r11 = c2 * c3, r14 = r4 + r5, r19 = r7 - r8, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r6;
-    const double r25 = s2 * c4, r26 = s4 * r19, r27 = c4 * r3, r28 = c4 * r14 - s4 * r2, r29 = c5 * r28;
-    const double r30 = r22 + r23, r31 = s5 * r30, r32 = c4 * r6 + s2 * s4, r34 = r24 - r25;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2;
+    const double r2 = s1 * c2, r3 = c1 * c2, r4 = c1 * c3, r5 = s3 * r0, r6 = c2 * s3, r7 = s1 * c3;
+    const double r8 = s3 * r1, r11 = c2 * c3, r14 = r4 + r5, r19 = r7 - r8, r22 = s4 * r14, r23 = c4 * r2;
+    const double r24 = s4 * r6, r25 = s2 * c4, r26 = s4 * r19, r27 = c4 * r3, r28 = c4 * r14 - s4 * r2;
+    const double r29 = c5 * r28, r30 = r22 + r23, r31 = s5 * r30, r32 = c4 * r6 + s2 * s4, r34 = r24 - r25;
     const double r36 = c4 * r19 + s4 * r3, r37 = c5 * r36, r38 = r26 - r27, r39 = s5 * r38, r40 = s5 * r28;
     const double r41 = c5 * r30, r42 = s5 * r32, r43 = c5 * r34, r44 = s5 * r36, r45 = c5 * r38;
     const double r46 = c1 * s3 - c3 * r0, r48 = r40 + r41, r51 = r42 + r43, r53 = s1 * s3 + c3 * r1;
-    const double r55 = r44 + r45, r57 = s6 * r46, r58 = c6 * r48, r59 = s6 * r11, r60 = c6 * r51, r61 = s6 * r53;
-    const double r62 = c6 * r55, r64 = 0.014 * r6, r66 = 0.28 * r24, r68 = 0.28 * r25, r70 = 0.012 * r42;
-    const double r72 = 0.012 * r43, r74 = 0.03 * r59, r75 = 0.195 * s2 - r64 - r66 + r68 - r70 - r72 + r74;
-    const double r76 = 0.03 * r60, r77 = r75 - r76, r78 = 0.195 * r2, r79 = 0.014 * r4, r80 = 0.014 * r5;
-    const double r81 = 0.28 * r22, r82 = 0.28 * r23, r83 = 0.012 * r40, r84 = 0.012 * r41, r85 = 0.03 * r57;
-    const double r86 = 0.03 * r58, r87 = 0.195 * r3, r88 = 0.014 * r7, r89 = 0.014 * r8, r90 = 0.28 * r26;
-    const double r91 = 0.28 * r27, r92 = 0.012 * r44, r93 = 0.012 * r45, r94 = 0.03 * r61, r95 = 0.03 * r62;
-    const double r96 = c5 * r32 - s5 * r34, r97 = r61 + r62, r98 = r57 + r58, r99 = r29 - r31;
+    const double r55 = r44 + r45, r57 = s6 * r46, r58 = c6 * r48, r59 = s6 * r11, r60 = c6 * r51;
+    const double r61 = s6 * r53, r62 = c6 * r55, r64 = 0.014 * r6, r66 = 0.28 * r24, r68 = 0.28 * r25;
+    const double r70 = 0.012 * r42, r72 = 0.012 * r43, r74 = 0.03 * r59;
+    const double r75 = 0.195 * s2 - r64 - r66 + r68 - r70 - r72 + r74, r76 = 0.03 * r60, r77 = r75 - r76;
+    const double r78 = 0.195 * r2, r79 = 0.014 * r4, r80 = 0.014 * r5, r81 = 0.28 * r22, r82 = 0.28 * r23;
+    const double r83 = 0.012 * r40, r84 = 0.012 * r41, r85 = 0.03 * r57, r86 = 0.03 * r58, r87 = 0.195 * r3;
+    const double r88 = 0.014 * r7, r89 = 0.014 * r8, r90 = 0.28 * r26, r91 = 0.28 * r27, r92 = 0.012 * r44;
+    const double r93 = 0.012 * r45, r94 = 0.03 * r61, r95 = 0.03 * r62, r96 = c5 * r32 - s5 * r34;
+    const double r97 = r61 + r62, r98 = r57 + r58, r99 = r29 - r31;
     const double r106 = r91 + (r89 + (r87 + 0.02 * c1 - r88) - r90) - r92;
     const double r115 = r82 + (r81 + (r80 + (r79 + (r78 + 0.02 * s1)))), r128 = c6 * r11 + s6 * r51;
     const double r129 = c6 * r53 - s6 * r55, r146 = r78 + r79 + r80 + r81 + r82 + r83 + r84 + r85;
@@ -313,9 +319,10 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r218 = r76 + (r70 + r72 - r74), r222 = r86 + (r85 + (r83 + r84)), r228 = r37 - r39;
     const double r229 = r59 - r60, r231 = r228 * r98, r232 = r97 * r99, r238 = r96 * r97 + r228 * r229;
     const double r249 = r229 * r99 + r96 * r98, r269 = 0.0 - (r11 * r228 + r53 * r96);
-    const double r272 = r53 * r99 - r46 * r228, r276 = 0.0 - (r46 * r96 + r11 * r99), r278 = c6 * r46 - s6 * r48;
-    const double r302 = r11 * r129 - r53 * r128, r307 = r46 * r129 - r53 * r278, r310 = r11 * r278 - r46 * r128;
-    const double r330 = r53 * r229 - r11 * r97, r334 = r53 * r98 - r46 * r97, r339 = r46 * r229 - r11 * r98;
+    const double r272 = r53 * r99 - r46 * r228, r276 = 0.0 - (r46 * r96 + r11 * r99);
+    const double r278 = c6 * r46 - s6 * r48, r302 = r11 * r129 - r53 * r128, r307 = r46 * r129 - r53 * r278;
+    const double r310 = r11 * r278 - r46 * r128, r330 = r53 * r229 - r11 * r97, r334 = r53 * r98 - r46 * r97;
+    const double r339 = r46 * r229 - r11 * r98;
     const Jacobian result = { {
         {r95 - (r106 - r93 - r94), s1 * r77, s2 * r167 - r3 * r176, r11 * r195 + r53 * r201, r11 * r214 + r53 * r218, 0.03 * r238},
         {0.0, s1 * (r146 + r86) + c1 * (r155 - r95), r2 * r167 - r3 * r186, r46 * r195 - r53 * r207, r46 * r214 - r53 * r222, 0.03 * (r231 - r232)},
@@ -627,7 +634,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -646,6 +654,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -673,11 +684,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -801,7 +820,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2474,7 +2497,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2578,7 +2602,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -2978,7 +3003,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

@@ -323,6 +323,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -348,6 +350,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -410,18 +414,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, }
 }
 
@@ -836,8 +831,7 @@ mod six_axes {
             let index = self.solved;
             self.rows.still.swap(index, row);
             self.order.swap(index, place);
-            let column = self.order[index];
-            let inverse = 1.0 / self.rows.still[index][column];
+            let column = self.order[index]; let inverse = 1.0 / self.rows.still[index][column];
             self.rows.still[index].iter_mut().for_each(|entry| *entry *= inverse);
             let pivot = self.rows.still[index];
             for (k, still) in self.rows.still.iter_mut().enumerate() {
@@ -1152,8 +1146,7 @@ mod six_axes {
     /// The first row of the lowest block that does not fall apart.
     fn start_of_block(h: &mut Matrix, high: usize) -> Option<usize> {
         for row in (1..=high).rev() {
-            let entry = h[row][row - 1].abs();
-            let size = h[row][row].abs() + h[row - 1][row - 1].abs();
+            let entry = h[row][row - 1].abs(); let size = h[row][row].abs() + h[row - 1][row - 1].abs();
             if !entry.is_finite() || !size.is_finite() {
                 return None;
             }
@@ -1167,14 +1160,12 @@ mod six_axes {
 
     fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (a, b, c, d) = (h[low][low], h[low][low + 1], h[low + 1][low], h[low + 1][low + 1]);
-        let half = 0.5 * (a - d);
-        let discriminant = half * half + b * c;
+        let half = 0.5 * (a - d); let discriminant = half * half + b * c;
         if discriminant < 0.0 {
             let (re, im) = (0.5 * (a + d), (-discriminant).sqrt());
             return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
         }
-        let way = half + discriminant.sqrt().copysign(half);
-        let first = d + way;
+        let way = half + discriminant.sqrt().copysign(half); let first = d + way;
         let second = if way == 0.0 { d } else { d - b * c / way };
         (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
     }
@@ -1195,8 +1186,7 @@ mod six_axes {
                 }
                 self.reflect(top, column);
             }
-            let top = self.high - 1;
-            let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
+            let top = self.high - 1; let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
             self.reflect(top, column);
         }
 
@@ -1204,8 +1194,7 @@ mod six_axes {
         fn shifts(&self, is_exceptional: bool) -> [f64; 2] {
             let (h, m) = (&self.h, self.high);
             if is_exceptional {
-                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs();
-                let centre = h[m][m] + 0.75 * size;
+                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs(); let centre = h[m][m] + 0.75 * size;
                 return [2.0 * centre, centre * centre + 0.4375 * size * size];
             }
             [h[m - 1][m - 1] + h[m][m], h[m - 1][m - 1] * h[m][m] - h[m - 1][m] * h[m][m - 1]]
@@ -2050,18 +2039,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         p.px, p.py, p.pz, p.r11_, p.r12_, p.r13_, p.r21_, p.r22_, p.r23_, p.r31_, p.r32_, p.r33_,
     ]);
     for (i0, six0) in found0.as_slice().iter().enumerate() {
-        let c1 = six0.q[0].cos();
-        let s1 = six0.q[0].sin();
-        let c2 = six0.q[1].cos();
-        let s2 = six0.q[1].sin();
-        let c3 = six0.q[2].cos();
-        let s3 = six0.q[2].sin();
-        let c4 = six0.q[3].cos();
-        let s4 = six0.q[3].sin();
-        let c5 = six0.q[4].cos();
-        let s5 = six0.q[4].sin();
-        let c6 = six0.q[5].cos();
-        let s6 = six0.q[5].sin();
+        let c1 = six0.q[0].cos(); let s1 = six0.q[0].sin(); let c2 = six0.q[1].cos(); let s2 = six0.q[1].sin();
+        let c3 = six0.q[2].cos(); let s3 = six0.q[2].sin(); let c4 = six0.q[3].cos(); let s4 = six0.q[3].sin();
+        let c5 = six0.q[4].cos(); let s5 = six0.q[4].sin(); let c6 = six0.q[5].cos(); let s6 = six0.q[5].sin();
         let at = [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6];
         let q = [
             angle(at[0], at[1]), angle(at[2], at[3]), angle(at[4], at[5]), angle(at[6], at[7]),
@@ -2077,47 +2057,15 @@ const TIP: usize = 12;
 /// The tip, as the equations compare it.
 fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r4 = c1 * c3;
-    let r5 = s3 * r0;
-    let r6 = c2 * s3;
-    let r7 = s1 * c3;
-    let r8 = s3 * r1;
-    let r11 = c2 * c3;
-    let r14 = r4 + r5;
-    let r19 = r7 - r8;
-    let r22 = s4 * r14;
-    let r23 = c4 * r2;
-    let r24 = s4 * r6;
-    let r25 = s2 * c4;
-    let r26 = s4 * r19;
-    let r27 = c4 * r3;
-    let r28 = c4 * r14 - s4 * r2;
-    let r30 = r22 + r23;
-    let r32 = c4 * r6 + s2 * s4;
-    let r34 = r24 - r25;
-    let r36 = c4 * r19 + s4 * r3;
-    let r38 = r26 - r27;
-    let r40 = s5 * r28;
-    let r41 = c5 * r30;
-    let r42 = s5 * r32;
-    let r43 = c5 * r34;
-    let r44 = s5 * r36;
-    let r45 = c5 * r38;
-    let r46 = c1 * s3 - c3 * r0;
-    let r48 = r40 + r41;
-    let r51 = r42 + r43;
-    let r53 = s1 * s3 + c3 * r1;
-    let r55 = r44 + r45;
-    let r57 = s6 * r46;
-    let r58 = c6 * r48;
-    let r59 = s6 * r11;
-    let r60 = c6 * r51;
-    let r61 = s6 * r53;
-    let r62 = c6 * r55;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c1 * c3; let r5 = s3 * r0;
+    let r6 = c2 * s3; let r7 = s1 * c3; let r8 = s3 * r1; let r11 = c2 * c3; let r14 = r4 + r5;
+    let r19 = r7 - r8; let r22 = s4 * r14; let r23 = c4 * r2; let r24 = s4 * r6; let r25 = s2 * c4;
+    let r26 = s4 * r19; let r27 = c4 * r3; let r28 = c4 * r14 - s4 * r2; let r30 = r22 + r23;
+    let r32 = c4 * r6 + s2 * s4; let r34 = r24 - r25; let r36 = c4 * r19 + s4 * r3; let r38 = r26 - r27;
+    let r40 = s5 * r28; let r41 = c5 * r30; let r42 = s5 * r32; let r43 = c5 * r34; let r44 = s5 * r36;
+    let r45 = c5 * r38; let r46 = c1 * s3 - c3 * r0; let r48 = r40 + r41; let r51 = r42 + r43;
+    let r53 = s1 * s3 + c3 * r1; let r55 = r44 + r45; let r57 = s6 * r46; let r58 = c6 * r48;
+    let r59 = s6 * r11; let r60 = c6 * r51; let r61 = s6 * r53; let r62 = c6 * r55;
     let r69 = 0.195 * s2 - 0.014 * r6 - 0.28 * r24 + 0.28 * r25;
     let r77 = r69 - 0.012 * r42 - 0.012 * r43 + 0.03 * r59 - 0.03 * r60;
     let r103 = 0.014 * r8 + (0.195 * r3 + 0.02 * c1 - 0.014 * r7);
@@ -2178,115 +2126,39 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r4 = c1 * c3;
-    let r5 = s3 * r0;
-    let r6 = c2 * s3;
-    let r7 = s1 * c3;
-    let r8 = s3 * r1;
-    let r11 = c2 * c3;
-    let r14 = r4 + r5;
-    let r19 = r7 - r8;
-    let r22 = s4 * r14;
-    let r23 = c4 * r2;
-    let r24 = s4 * r6;
-    let r25 = s2 * c4;
-    let r26 = s4 * r19;
-    let r27 = c4 * r3;
-    let r28 = c4 * r14 - s4 * r2;
-    let r29 = c5 * r28;
-    let r30 = r22 + r23;
-    let r31 = s5 * r30;
-    let r32 = c4 * r6 + s2 * s4;
-    let r34 = r24 - r25;
-    let r36 = c4 * r19 + s4 * r3;
-    let r37 = c5 * r36;
-    let r38 = r26 - r27;
-    let r39 = s5 * r38;
-    let r40 = s5 * r28;
-    let r41 = c5 * r30;
-    let r42 = s5 * r32;
-    let r43 = c5 * r34;
-    let r44 = s5 * r36;
-    let r45 = c5 * r38;
-    let r46 = c1 * s3 - c3 * r0;
-    let r48 = r40 + r41;
-    let r51 = r42 + r43;
-    let r53 = s1 * s3 + c3 * r1;
-    let r55 = r44 + r45;
-    let r57 = s6 * r46;
-    let r58 = c6 * r48;
-    let r59 = s6 * r11;
-    let r60 = c6 * r51;
-    let r61 = s6 * r53;
-    let r62 = c6 * r55;
-    let r64 = 0.014 * r6;
-    let r66 = 0.28 * r24;
-    let r68 = 0.28 * r25;
-    let r70 = 0.012 * r42;
-    let r72 = 0.012 * r43;
-    let r74 = 0.03 * r59;
-    let r75 = 0.195 * s2 - r64 - r66 + r68 - r70 - r72 + r74;
-    let r76 = 0.03 * r60;
-    let r77 = r75 - r76;
-    let r78 = 0.195 * r2;
-    let r79 = 0.014 * r4;
-    let r80 = 0.014 * r5;
-    let r81 = 0.28 * r22;
-    let r82 = 0.28 * r23;
-    let r83 = 0.012 * r40;
-    let r84 = 0.012 * r41;
-    let r85 = 0.03 * r57;
-    let r86 = 0.03 * r58;
-    let r87 = 0.195 * r3;
-    let r88 = 0.014 * r7;
-    let r89 = 0.014 * r8;
-    let r90 = 0.28 * r26;
-    let r91 = 0.28 * r27;
-    let r92 = 0.012 * r44;
-    let r93 = 0.012 * r45;
-    let r94 = 0.03 * r61;
-    let r95 = 0.03 * r62;
-    let r96 = c5 * r32 - s5 * r34;
-    let r97 = r61 + r62;
-    let r98 = r57 + r58;
-    let r99 = r29 - r31;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c1 * c3; let r5 = s3 * r0;
+    let r6 = c2 * s3; let r7 = s1 * c3; let r8 = s3 * r1; let r11 = c2 * c3; let r14 = r4 + r5;
+    let r19 = r7 - r8; let r22 = s4 * r14; let r23 = c4 * r2; let r24 = s4 * r6; let r25 = s2 * c4;
+    let r26 = s4 * r19; let r27 = c4 * r3; let r28 = c4 * r14 - s4 * r2; let r29 = c5 * r28;
+    let r30 = r22 + r23; let r31 = s5 * r30; let r32 = c4 * r6 + s2 * s4; let r34 = r24 - r25;
+    let r36 = c4 * r19 + s4 * r3; let r37 = c5 * r36; let r38 = r26 - r27; let r39 = s5 * r38;
+    let r40 = s5 * r28; let r41 = c5 * r30; let r42 = s5 * r32; let r43 = c5 * r34; let r44 = s5 * r36;
+    let r45 = c5 * r38; let r46 = c1 * s3 - c3 * r0; let r48 = r40 + r41; let r51 = r42 + r43;
+    let r53 = s1 * s3 + c3 * r1; let r55 = r44 + r45; let r57 = s6 * r46; let r58 = c6 * r48;
+    let r59 = s6 * r11; let r60 = c6 * r51; let r61 = s6 * r53; let r62 = c6 * r55; let r64 = 0.014 * r6;
+    let r66 = 0.28 * r24; let r68 = 0.28 * r25; let r70 = 0.012 * r42; let r72 = 0.012 * r43;
+    let r74 = 0.03 * r59; let r75 = 0.195 * s2 - r64 - r66 + r68 - r70 - r72 + r74; let r76 = 0.03 * r60;
+    let r77 = r75 - r76; let r78 = 0.195 * r2; let r79 = 0.014 * r4; let r80 = 0.014 * r5;
+    let r81 = 0.28 * r22; let r82 = 0.28 * r23; let r83 = 0.012 * r40; let r84 = 0.012 * r41;
+    let r85 = 0.03 * r57; let r86 = 0.03 * r58; let r87 = 0.195 * r3; let r88 = 0.014 * r7;
+    let r89 = 0.014 * r8; let r90 = 0.28 * r26; let r91 = 0.28 * r27; let r92 = 0.012 * r44;
+    let r93 = 0.012 * r45; let r94 = 0.03 * r61; let r95 = 0.03 * r62; let r96 = c5 * r32 - s5 * r34;
+    let r97 = r61 + r62; let r98 = r57 + r58; let r99 = r29 - r31;
     let r106 = r91 + (r89 + (r87 + 0.02 * c1 - r88) - r90) - r92;
-    let r115 = r82 + (r81 + (r80 + (r79 + (r78 + 0.02 * s1))));
-    let r128 = c6 * r11 + s6 * r51;
-    let r129 = c6 * r53 - s6 * r55;
-    let r146 = r78 + r79 + r80 + r81 + r82 + r83 + r84 + r85;
+    let r115 = r82 + (r81 + (r80 + (r79 + (r78 + 0.02 * s1)))); let r128 = c6 * r11 + s6 * r51;
+    let r129 = c6 * r53 - s6 * r55; let r146 = r78 + r79 + r80 + r81 + r82 + r83 + r84 + r85;
     let r155 = r87 - r88 + r89 - r90 + r91 - r92 - r93 - r94;
-    let r165 = r91 + (r89 + (0.134 * r3 - r88) - r90) - r92 - r93;
-    let r167 = r165 - r94 - r95;
-    let r175 = r74 + (r68 + (0.134 * s2 - r64 - r66) - r70 - r72);
-    let r176 = r175 - r76;
-    let r183 = r83 + (r82 + (r81 + (r80 + (r79 + 0.134 * r2))));
-    let r186 = r86 + (r85 + (r84 + r183));
-    let r195 = r95 + (r94 + (r93 + (r92 + (r90 - r91))));
-    let r201 = r76 + (r72 + (r70 + (r66 - r68)) - r74);
-    let r207 = r86 + (r85 + (r84 + (r83 + (r81 + r82))));
-    let r214 = r95 + (r94 + (r92 + r93));
-    let r218 = r76 + (r70 + r72 - r74);
-    let r222 = r86 + (r85 + (r83 + r84));
-    let r228 = r37 - r39;
-    let r229 = r59 - r60;
-    let r231 = r228 * r98;
-    let r232 = r97 * r99;
-    let r238 = r96 * r97 + r228 * r229;
-    let r249 = r229 * r99 + r96 * r98;
-    let r269 = 0.0 - (r11 * r228 + r53 * r96);
-    let r272 = r53 * r99 - r46 * r228;
-    let r276 = 0.0 - (r46 * r96 + r11 * r99);
-    let r278 = c6 * r46 - s6 * r48;
-    let r302 = r11 * r129 - r53 * r128;
-    let r307 = r46 * r129 - r53 * r278;
-    let r310 = r11 * r278 - r46 * r128;
-    let r330 = r53 * r229 - r11 * r97;
-    let r334 = r53 * r98 - r46 * r97;
+    let r165 = r91 + (r89 + (0.134 * r3 - r88) - r90) - r92 - r93; let r167 = r165 - r94 - r95;
+    let r175 = r74 + (r68 + (0.134 * s2 - r64 - r66) - r70 - r72); let r176 = r175 - r76;
+    let r183 = r83 + (r82 + (r81 + (r80 + (r79 + 0.134 * r2)))); let r186 = r86 + (r85 + (r84 + r183));
+    let r195 = r95 + (r94 + (r93 + (r92 + (r90 - r91)))); let r201 = r76 + (r72 + (r70 + (r66 - r68)) - r74);
+    let r207 = r86 + (r85 + (r84 + (r83 + (r81 + r82)))); let r214 = r95 + (r94 + (r92 + r93));
+    let r218 = r76 + (r70 + r72 - r74); let r222 = r86 + (r85 + (r83 + r84)); let r228 = r37 - r39;
+    let r229 = r59 - r60; let r231 = r228 * r98; let r232 = r97 * r99; let r238 = r96 * r97 + r228 * r229;
+    let r249 = r229 * r99 + r96 * r98; let r269 = 0.0 - (r11 * r228 + r53 * r96);
+    let r272 = r53 * r99 - r46 * r228; let r276 = 0.0 - (r46 * r96 + r11 * r99);
+    let r278 = c6 * r46 - s6 * r48; let r302 = r11 * r129 - r53 * r128; let r307 = r46 * r129 - r53 * r278;
+    let r310 = r11 * r278 - r46 * r128; let r330 = r53 * r229 - r11 * r97; let r334 = r53 * r98 - r46 * r97;
     let r339 = r46 * r229 - r11 * r98;
     [
         [r95 - (r106 - r93 - r94), s1 * r77, s2 * r167 - r3 * r176, r11 * r195 + r53 * r201, r11 * r214 + r53 * r218, 0.03 * r238],
@@ -2691,7 +2563,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2770,12 +2646,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2786,6 +2667,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);

@@ -140,6 +140,8 @@ int crx_like_nearest(const crx_like_solution *list, int count, const double *ref
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int crx_like_nearest(const crx_like_solution *list, int count, const double *ref
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,15 +211,15 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = s1 * c4, r17 = s3 * r0 + c3 * r2, r18 = s4 * r17, r19 = c1 * c4;
-    const double r20 = s3 * r1 + c3 * r3, r21 = s4 * r20, r22 = s2 * s3 - c2 * c3, r23 = s4 * r22;
-    const double r28 = c4 * r22, r29 = r4 - r5, r30 = c5 * r29, r31 = s1 * s4 + c4 * r17, r32 = s5 * r31;
-    const double r33 = r6 - r7, r34 = c5 * r33, r35 = c1 * s4 - c4 * r20, r36 = s5 * r35, r37 = r8 + r9;
-    const double r38 = c5 * r37, r39 = s5 * r28, r46 = r16 - r18, r48 = s5 * r29 + c5 * r31, r50 = r19 + r21;
-    const double r52 = s5 * r33 - c5 * r35, r55 = s5 * r37 + c5 * r28;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = s1 * c4, r17 = s3 * r0 + c3 * r2, r18 = s4 * r17;
+    const double r19 = c1 * c4, r20 = s3 * r1 + c3 * r3, r21 = s4 * r20, r22 = s2 * s3 - c2 * c3;
+    const double r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r30 = c5 * r29, r31 = s1 * s4 + c4 * r17;
+    const double r32 = s5 * r31, r33 = r6 - r7, r34 = c5 * r33, r35 = c1 * s4 - c4 * r20, r36 = s5 * r35;
+    const double r37 = r8 + r9, r38 = c5 * r37, r39 = s5 * r28, r46 = r16 - r18, r48 = s5 * r29 + c5 * r31;
+    const double r50 = r19 + r21, r52 = s5 * r33 - c5 * r35, r55 = s5 * r37 + c5 * r28;
     const double r69 = 0.54 * c2 - 0.54 * r8 - 0.54 * r9 + 0.15 * r23;
     const double r80 = 0.54 * r3 + 0.54 * r6 - 0.54 * r7 - 0.15 * r19;
     const double r93 = 0.54 * r2 + 0.54 * r4 - 0.54 * r5 + 0.15 * r16;
@@ -278,20 +282,20 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = s1 * c4, r17 = s3 * r0 + c3 * r2, r18 = s4 * r17, r19 = c1 * c4;
-    const double r20 = s3 * r1 + c3 * r3, r21 = s4 * r20, r22 = s2 * s3 - c2 * c3, r23 = s4 * r22;
-    const double r28 = c4 * r22, r29 = r4 - r5, r30 = c5 * r29, r31 = s1 * s4 + c4 * r17, r32 = s5 * r31;
-    const double r33 = r6 - r7, r34 = c5 * r33, r35 = c1 * s4 - c4 * r20, r36 = s5 * r35, r37 = r8 + r9;
-    const double r38 = c5 * r37, r39 = s5 * r28, r46 = r16 - r18, r47 = c6 * r46, r48 = s5 * r29 + c5 * r31;
-    const double r49 = s6 * r48, r50 = r19 + r21, r52 = s5 * r33 - c5 * r35, r55 = s5 * r37 + c5 * r28;
-    const double r64 = 0.54 * r8, r66 = 0.54 * r9, r68 = 0.15 * r23, r70 = 0.16 * r38, r72 = 0.16 * r39;
-    const double r73 = 0.54 * c2 - r64 - r66 + r68 - r70 + r72, r75 = 0.54 * r6, r77 = 0.54 * r7;
-    const double r79 = 0.15 * r19, r81 = 0.15 * r21, r83 = 0.16 * r34, r85 = 0.16 * r36;
-    const double r86 = 0.54 * r3 + r75 - r77 - r79 - r81 + r83 + r85, r88 = 0.54 * r4, r90 = 0.54 * r5;
-    const double r92 = 0.15 * r16, r94 = 0.15 * r18, r96 = 0.16 * r30, r98 = 0.16 * r32;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = s1 * c4, r17 = s3 * r0 + c3 * r2, r18 = s4 * r17;
+    const double r19 = c1 * c4, r20 = s3 * r1 + c3 * r3, r21 = s4 * r20, r22 = s2 * s3 - c2 * c3;
+    const double r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r30 = c5 * r29, r31 = s1 * s4 + c4 * r17;
+    const double r32 = s5 * r31, r33 = r6 - r7, r34 = c5 * r33, r35 = c1 * s4 - c4 * r20, r36 = s5 * r35;
+    const double r37 = r8 + r9, r38 = c5 * r37, r39 = s5 * r28, r46 = r16 - r18, r47 = c6 * r46;
+    const double r48 = s5 * r29 + c5 * r31, r49 = s6 * r48, r50 = r19 + r21, r52 = s5 * r33 - c5 * r35;
+    const double r55 = s5 * r37 + c5 * r28, r64 = 0.54 * r8, r66 = 0.54 * r9, r68 = 0.15 * r23;
+    const double r70 = 0.16 * r38, r72 = 0.16 * r39, r73 = 0.54 * c2 - r64 - r66 + r68 - r70 + r72;
+    const double r75 = 0.54 * r6, r77 = 0.54 * r7, r79 = 0.15 * r19, r81 = 0.15 * r21, r83 = 0.16 * r34;
+    const double r85 = 0.16 * r36, r86 = 0.54 * r3 + r75 - r77 - r79 - r81 + r83 + r85, r88 = 0.54 * r4;
+    const double r90 = 0.54 * r5, r92 = 0.15 * r16, r94 = 0.15 * r18, r96 = 0.16 * r30, r98 = 0.16 * r32;
     const double r99 = 0.54 * r2 + r88 - r90 + r92 - r94 + r96 - r98, r100 = r34 + r36, r101 = r30 - r32;
     const double r109 = c6 * r23 + s6 * r55, r110 = c6 * r50 + s6 * r52, r116 = s6 * r23 - c6 * r55;
     const double r117 = s6 * r46 + c6 * r48, r129 = r70 + (r64 + r66 - r68) - r72;
@@ -612,7 +616,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -631,6 +636,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -658,11 +666,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -786,7 +802,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2459,7 +2479,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2563,7 +2584,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -2963,7 +2985,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

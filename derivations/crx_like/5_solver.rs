@@ -323,6 +323,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -348,6 +350,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -410,18 +414,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, }
 }
 
@@ -836,8 +831,7 @@ mod six_axes {
             let index = self.solved;
             self.rows.still.swap(index, row);
             self.order.swap(index, place);
-            let column = self.order[index];
-            let inverse = 1.0 / self.rows.still[index][column];
+            let column = self.order[index]; let inverse = 1.0 / self.rows.still[index][column];
             self.rows.still[index].iter_mut().for_each(|entry| *entry *= inverse);
             let pivot = self.rows.still[index];
             for (k, still) in self.rows.still.iter_mut().enumerate() {
@@ -1152,8 +1146,7 @@ mod six_axes {
     /// The first row of the lowest block that does not fall apart.
     fn start_of_block(h: &mut Matrix, high: usize) -> Option<usize> {
         for row in (1..=high).rev() {
-            let entry = h[row][row - 1].abs();
-            let size = h[row][row].abs() + h[row - 1][row - 1].abs();
+            let entry = h[row][row - 1].abs(); let size = h[row][row].abs() + h[row - 1][row - 1].abs();
             if !entry.is_finite() || !size.is_finite() {
                 return None;
             }
@@ -1167,14 +1160,12 @@ mod six_axes {
 
     fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (a, b, c, d) = (h[low][low], h[low][low + 1], h[low + 1][low], h[low + 1][low + 1]);
-        let half = 0.5 * (a - d);
-        let discriminant = half * half + b * c;
+        let half = 0.5 * (a - d); let discriminant = half * half + b * c;
         if discriminant < 0.0 {
             let (re, im) = (0.5 * (a + d), (-discriminant).sqrt());
             return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
         }
-        let way = half + discriminant.sqrt().copysign(half);
-        let first = d + way;
+        let way = half + discriminant.sqrt().copysign(half); let first = d + way;
         let second = if way == 0.0 { d } else { d - b * c / way };
         (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
     }
@@ -1195,8 +1186,7 @@ mod six_axes {
                 }
                 self.reflect(top, column);
             }
-            let top = self.high - 1;
-            let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
+            let top = self.high - 1; let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
             self.reflect(top, column);
         }
 
@@ -1204,8 +1194,7 @@ mod six_axes {
         fn shifts(&self, is_exceptional: bool) -> [f64; 2] {
             let (h, m) = (&self.h, self.high);
             if is_exceptional {
-                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs();
-                let centre = h[m][m] + 0.75 * size;
+                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs(); let centre = h[m][m] + 0.75 * size;
                 return [2.0 * centre, centre * centre + 0.4375 * size * size];
             }
             [h[m - 1][m - 1] + h[m][m], h[m - 1][m - 1] * h[m][m] - h[m - 1][m] * h[m][m - 1]]
@@ -2046,18 +2035,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         p.px, p.py, p.pz, p.r11_, p.r12_, p.r13_, p.r21_, p.r22_, p.r23_, p.r31_, p.r32_, p.r33_,
     ]);
     for (i0, six0) in found0.as_slice().iter().enumerate() {
-        let c1 = six0.q[0].cos();
-        let s1 = six0.q[0].sin();
-        let c2 = six0.q[1].cos();
-        let s2 = six0.q[1].sin();
-        let c3 = six0.q[2].cos();
-        let s3 = six0.q[2].sin();
-        let c4 = six0.q[3].cos();
-        let s4 = six0.q[3].sin();
-        let c5 = six0.q[4].cos();
-        let s5 = six0.q[4].sin();
-        let c6 = six0.q[5].cos();
-        let s6 = six0.q[5].sin();
+        let c1 = six0.q[0].cos(); let s1 = six0.q[0].sin(); let c2 = six0.q[1].cos(); let s2 = six0.q[1].sin();
+        let c3 = six0.q[2].cos(); let s3 = six0.q[2].sin(); let c4 = six0.q[3].cos(); let s4 = six0.q[3].sin();
+        let c5 = six0.q[4].cos(); let s5 = six0.q[4].sin(); let c6 = six0.q[5].cos(); let s6 = six0.q[5].sin();
         let at = [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6];
         let q = [
             angle(at[0], at[1]), angle(at[2], at[3]), angle(at[4], at[5]), angle(at[6], at[7]),
@@ -2073,41 +2053,14 @@ const TIP: usize = 12;
 /// The tip, as the equations compare it.
 fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = s1 * c4;
-    let r17 = s3 * r0 + c3 * r2;
-    let r18 = s4 * r17;
-    let r19 = c1 * c4;
-    let r20 = s3 * r1 + c3 * r3;
-    let r21 = s4 * r20;
-    let r22 = s2 * s3 - c2 * c3;
-    let r23 = s4 * r22;
-    let r28 = c4 * r22;
-    let r29 = r4 - r5;
-    let r30 = c5 * r29;
-    let r31 = s1 * s4 + c4 * r17;
-    let r32 = s5 * r31;
-    let r33 = r6 - r7;
-    let r34 = c5 * r33;
-    let r35 = c1 * s4 - c4 * r20;
-    let r36 = s5 * r35;
-    let r37 = r8 + r9;
-    let r38 = c5 * r37;
-    let r39 = s5 * r28;
-    let r46 = r16 - r18;
-    let r48 = s5 * r29 + c5 * r31;
-    let r50 = r19 + r21;
-    let r52 = s5 * r33 - c5 * r35;
-    let r55 = s5 * r37 + c5 * r28;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = s1 * c4;
+    let r17 = s3 * r0 + c3 * r2; let r18 = s4 * r17; let r19 = c1 * c4; let r20 = s3 * r1 + c3 * r3;
+    let r21 = s4 * r20; let r22 = s2 * s3 - c2 * c3; let r23 = s4 * r22; let r28 = c4 * r22; let r29 = r4 - r5;
+    let r30 = c5 * r29; let r31 = s1 * s4 + c4 * r17; let r32 = s5 * r31; let r33 = r6 - r7;
+    let r34 = c5 * r33; let r35 = c1 * s4 - c4 * r20; let r36 = s5 * r35; let r37 = r8 + r9;
+    let r38 = c5 * r37; let r39 = s5 * r28; let r46 = r16 - r18; let r48 = s5 * r29 + c5 * r31;
+    let r50 = r19 + r21; let r52 = s5 * r33 - c5 * r35; let r55 = s5 * r37 + c5 * r28;
     let r69 = 0.54 * c2 - 0.54 * r8 - 0.54 * r9 + 0.15 * r23;
     let r80 = 0.54 * r3 + 0.54 * r6 - 0.54 * r7 - 0.15 * r19;
     let r93 = 0.54 * r2 + 0.54 * r4 - 0.54 * r5 + 0.15 * r16;
@@ -2163,87 +2116,28 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = s1 * c4;
-    let r17 = s3 * r0 + c3 * r2;
-    let r18 = s4 * r17;
-    let r19 = c1 * c4;
-    let r20 = s3 * r1 + c3 * r3;
-    let r21 = s4 * r20;
-    let r22 = s2 * s3 - c2 * c3;
-    let r23 = s4 * r22;
-    let r28 = c4 * r22;
-    let r29 = r4 - r5;
-    let r30 = c5 * r29;
-    let r31 = s1 * s4 + c4 * r17;
-    let r32 = s5 * r31;
-    let r33 = r6 - r7;
-    let r34 = c5 * r33;
-    let r35 = c1 * s4 - c4 * r20;
-    let r36 = s5 * r35;
-    let r37 = r8 + r9;
-    let r38 = c5 * r37;
-    let r39 = s5 * r28;
-    let r46 = r16 - r18;
-    let r47 = c6 * r46;
-    let r48 = s5 * r29 + c5 * r31;
-    let r49 = s6 * r48;
-    let r50 = r19 + r21;
-    let r52 = s5 * r33 - c5 * r35;
-    let r55 = s5 * r37 + c5 * r28;
-    let r64 = 0.54 * r8;
-    let r66 = 0.54 * r9;
-    let r68 = 0.15 * r23;
-    let r70 = 0.16 * r38;
-    let r72 = 0.16 * r39;
-    let r73 = 0.54 * c2 - r64 - r66 + r68 - r70 + r72;
-    let r75 = 0.54 * r6;
-    let r77 = 0.54 * r7;
-    let r79 = 0.15 * r19;
-    let r81 = 0.15 * r21;
-    let r83 = 0.16 * r34;
-    let r85 = 0.16 * r36;
-    let r86 = 0.54 * r3 + r75 - r77 - r79 - r81 + r83 + r85;
-    let r88 = 0.54 * r4;
-    let r90 = 0.54 * r5;
-    let r92 = 0.15 * r16;
-    let r94 = 0.15 * r18;
-    let r96 = 0.16 * r30;
-    let r98 = 0.16 * r32;
-    let r99 = 0.54 * r2 + r88 - r90 + r92 - r94 + r96 - r98;
-    let r100 = r34 + r36;
-    let r101 = r30 - r32;
-    let r109 = c6 * r23 + s6 * r55;
-    let r110 = c6 * r50 + s6 * r52;
-    let r116 = s6 * r23 - c6 * r55;
-    let r117 = s6 * r46 + c6 * r48;
-    let r129 = r70 + (r64 + r66 - r68) - r72;
-    let r136 = r85 + (r83 + (r75 - r77 - r79 - r81));
-    let r142 = r96 + (r92 + (r88 - r90) - r94) - r98;
-    let r151 = r72 + (r68 - r70);
-    let r155 = r79 + r81 - r83 - r85;
-    let r159 = r96 + (r92 - r94) - r98;
-    let r164 = r38 - r39;
-    let r195 = 0.0 - c1 * r164;
-    let r198 = 0.0 - s1 * r164;
-    let r203 = 0.0 - (s1 * r100 + c1 * r101);
-    let r210 = r47 - r49;
-    let r231 = 0.0 - c1 * r109;
-    let r235 = 0.0 - s1 * r109;
-    let r239 = c1 * r210 - s1 * r110;
-    let r243 = c1 * r116;
-    let r244 = s1 * r116;
-    let r245 = s6 * r50 - c6 * r52;
-    let r274 = s1 * r245 - c1 * r117;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = s1 * c4;
+    let r17 = s3 * r0 + c3 * r2; let r18 = s4 * r17; let r19 = c1 * c4; let r20 = s3 * r1 + c3 * r3;
+    let r21 = s4 * r20; let r22 = s2 * s3 - c2 * c3; let r23 = s4 * r22; let r28 = c4 * r22; let r29 = r4 - r5;
+    let r30 = c5 * r29; let r31 = s1 * s4 + c4 * r17; let r32 = s5 * r31; let r33 = r6 - r7;
+    let r34 = c5 * r33; let r35 = c1 * s4 - c4 * r20; let r36 = s5 * r35; let r37 = r8 + r9;
+    let r38 = c5 * r37; let r39 = s5 * r28; let r46 = r16 - r18; let r47 = c6 * r46;
+    let r48 = s5 * r29 + c5 * r31; let r49 = s6 * r48; let r50 = r19 + r21; let r52 = s5 * r33 - c5 * r35;
+    let r55 = s5 * r37 + c5 * r28; let r64 = 0.54 * r8; let r66 = 0.54 * r9; let r68 = 0.15 * r23;
+    let r70 = 0.16 * r38; let r72 = 0.16 * r39; let r73 = 0.54 * c2 - r64 - r66 + r68 - r70 + r72;
+    let r75 = 0.54 * r6; let r77 = 0.54 * r7; let r79 = 0.15 * r19; let r81 = 0.15 * r21; let r83 = 0.16 * r34;
+    let r85 = 0.16 * r36; let r86 = 0.54 * r3 + r75 - r77 - r79 - r81 + r83 + r85; let r88 = 0.54 * r4;
+    let r90 = 0.54 * r5; let r92 = 0.15 * r16; let r94 = 0.15 * r18; let r96 = 0.16 * r30;
+    let r98 = 0.16 * r32; let r99 = 0.54 * r2 + r88 - r90 + r92 - r94 + r96 - r98; let r100 = r34 + r36;
+    let r101 = r30 - r32; let r109 = c6 * r23 + s6 * r55; let r110 = c6 * r50 + s6 * r52;
+    let r116 = s6 * r23 - c6 * r55; let r117 = s6 * r46 + c6 * r48; let r129 = r70 + (r64 + r66 - r68) - r72;
+    let r136 = r85 + (r83 + (r75 - r77 - r79 - r81)); let r142 = r96 + (r92 + (r88 - r90) - r94) - r98;
+    let r151 = r72 + (r68 - r70); let r155 = r79 + r81 - r83 - r85; let r159 = r96 + (r92 - r94) - r98;
+    let r164 = r38 - r39; let r195 = 0.0 - c1 * r164; let r198 = 0.0 - s1 * r164;
+    let r203 = 0.0 - (s1 * r100 + c1 * r101); let r210 = r47 - r49; let r231 = 0.0 - c1 * r109;
+    let r235 = 0.0 - s1 * r109; let r239 = c1 * r210 - s1 * r110; let r243 = c1 * r116; let r244 = s1 * r116;
+    let r245 = s6 * r50 - c6 * r52; let r274 = s1 * r245 - c1 * r117;
     [
         [0.0 - r86, c1 * r73, 0.0 - c1 * r129, r37 * r136 - r33 * r129, r50 * r151 - r23 * r155, 0.0],
         [r99, s1 * r73, 0.0 - s1 * r129, r29 * r129 - r37 * r142, r46 * r151 - r23 * r159, 0.0],
@@ -2647,7 +2541,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2726,12 +2624,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2742,6 +2645,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -429,18 +433,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, }
 }
 
@@ -537,17 +532,13 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.r23_ * p.r23_;
-    let r1 = p.r13_ * p.r13_;
-    let r2 = r0 + r1;
+    let r0 = p.r23_ * p.r23_; let r1 = p.r13_ * p.r13_; let r2 = r0 + r1;
     if !is_away(r2, 32.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r0 - r1, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r7 = 1.0 / r2;
-        let c4 = 0.0 - p.r13_ * w4 * r7;
-        let s4 = 0.0 - p.r23_ * w4 * r7;
+        let r7 = 1.0 / r2; let c4 = 0.0 - p.r13_ * w4 * r7; let s4 = 0.0 - p.r23_ * w4 * r7;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -587,10 +578,8 @@ struct Shared5 { r2: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r6 = f64::max(p.r33_ * p.r33_ + shared.r2 * shared.r2, 0.0).sqrt();
-    let r7 = 1.0 / r6;
-    let c5 = 0.0 - p.r33_ * r7;
-    let s5 = 0.0 - shared.r2 * r7;
+    let r6 = f64::max(p.r33_ * p.r33_ + shared.r2 * shared.r2, 0.0).sqrt(); let r7 = 1.0 / r6;
+    let c5 = 0.0 - p.r33_ * r7; let s5 = 0.0 - shared.r2 * r7;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -598,9 +587,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: WristRoll.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.r22_ * known.c4;
-    let r1 = p.r12_ * known.s4;
-    let r2 = p.r21_ * known.c4;
+    let r0 = p.r22_ * known.c4; let r1 = p.r12_ * known.s4; let r2 = p.r21_ * known.c4;
     let r3 = p.r11_ * known.s4;
     let shared = &Shared6 { r0, r1, r2, r3 };
     chart_6_1(p, known, shared, answers);
@@ -612,11 +599,8 @@ struct Shared6 { r0: f64, r1: f64, r2: f64, r3: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r4 = shared.r3 - shared.r2;
-    let r5 = shared.r1 - shared.r0;
-    let r10 = 1.0 / f64::max(r5 * r5 + r4 * r4, 0.0).sqrt();
-    let c6 = r5 * r10;
-    let s6 = r4 * r10;
+    let r4 = shared.r3 - shared.r2; let r5 = shared.r1 - shared.r0;
+    let r10 = 1.0 / f64::max(r5 * r5 + r4 * r4, 0.0).sqrt(); let c6 = r5 * r10; let s6 = r4 * r10;
     let at = [known.d1, known.d2, known.d3, known.c4, known.s4, known.c5, known.s5, c6, s6];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
     if known.pair {
@@ -632,10 +616,7 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [d1, d2, d3, c4, s4, c5, s5, c6, s6] = *at;
-    let r5 = c4 * c5;
-    let r6 = s4 * c5;
-    let r7 = c4 * s5;
-    let r8 = s4 * s5;
+    let r5 = c4 * c5; let r6 = s4 * c5; let r7 = c4 * s5; let r8 = s4 * s5;
     [
         d1 - 0.12 * r7,
         d2 - 0.12 * r8,
@@ -698,20 +679,9 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [_, _, _, c4, s4, c5, s5, c6, s6] = *at;
-    let r5 = c4 * c5;
-    let r6 = s4 * c5;
-    let r7 = c4 * s5;
-    let r8 = s4 * s5;
-    let r11 = c6 * r6;
-    let r12 = c4 * s6;
-    let r13 = s5 * c6;
-    let r14 = s6 * r5;
-    let r15 = s4 * c6;
-    let r18 = s5 * s6;
-    let r30 = r11 - r12;
-    let r31 = c6 * r5 + s4 * s6;
-    let r36 = s6 * r6 + c4 * c6;
-    let r55 = s4 * r8 + c4 * r7;
+    let r5 = c4 * c5; let r6 = s4 * c5; let r7 = c4 * s5; let r8 = s4 * s5; let r11 = c6 * r6;
+    let r12 = c4 * s6; let r13 = s5 * c6; let r14 = s6 * r5; let r15 = s4 * c6; let r18 = s5 * s6;
+    let r30 = r11 - r12; let r31 = c6 * r5 + s4 * s6; let r36 = s6 * r6 + c4 * c6; let r55 = s4 * r8 + c4 * r7;
     let r79 = r14 - r15;
     [
         [1.0, 0.0, 0.0, 0.12 * r8, 0.0 - 0.12 * r5, 0.0],
@@ -737,7 +707,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -748,20 +718,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -790,6 +761,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1135,7 +1109,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1204,12 +1182,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1220,6 +1203,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1615,8 +1601,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

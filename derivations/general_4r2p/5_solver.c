@@ -140,6 +140,8 @@ int general_4r2p_nearest(const general_4r2p_solution *list, int count, const dou
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int general_4r2p_nearest(const general_4r2p_solution *list, int count, const dou
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,27 +211,27 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], d4 = at[5], c5 = at[6], s5 = at[7];
-    const double c6 = at[8], s6 = at[9], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], d4 = at[5], c5 = at[6];
+    const double s5 = at[7], c6 = at[8], s6 = at[9], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
     const double r110 = 0.13488372093023257 * c1 - 0.10244113454326649 * s1;
     const double r112 = 0.18488372093023256 - (0.05 * r24 - 0.1 * r61 + 0.4 * r82 + r110);
     const double r115 = 0.134790966504298 * s1 + 0.10755813953488372 * c1;
@@ -263,10 +267,11 @@ static void tip(const double *at, double *reached)
     const double r295 = 0.05084745762711865 * c6, r297 = r294 - r295 + 0.05084745762711865;
     const double r299 = 0.13018891098082389 * s6, r300 = 0.3559322033898305 * c6;
     const double r302 = r299 + r300 - 0.3559322033898305, r305 = r200 * r292 + r223 * r297 - r244 * r302;
-    const double r310 = r205 * r292 + r228 * r297 - r249 * r302, r315 = r210 * r292 + r233 * r297 - r254 * r302;
-    const double r317 = r294 + r295 - 0.05084745762711865, r320 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r322 = 0.3905667329424717 * s6, r323 = 0.11864406779661017 * c6;
-    const double r325 = r322 - r323 + 0.11864406779661017, r328 = r244 * r325 - (r200 * r317 - r223 * r320);
+    const double r310 = r205 * r292 + r228 * r297 - r249 * r302;
+    const double r315 = r210 * r292 + r233 * r297 - r254 * r302, r317 = r294 + r295 - 0.05084745762711865;
+    const double r320 = 0.9830508474576272 * c6 + 0.01694915254237288, r322 = 0.3905667329424717 * s6;
+    const double r323 = 0.11864406779661017 * c6, r325 = r322 - r323 + 0.11864406779661017;
+    const double r328 = r244 * r325 - (r200 * r317 - r223 * r320);
     const double r333 = r249 * r325 - (r205 * r317 - r228 * r320);
     const double r338 = r254 * r325 - (r210 * r317 - r233 * r320), r340 = r299 - r300 + 0.3559322033898305;
     const double r343 = r322 + r323 - 0.11864406779661017, r346 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -341,35 +346,35 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], d4 = at[5], c5 = at[6], s5 = at[7];
-    const double c6 = at[8], s6 = at[9], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], d4 = at[5], c5 = at[6];
+    const double s5 = at[7], c6 = at[8], s6 = at[9], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76), r108 = 0.13488372093023257 * c1;
-    const double r109 = 0.10244113454326649 * s1, r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109);
-    const double r113 = 0.134790966504298 * s1, r114 = 0.10755813953488372 * c1;
-    const double r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114), r118 = 0.03774147062120344 * s1;
-    const double r119 = 0.01802325581395349 * c1, r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119);
-    const double r125 = 3.0 * r82, r126 = r125 - (r24 - 8.0 * r61), r129 = 3.0 * r87;
-    const double r130 = r129 - (r37 - 8.0 * r66), r133 = 3.0 * r92, r134 = r133 - (r48 - 8.0 * r71);
-    const double r143 = 5.0 * r24 - 2.0 * r61 + 4.0 * r82, r148 = 5.0 * r37 - 2.0 * r66 + 4.0 * r87;
-    const double r153 = 5.0 * r48 - 2.0 * r71 + 4.0 * r92;
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r108 = 0.13488372093023257 * c1, r109 = 0.10244113454326649 * s1;
+    const double r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109), r113 = 0.134790966504298 * s1;
+    const double r114 = 0.10755813953488372 * c1, r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114);
+    const double r118 = 0.03774147062120344 * s1, r119 = 0.01802325581395349 * c1;
+    const double r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119), r125 = 3.0 * r82;
+    const double r126 = r125 - (r24 - 8.0 * r61), r129 = 3.0 * r87, r130 = r129 - (r37 - 8.0 * r66);
+    const double r133 = 3.0 * r92, r134 = r133 - (r48 - 8.0 * r71), r143 = 5.0 * r24 - 2.0 * r61 + 4.0 * r82;
+    const double r148 = 5.0 * r37 - 2.0 * r66 + 4.0 * r87, r153 = 5.0 * r48 - 2.0 * r71 + 4.0 * r92;
     const double r158 = 0.18488372093023256 - r111 + 0.11624763874381928 * (d3 * r126);
     const double r160 = r158 + 0.14907119849998599 * (d4 * r143);
     const double r163 = 0.007558139534883721 - r116 + 0.11624763874381928 * (d3 * r130);
@@ -399,10 +404,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r295 = 0.05084745762711865 * c6, r297 = r294 - r295 + 0.05084745762711865;
     const double r299 = 0.13018891098082389 * s6, r300 = 0.3559322033898305 * c6;
     const double r302 = r299 + r300 - 0.3559322033898305, r305 = r200 * r292 + r223 * r297 - r244 * r302;
-    const double r310 = r205 * r292 + r228 * r297 - r249 * r302, r315 = r210 * r292 + r233 * r297 - r254 * r302;
-    const double r317 = r294 + r295 - 0.05084745762711865, r320 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r322 = 0.3905667329424717 * s6, r323 = 0.11864406779661017 * c6;
-    const double r325 = r322 - r323 + 0.11864406779661017, r328 = r244 * r325 - (r200 * r317 - r223 * r320);
+    const double r310 = r205 * r292 + r228 * r297 - r249 * r302;
+    const double r315 = r210 * r292 + r233 * r297 - r254 * r302, r317 = r294 + r295 - 0.05084745762711865;
+    const double r320 = 0.9830508474576272 * c6 + 0.01694915254237288, r322 = 0.3905667329424717 * s6;
+    const double r323 = 0.11864406779661017 * c6, r325 = r322 - r323 + 0.11864406779661017;
+    const double r328 = r244 * r325 - (r200 * r317 - r223 * r320);
     const double r333 = r249 * r325 - (r205 * r317 - r228 * r320);
     const double r338 = r254 * r325 - (r210 * r317 - r233 * r320), r340 = r299 - r300 + 0.3559322033898305;
     const double r343 = r322 + r323 - 0.11864406779661017, r346 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -776,7 +782,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -795,6 +802,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -822,11 +832,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -949,7 +967,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2622,7 +2644,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2726,7 +2749,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -3126,7 +3150,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

@@ -323,6 +323,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -348,6 +350,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -410,18 +414,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, }
 }
 
@@ -836,8 +831,7 @@ mod six_axes {
             let index = self.solved;
             self.rows.still.swap(index, row);
             self.order.swap(index, place);
-            let column = self.order[index];
-            let inverse = 1.0 / self.rows.still[index][column];
+            let column = self.order[index]; let inverse = 1.0 / self.rows.still[index][column];
             self.rows.still[index].iter_mut().for_each(|entry| *entry *= inverse);
             let pivot = self.rows.still[index];
             for (k, still) in self.rows.still.iter_mut().enumerate() {
@@ -1152,8 +1146,7 @@ mod six_axes {
     /// The first row of the lowest block that does not fall apart.
     fn start_of_block(h: &mut Matrix, high: usize) -> Option<usize> {
         for row in (1..=high).rev() {
-            let entry = h[row][row - 1].abs();
-            let size = h[row][row].abs() + h[row - 1][row - 1].abs();
+            let entry = h[row][row - 1].abs(); let size = h[row][row].abs() + h[row - 1][row - 1].abs();
             if !entry.is_finite() || !size.is_finite() {
                 return None;
             }
@@ -1167,14 +1160,12 @@ mod six_axes {
 
     fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (a, b, c, d) = (h[low][low], h[low][low + 1], h[low + 1][low], h[low + 1][low + 1]);
-        let half = 0.5 * (a - d);
-        let discriminant = half * half + b * c;
+        let half = 0.5 * (a - d); let discriminant = half * half + b * c;
         if discriminant < 0.0 {
             let (re, im) = (0.5 * (a + d), (-discriminant).sqrt());
             return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
         }
-        let way = half + discriminant.sqrt().copysign(half);
-        let first = d + way;
+        let way = half + discriminant.sqrt().copysign(half); let first = d + way;
         let second = if way == 0.0 { d } else { d - b * c / way };
         (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
     }
@@ -1195,8 +1186,7 @@ mod six_axes {
                 }
                 self.reflect(top, column);
             }
-            let top = self.high - 1;
-            let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
+            let top = self.high - 1; let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
             self.reflect(top, column);
         }
 
@@ -1204,8 +1194,7 @@ mod six_axes {
         fn shifts(&self, is_exceptional: bool) -> [f64; 2] {
             let (h, m) = (&self.h, self.high);
             if is_exceptional {
-                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs();
-                let centre = h[m][m] + 0.75 * size;
+                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs(); let centre = h[m][m] + 0.75 * size;
                 return [2.0 * centre, centre * centre + 0.4375 * size * size];
             }
             [h[m - 1][m - 1] + h[m][m], h[m - 1][m - 1] * h[m][m] - h[m - 1][m] * h[m][m - 1]]
@@ -2046,17 +2035,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         p.px, p.py, p.pz, p.r11_, p.r12_, p.r13_, p.r21_, p.r22_, p.r23_, p.r31_, p.r32_, p.r33_,
     ]);
     for (i0, six0) in found0.as_slice().iter().enumerate() {
-        let c1 = six0.q[0].cos();
-        let s1 = six0.q[0].sin();
-        let c2 = six0.q[1].cos();
-        let s2 = six0.q[1].sin();
-        let d3 = six0.q[2];
-        let d4 = six0.q[3];
-        let c5 = six0.q[4].cos();
-        let s5 = six0.q[4].sin();
-        let c6 = six0.q[5].cos();
-        let s6 = six0.q[5].sin();
-        let at = [c1, s1, c2, s2, d3, d4, c5, s5, c6, s6];
+        let c1 = six0.q[0].cos(); let s1 = six0.q[0].sin(); let c2 = six0.q[1].cos(); let s2 = six0.q[1].sin();
+        let d3 = six0.q[2]; let d4 = six0.q[3]; let c5 = six0.q[4].cos(); let s5 = six0.q[4].sin();
+        let c6 = six0.q[5].cos(); let s6 = six0.q[5].sin(); let at = [c1, s1, c2, s2, d3, d4, c5, s5, c6, s6];
         let q = [
             angle(at[0], at[1]), angle(at[2], at[3]), at[4], at[5], angle(at[6], at[7]), angle(at[8], at[9]),
         ];
@@ -2071,44 +2052,25 @@ const TIP: usize = 12;
 fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
     let [c1, s1, c2, s2, d3, d4, c5, s5, c6, s6] = *at;
     let r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
-    let r3 = 0.20967741935483872 * c2 + 0.7903225806451613;
-    let r5 = 0.9704949588309457 * s1;
-    let r6 = 0.023255813953488372 * c1;
-    let r8 = r5 - r6 + 0.023255813953488372;
-    let r9 = 0.254000254000381 * s2;
-    let r10 = 0.3387096774193548 * c2;
-    let r12 = r9 + r10 - 0.3387096774193548;
-    let r14 = 0.10783277320343841 * s1;
-    let r15 = 0.20930232558139536 * c1;
-    let r17 = r14 + r15 - 0.20930232558139536;
-    let r18 = 0.38100038100057154 * s2;
-    let r19 = 0.22580645161290322 * c2;
-    let r21 = r18 - r19 + 0.22580645161290322;
-    let r24 = r17 * r21 + (r1 * r3 + r8 * r12);
-    let r26 = r5 + r6 - 0.023255813953488372;
-    let r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
-    let r31 = 0.21566554640687682 * s1;
-    let r32 = 0.10465116279069768 * c1;
-    let r34 = r31 - r32 + 0.10465116279069768;
-    let r37 = r21 * r34 + (r3 * r26 - r12 * r29);
-    let r39 = r14 - r15 + 0.20930232558139536;
-    let r42 = r31 + r32 - 0.10465116279069768;
-    let r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    let r48 = r3 * r39 - r12 * r42 - r21 * r45;
-    let r50 = r9 - r10 + 0.3387096774193548;
-    let r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
-    let r55 = 0.8890008890013336 * s2;
-    let r56 = 0.0967741935483871 * c2;
-    let r58 = r55 + r56 - 0.0967741935483871;
-    let r61 = r1 * r50 - r8 * r53 - r17 * r58;
-    let r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    let r71 = r45 * r58 + (r39 * r50 + r42 * r53);
-    let r73 = r18 + r19 - 0.22580645161290322;
-    let r76 = r55 - r56 + 0.0967741935483871;
-    let r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    let r82 = r1 * r73 + r8 * r76 - r17 * r79;
-    let r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    let r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    let r3 = 0.20967741935483872 * c2 + 0.7903225806451613; let r5 = 0.9704949588309457 * s1;
+    let r6 = 0.023255813953488372 * c1; let r8 = r5 - r6 + 0.023255813953488372;
+    let r9 = 0.254000254000381 * s2; let r10 = 0.3387096774193548 * c2;
+    let r12 = r9 + r10 - 0.3387096774193548; let r14 = 0.10783277320343841 * s1;
+    let r15 = 0.20930232558139536 * c1; let r17 = r14 + r15 - 0.20930232558139536;
+    let r18 = 0.38100038100057154 * s2; let r19 = 0.22580645161290322 * c2;
+    let r21 = r18 - r19 + 0.22580645161290322; let r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    let r26 = r5 + r6 - 0.023255813953488372; let r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    let r31 = 0.21566554640687682 * s1; let r32 = 0.10465116279069768 * c1;
+    let r34 = r31 - r32 + 0.10465116279069768; let r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    let r39 = r14 - r15 + 0.20930232558139536; let r42 = r31 + r32 - 0.10465116279069768;
+    let r45 = 0.05813953488372093 * c1 + 0.9418604651162791; let r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    let r50 = r9 - r10 + 0.3387096774193548; let r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    let r55 = 0.8890008890013336 * s2; let r56 = 0.0967741935483871 * c2;
+    let r58 = r55 + r56 - 0.0967741935483871; let r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    let r66 = r26 * r50 + r29 * r53 - r34 * r58; let r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    let r73 = r18 + r19 - 0.22580645161290322; let r76 = r55 - r56 + 0.0967741935483871;
+    let r79 = 0.9354838709677419 * c2 + 0.06451612903225806; let r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    let r87 = r26 * r73 - r29 * r76 - r34 * r79; let r92 = r45 * r79 + (r39 * r73 - r42 * r76);
     let r110 = 0.13488372093023257 * c1 - 0.10244113454326649 * s1;
     let r112 = 0.18488372093023256 - (0.05 * r24 - 0.1 * r61 + 0.4 * r82 + r110);
     let r115 = 0.134790966504298 * s1 + 0.10755813953488372 * c1;
@@ -2121,59 +2083,36 @@ fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
     let r164 = 0.14907119849998599 * (d4 * (5.0 * r37 - 2.0 * r66 + 4.0 * r87));
     let r167 = 0.11624763874381928 * (d3 * (3.0 * r92 - (r48 - 8.0 * r71)));
     let r169 = 0.14907119849998599 * (d4 * (5.0 * r48 - 2.0 * r71 + 4.0 * r92));
-    let r187 = 0.9782608695652174 * c5 + 0.021739130434782608;
-    let r189 = 0.4423258684646914 * s5;
-    let r190 = 0.13043478260869565 * c5;
-    let r192 = r189 + r190 - 0.13043478260869565;
-    let r194 = 0.8846517369293828 * s5;
-    let r195 = 0.06521739130434782 * c5;
-    let r197 = r194 - r195 + 0.06521739130434782;
-    let r200 = r24 * r187 - r61 * r192 - r82 * r197;
-    let r205 = r37 * r187 - r66 * r192 - r87 * r197;
-    let r210 = r48 * r187 - r71 * r192 - r92 * r197;
-    let r212 = r189 - r190 + 0.13043478260869565;
-    let r215 = 0.21739130434782608 * c5 + 0.782608695652174;
-    let r217 = 0.14744195615489714 * s5;
-    let r218 = 0.391304347826087 * c5;
-    let r220 = r217 + r218 - 0.391304347826087;
-    let r223 = r82 * r220 + (r24 * r212 + r61 * r215);
-    let r228 = r87 * r220 + (r37 * r212 + r66 * r215);
-    let r233 = r92 * r220 + (r48 * r212 + r71 * r215);
-    let r235 = r194 + r195 - 0.06521739130434782;
-    let r238 = r217 - r218 + 0.391304347826087;
-    let r241 = 0.8043478260869565 * c5 + 0.1956521739130435;
-    let r244 = r82 * r241 + (r24 * r235 - r61 * r238);
-    let r249 = r87 * r241 + (r37 * r235 - r66 * r238);
-    let r254 = r92 * r241 + (r48 * r235 - r71 * r238);
+    let r187 = 0.9782608695652174 * c5 + 0.021739130434782608; let r189 = 0.4423258684646914 * s5;
+    let r190 = 0.13043478260869565 * c5; let r192 = r189 + r190 - 0.13043478260869565;
+    let r194 = 0.8846517369293828 * s5; let r195 = 0.06521739130434782 * c5;
+    let r197 = r194 - r195 + 0.06521739130434782; let r200 = r24 * r187 - r61 * r192 - r82 * r197;
+    let r205 = r37 * r187 - r66 * r192 - r87 * r197; let r210 = r48 * r187 - r71 * r192 - r92 * r197;
+    let r212 = r189 - r190 + 0.13043478260869565; let r215 = 0.21739130434782608 * c5 + 0.782608695652174;
+    let r217 = 0.14744195615489714 * s5; let r218 = 0.391304347826087 * c5;
+    let r220 = r217 + r218 - 0.391304347826087; let r223 = r82 * r220 + (r24 * r212 + r61 * r215);
+    let r228 = r87 * r220 + (r37 * r212 + r66 * r215); let r233 = r92 * r220 + (r48 * r212 + r71 * r215);
+    let r235 = r194 + r195 - 0.06521739130434782; let r238 = r217 - r218 + 0.391304347826087;
+    let r241 = 0.8043478260869565 * c5 + 0.1956521739130435; let r244 = r82 * r241 + (r24 * r235 - r61 * r238);
+    let r249 = r87 * r241 + (r37 * r235 - r66 * r238); let r254 = r92 * r241 + (r48 * r235 - r71 * r238);
     let r270 = r112 + r157 + r159 + (0.8 * r24 + 0.2 * r61 + 0.6 * r82);
     let r271 = r270 - (0.8 * r200 + 0.2 * r223 + 0.6 * r244);
     let r272 = r117 + r162 + r164 + (0.8 * r37 + 0.2 * r66 + 0.6 * r87);
     let r273 = r272 - (0.8 * r205 + 0.2 * r228 + 0.6 * r249);
     let r274 = r122 + r167 + r169 + (0.8 * r48 + 0.2 * r71 + 0.6 * r92);
     let r275 = r274 - (0.8 * r210 + 0.2 * r233 + 0.6 * r254);
-    let r292 = 0.847457627118644 * c6 + 0.15254237288135594;
-    let r294 = 0.9113223768657672 * s6;
-    let r295 = 0.05084745762711865 * c6;
-    let r297 = r294 - r295 + 0.05084745762711865;
-    let r299 = 0.13018891098082389 * s6;
-    let r300 = 0.3559322033898305 * c6;
-    let r302 = r299 + r300 - 0.3559322033898305;
-    let r305 = r200 * r292 + r223 * r297 - r244 * r302;
-    let r310 = r205 * r292 + r228 * r297 - r249 * r302;
-    let r315 = r210 * r292 + r233 * r297 - r254 * r302;
-    let r317 = r294 + r295 - 0.05084745762711865;
-    let r320 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    let r322 = 0.3905667329424717 * s6;
-    let r323 = 0.11864406779661017 * c6;
-    let r325 = r322 - r323 + 0.11864406779661017;
-    let r328 = r244 * r325 - (r200 * r317 - r223 * r320);
-    let r333 = r249 * r325 - (r205 * r317 - r228 * r320);
-    let r338 = r254 * r325 - (r210 * r317 - r233 * r320);
-    let r340 = r299 - r300 + 0.3559322033898305;
-    let r343 = r322 + r323 - 0.11864406779661017;
+    let r292 = 0.847457627118644 * c6 + 0.15254237288135594; let r294 = 0.9113223768657672 * s6;
+    let r295 = 0.05084745762711865 * c6; let r297 = r294 - r295 + 0.05084745762711865;
+    let r299 = 0.13018891098082389 * s6; let r300 = 0.3559322033898305 * c6;
+    let r302 = r299 + r300 - 0.3559322033898305; let r305 = r200 * r292 + r223 * r297 - r244 * r302;
+    let r310 = r205 * r292 + r228 * r297 - r249 * r302; let r315 = r210 * r292 + r233 * r297 - r254 * r302;
+    let r317 = r294 + r295 - 0.05084745762711865; let r320 = 0.9830508474576272 * c6 + 0.01694915254237288;
+    let r322 = 0.3905667329424717 * s6; let r323 = 0.11864406779661017 * c6;
+    let r325 = r322 - r323 + 0.11864406779661017; let r328 = r244 * r325 - (r200 * r317 - r223 * r320);
+    let r333 = r249 * r325 - (r205 * r317 - r228 * r320); let r338 = r254 * r325 - (r210 * r317 - r233 * r320);
+    let r340 = r299 - r300 + 0.3559322033898305; let r343 = r322 + r323 - 0.11864406779661017;
     let r346 = 0.1694915254237288 * c6 + 0.8305084745762712;
-    let r349 = r244 * r346 + (r200 * r340 - r223 * r343);
-    let r354 = r249 * r346 + (r205 * r340 - r228 * r343);
+    let r349 = r244 * r346 + (r200 * r340 - r223 * r343); let r354 = r249 * r346 + (r205 * r340 - r228 * r343);
     let r359 = r254 * r346 + (r210 * r340 - r233 * r343);
     let r375 = r271 + (0.95 * r200 + 0.1 * r223 + 0.45 * r244);
     let r376 = r375 - (0.95 * r305 + 0.1 * r328 + 0.45 * r349);
@@ -2239,140 +2178,77 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, d3, d4, c5, s5, c6, s6] = *at;
     let r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
-    let r3 = 0.20967741935483872 * c2 + 0.7903225806451613;
-    let r5 = 0.9704949588309457 * s1;
-    let r6 = 0.023255813953488372 * c1;
-    let r8 = r5 - r6 + 0.023255813953488372;
-    let r9 = 0.254000254000381 * s2;
-    let r10 = 0.3387096774193548 * c2;
-    let r12 = r9 + r10 - 0.3387096774193548;
-    let r14 = 0.10783277320343841 * s1;
-    let r15 = 0.20930232558139536 * c1;
-    let r17 = r14 + r15 - 0.20930232558139536;
-    let r18 = 0.38100038100057154 * s2;
-    let r19 = 0.22580645161290322 * c2;
-    let r21 = r18 - r19 + 0.22580645161290322;
-    let r24 = r17 * r21 + (r1 * r3 + r8 * r12);
-    let r26 = r5 + r6 - 0.023255813953488372;
-    let r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
-    let r31 = 0.21566554640687682 * s1;
-    let r32 = 0.10465116279069768 * c1;
-    let r34 = r31 - r32 + 0.10465116279069768;
-    let r37 = r21 * r34 + (r3 * r26 - r12 * r29);
-    let r39 = r14 - r15 + 0.20930232558139536;
-    let r42 = r31 + r32 - 0.10465116279069768;
-    let r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    let r48 = r3 * r39 - r12 * r42 - r21 * r45;
-    let r50 = r9 - r10 + 0.3387096774193548;
-    let r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
-    let r55 = 0.8890008890013336 * s2;
-    let r56 = 0.0967741935483871 * c2;
-    let r58 = r55 + r56 - 0.0967741935483871;
-    let r61 = r1 * r50 - r8 * r53 - r17 * r58;
-    let r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    let r71 = r45 * r58 + (r39 * r50 + r42 * r53);
-    let r73 = r18 + r19 - 0.22580645161290322;
-    let r76 = r55 - r56 + 0.0967741935483871;
-    let r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    let r82 = r1 * r73 + r8 * r76 - r17 * r79;
-    let r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    let r92 = r45 * r79 + (r39 * r73 - r42 * r76);
-    let r108 = 0.13488372093023257 * c1;
-    let r109 = 0.10244113454326649 * s1;
-    let r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109);
-    let r113 = 0.134790966504298 * s1;
-    let r114 = 0.10755813953488372 * c1;
-    let r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114);
-    let r118 = 0.03774147062120344 * s1;
-    let r119 = 0.01802325581395349 * c1;
-    let r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119);
-    let r125 = 3.0 * r82;
-    let r126 = r125 - (r24 - 8.0 * r61);
-    let r129 = 3.0 * r87;
-    let r130 = r129 - (r37 - 8.0 * r66);
-    let r133 = 3.0 * r92;
-    let r134 = r133 - (r48 - 8.0 * r71);
-    let r143 = 5.0 * r24 - 2.0 * r61 + 4.0 * r82;
-    let r148 = 5.0 * r37 - 2.0 * r66 + 4.0 * r87;
-    let r153 = 5.0 * r48 - 2.0 * r71 + 4.0 * r92;
+    let r3 = 0.20967741935483872 * c2 + 0.7903225806451613; let r5 = 0.9704949588309457 * s1;
+    let r6 = 0.023255813953488372 * c1; let r8 = r5 - r6 + 0.023255813953488372;
+    let r9 = 0.254000254000381 * s2; let r10 = 0.3387096774193548 * c2;
+    let r12 = r9 + r10 - 0.3387096774193548; let r14 = 0.10783277320343841 * s1;
+    let r15 = 0.20930232558139536 * c1; let r17 = r14 + r15 - 0.20930232558139536;
+    let r18 = 0.38100038100057154 * s2; let r19 = 0.22580645161290322 * c2;
+    let r21 = r18 - r19 + 0.22580645161290322; let r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    let r26 = r5 + r6 - 0.023255813953488372; let r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    let r31 = 0.21566554640687682 * s1; let r32 = 0.10465116279069768 * c1;
+    let r34 = r31 - r32 + 0.10465116279069768; let r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    let r39 = r14 - r15 + 0.20930232558139536; let r42 = r31 + r32 - 0.10465116279069768;
+    let r45 = 0.05813953488372093 * c1 + 0.9418604651162791; let r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    let r50 = r9 - r10 + 0.3387096774193548; let r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    let r55 = 0.8890008890013336 * s2; let r56 = 0.0967741935483871 * c2;
+    let r58 = r55 + r56 - 0.0967741935483871; let r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    let r66 = r26 * r50 + r29 * r53 - r34 * r58; let r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    let r73 = r18 + r19 - 0.22580645161290322; let r76 = r55 - r56 + 0.0967741935483871;
+    let r79 = 0.9354838709677419 * c2 + 0.06451612903225806; let r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    let r87 = r26 * r73 - r29 * r76 - r34 * r79; let r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    let r108 = 0.13488372093023257 * c1; let r109 = 0.10244113454326649 * s1;
+    let r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109); let r113 = 0.134790966504298 * s1;
+    let r114 = 0.10755813953488372 * c1; let r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114);
+    let r118 = 0.03774147062120344 * s1; let r119 = 0.01802325581395349 * c1;
+    let r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119); let r125 = 3.0 * r82;
+    let r126 = r125 - (r24 - 8.0 * r61); let r129 = 3.0 * r87; let r130 = r129 - (r37 - 8.0 * r66);
+    let r133 = 3.0 * r92; let r134 = r133 - (r48 - 8.0 * r71); let r143 = 5.0 * r24 - 2.0 * r61 + 4.0 * r82;
+    let r148 = 5.0 * r37 - 2.0 * r66 + 4.0 * r87; let r153 = 5.0 * r48 - 2.0 * r71 + 4.0 * r92;
     let r158 = 0.18488372093023256 - r111 + 0.11624763874381928 * (d3 * r126);
     let r160 = r158 + 0.14907119849998599 * (d4 * r143);
     let r163 = 0.007558139534883721 - r116 + 0.11624763874381928 * (d3 * r130);
     let r165 = r163 + 0.14907119849998599 * (d4 * r148);
     let r168 = 0.3819767441860465 - r121 + 0.11624763874381928 * (d3 * r134);
-    let r170 = r168 + 0.14907119849998599 * (d4 * r153);
-    let r175 = 0.8 * r24 + 0.2 * r61 + 0.6 * r82;
-    let r180 = 0.8 * r37 + 0.2 * r66 + 0.6 * r87;
-    let r185 = 0.8 * r48 + 0.2 * r71 + 0.6 * r92;
-    let r187 = 0.9782608695652174 * c5 + 0.021739130434782608;
-    let r189 = 0.4423258684646914 * s5;
-    let r190 = 0.13043478260869565 * c5;
-    let r192 = r189 + r190 - 0.13043478260869565;
-    let r194 = 0.8846517369293828 * s5;
-    let r195 = 0.06521739130434782 * c5;
-    let r197 = r194 - r195 + 0.06521739130434782;
-    let r200 = r24 * r187 - r61 * r192 - r82 * r197;
-    let r205 = r37 * r187 - r66 * r192 - r87 * r197;
-    let r210 = r48 * r187 - r71 * r192 - r92 * r197;
-    let r212 = r189 - r190 + 0.13043478260869565;
-    let r215 = 0.21739130434782608 * c5 + 0.782608695652174;
-    let r217 = 0.14744195615489714 * s5;
-    let r218 = 0.391304347826087 * c5;
-    let r220 = r217 + r218 - 0.391304347826087;
-    let r223 = r82 * r220 + (r24 * r212 + r61 * r215);
-    let r228 = r87 * r220 + (r37 * r212 + r66 * r215);
-    let r233 = r92 * r220 + (r48 * r212 + r71 * r215);
-    let r235 = r194 + r195 - 0.06521739130434782;
-    let r238 = r217 - r218 + 0.391304347826087;
-    let r241 = 0.8043478260869565 * c5 + 0.1956521739130435;
-    let r244 = r82 * r241 + (r24 * r235 - r61 * r238);
-    let r249 = r87 * r241 + (r37 * r235 - r66 * r238);
-    let r254 = r92 * r241 + (r48 * r235 - r71 * r238);
+    let r170 = r168 + 0.14907119849998599 * (d4 * r153); let r175 = 0.8 * r24 + 0.2 * r61 + 0.6 * r82;
+    let r180 = 0.8 * r37 + 0.2 * r66 + 0.6 * r87; let r185 = 0.8 * r48 + 0.2 * r71 + 0.6 * r92;
+    let r187 = 0.9782608695652174 * c5 + 0.021739130434782608; let r189 = 0.4423258684646914 * s5;
+    let r190 = 0.13043478260869565 * c5; let r192 = r189 + r190 - 0.13043478260869565;
+    let r194 = 0.8846517369293828 * s5; let r195 = 0.06521739130434782 * c5;
+    let r197 = r194 - r195 + 0.06521739130434782; let r200 = r24 * r187 - r61 * r192 - r82 * r197;
+    let r205 = r37 * r187 - r66 * r192 - r87 * r197; let r210 = r48 * r187 - r71 * r192 - r92 * r197;
+    let r212 = r189 - r190 + 0.13043478260869565; let r215 = 0.21739130434782608 * c5 + 0.782608695652174;
+    let r217 = 0.14744195615489714 * s5; let r218 = 0.391304347826087 * c5;
+    let r220 = r217 + r218 - 0.391304347826087; let r223 = r82 * r220 + (r24 * r212 + r61 * r215);
+    let r228 = r87 * r220 + (r37 * r212 + r66 * r215); let r233 = r92 * r220 + (r48 * r212 + r71 * r215);
+    let r235 = r194 + r195 - 0.06521739130434782; let r238 = r217 - r218 + 0.391304347826087;
+    let r241 = 0.8043478260869565 * c5 + 0.1956521739130435; let r244 = r82 * r241 + (r24 * r235 - r61 * r238);
+    let r249 = r87 * r241 + (r37 * r235 - r66 * r238); let r254 = r92 * r241 + (r48 * r235 - r71 * r238);
     let r271 = r160 + r175 - (0.8 * r200 + 0.2 * r223 + 0.6 * r244);
     let r273 = r165 + r180 - (0.8 * r205 + 0.2 * r228 + 0.6 * r249);
     let r275 = r170 + r185 - (0.8 * r210 + 0.2 * r233 + 0.6 * r254);
-    let r280 = 0.95 * r200 + 0.1 * r223 + 0.45 * r244;
-    let r285 = 0.95 * r205 + 0.1 * r228 + 0.45 * r249;
-    let r290 = 0.95 * r210 + 0.1 * r233 + 0.45 * r254;
-    let r292 = 0.847457627118644 * c6 + 0.15254237288135594;
-    let r294 = 0.9113223768657672 * s6;
-    let r295 = 0.05084745762711865 * c6;
-    let r297 = r294 - r295 + 0.05084745762711865;
-    let r299 = 0.13018891098082389 * s6;
-    let r300 = 0.3559322033898305 * c6;
-    let r302 = r299 + r300 - 0.3559322033898305;
-    let r305 = r200 * r292 + r223 * r297 - r244 * r302;
-    let r310 = r205 * r292 + r228 * r297 - r249 * r302;
-    let r315 = r210 * r292 + r233 * r297 - r254 * r302;
-    let r317 = r294 + r295 - 0.05084745762711865;
-    let r320 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    let r322 = 0.3905667329424717 * s6;
-    let r323 = 0.11864406779661017 * c6;
-    let r325 = r322 - r323 + 0.11864406779661017;
-    let r328 = r244 * r325 - (r200 * r317 - r223 * r320);
-    let r333 = r249 * r325 - (r205 * r317 - r228 * r320);
-    let r338 = r254 * r325 - (r210 * r317 - r233 * r320);
-    let r340 = r299 - r300 + 0.3559322033898305;
-    let r343 = r322 + r323 - 0.11864406779661017;
-    let r346 = 0.1694915254237288 * c6 + 0.8305084745762712;
-    let r349 = r244 * r346 + (r200 * r340 - r223 * r343);
-    let r354 = r249 * r346 + (r205 * r340 - r228 * r343);
+    let r280 = 0.95 * r200 + 0.1 * r223 + 0.45 * r244; let r285 = 0.95 * r205 + 0.1 * r228 + 0.45 * r249;
+    let r290 = 0.95 * r210 + 0.1 * r233 + 0.45 * r254; let r292 = 0.847457627118644 * c6 + 0.15254237288135594;
+    let r294 = 0.9113223768657672 * s6; let r295 = 0.05084745762711865 * c6;
+    let r297 = r294 - r295 + 0.05084745762711865; let r299 = 0.13018891098082389 * s6;
+    let r300 = 0.3559322033898305 * c6; let r302 = r299 + r300 - 0.3559322033898305;
+    let r305 = r200 * r292 + r223 * r297 - r244 * r302; let r310 = r205 * r292 + r228 * r297 - r249 * r302;
+    let r315 = r210 * r292 + r233 * r297 - r254 * r302; let r317 = r294 + r295 - 0.05084745762711865;
+    let r320 = 0.9830508474576272 * c6 + 0.01694915254237288; let r322 = 0.3905667329424717 * s6;
+    let r323 = 0.11864406779661017 * c6; let r325 = r322 - r323 + 0.11864406779661017;
+    let r328 = r244 * r325 - (r200 * r317 - r223 * r320); let r333 = r249 * r325 - (r205 * r317 - r228 * r320);
+    let r338 = r254 * r325 - (r210 * r317 - r233 * r320); let r340 = r299 - r300 + 0.3559322033898305;
+    let r343 = r322 + r323 - 0.11864406779661017; let r346 = 0.1694915254237288 * c6 + 0.8305084745762712;
+    let r349 = r244 * r346 + (r200 * r340 - r223 * r343); let r354 = r249 * r346 + (r205 * r340 - r228 * r343);
     let r359 = r254 * r346 + (r210 * r340 - r233 * r343);
     let r376 = r271 + r280 - (0.95 * r305 + 0.1 * r328 + 0.45 * r349);
     let r378 = r273 + r285 - (0.95 * r310 + 0.1 * r333 + 0.45 * r354);
     let r380 = r275 + r290 - (0.95 * r315 + 0.1 * r338 + 0.45 * r359);
-    let r385 = 1.1 * r305 + 0.15 * r328 + 0.3 * r349;
-    let r390 = 1.1 * r310 + 0.15 * r333 + 0.3 * r354;
-    let r395 = 1.1 * r315 + 0.15 * r338 + 0.3 * r359;
-    let r397 = r376 + r385;
-    let r398 = r378 + r390;
-    let r399 = r380 + r395;
-    let r414 = r24 + 6.0 * r61 - r125;
-    let r417 = r37 + 6.0 * r66 - r129;
-    let r420 = r48 + 6.0 * r71 - r133;
-    let r424 = r223 + 3.0 * r200 + 7.0 * r244;
-    let r428 = r228 + 3.0 * r205 + 7.0 * r249;
-    let r432 = r233 + 3.0 * r210 + 7.0 * r254;
+    let r385 = 1.1 * r305 + 0.15 * r328 + 0.3 * r349; let r390 = 1.1 * r310 + 0.15 * r333 + 0.3 * r354;
+    let r395 = 1.1 * r315 + 0.15 * r338 + 0.3 * r359; let r397 = r376 + r385; let r398 = r378 + r390;
+    let r399 = r380 + r395; let r414 = r24 + 6.0 * r61 - r125; let r417 = r37 + 6.0 * r66 - r129;
+    let r420 = r48 + 6.0 * r71 - r133; let r424 = r223 + 3.0 * r200 + 7.0 * r244;
+    let r428 = r228 + 3.0 * r205 + 7.0 * r249; let r432 = r233 + 3.0 * r210 + 7.0 * r254;
     let r435 = 0.10783277320343841 * r380 + 0.10783277320343841 * r395;
     let r439 = r435 + 0.9704949588309457 * r378 + 0.9704949588309457 * r390;
     let r443 = 0.9704949588309457 * r376 + 0.9704949588309457 * r385;
@@ -2380,20 +2256,12 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r451 = 0.21566554640687682 * r378 + 0.21566554640687682 * r390;
     let r455 = r451 + 0.10783277320343841 * r376 + 0.10783277320343841 * r385;
     let r459 = r108 + r397 - r109 - 0.18488372093023256;
-    let r462 = r114 + (r113 + r398) - 0.007558139534883721;
-    let r465 = r118 + r399 - r119 - 0.3819767441860465;
-    let r468 = 0.917549984738501 * s1 + 0.3706631613610211 * c1;
-    let r469 = r468 + 0.01033721963955039;
-    let r473 = 0.17803208659105244 * s1 - 0.1609652772444275 * c1;
-    let r474 = r473 - 0.09303497675595351;
-    let r479 = 0.9096753282804343 * c1 - 0.34236939729048543 * s1;
-    let r480 = r479 - 0.02067443927910078;
-    let r485 = r397 - r160 - r175;
-    let r487 = r398 - r165 - r180;
-    let r489 = r399 - r170 - r185;
-    let r497 = r397 - r271 - r280;
-    let r499 = r398 - r273 - r285;
-    let r501 = r399 - r275 - r290;
+    let r462 = r114 + (r113 + r398) - 0.007558139534883721; let r465 = r118 + r399 - r119 - 0.3819767441860465;
+    let r468 = 0.917549984738501 * s1 + 0.3706631613610211 * c1; let r469 = r468 + 0.01033721963955039;
+    let r473 = 0.17803208659105244 * s1 - 0.1609652772444275 * c1; let r474 = r473 - 0.09303497675595351;
+    let r479 = 0.9096753282804343 * c1 - 0.34236939729048543 * s1; let r480 = r479 - 0.02067443927910078;
+    let r485 = r397 - r160 - r175; let r487 = r398 - r165 - r180; let r489 = r399 - r170 - r185;
+    let r497 = r397 - r271 - r280; let r499 = r398 - r273 - r285; let r501 = r399 - r275 - r290;
     let r512 = 0.14744195615489714 * (r417 * r489 - r420 * r487);
     let r514 = 0.13018891098082389 * (r428 * r501 - r432 * r499);
     let r519 = 0.14744195615489714 * (r420 * r485 - r414 * r489);
@@ -2833,7 +2701,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2910,12 +2782,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2926,6 +2803,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);

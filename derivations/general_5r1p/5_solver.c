@@ -140,6 +140,8 @@ int general_5r1p_nearest(const general_5r1p_solution *list, int count, const dou
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int general_5r1p_nearest(const general_5r1p_solution *list, int count, const dou
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,27 +211,28 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
-    const double s5 = at[8], c6 = at[9], s6 = at[10], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6];
+    const double c5 = at[7], s5 = at[8], c6 = at[9], s6 = at[10];
+    const double r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
     const double r110 = 0.13488372093023257 * c1 - 0.10244113454326649 * s1;
     const double r112 = 0.18488372093023256 - (0.05 * r24 - 0.1 * r61 + 0.4 * r82 + r110);
     const double r115 = 0.134790966504298 * s1 + 0.10755813953488372 * c1;
@@ -249,7 +254,8 @@ static void tip(const double *at, double *reached)
     const double r194 = 0.17777777777777778 * c4, r196 = r193 + r194 - 0.17777777777777778;
     const double r199 = r82 * r196 - (r24 * r188 - r61 * r191), r204 = r87 * r196 - (r37 * r188 - r66 * r191);
     const double r209 = r92 * r196 - (r48 * r188 - r71 * r191), r211 = r163 + r171 - 0.4444444444444444;
-    const double r214 = r193 - r194 + 0.17777777777777778, r217 = 0.6444444444444445 * c4 + 0.35555555555555557;
+    const double r214 = r193 - r194 + 0.17777777777777778;
+    const double r217 = 0.6444444444444445 * c4 + 0.35555555555555557;
     const double r220 = r82 * r217 - (r24 * r211 + r61 * r214), r225 = r87 * r217 - (r37 * r211 + r66 * r214);
     const double r230 = r92 * r217 - (r48 * r211 + r71 * r214);
     const double r261 = r156 - (0.55 * r176 - 0.05 * r199 + 0.75 * r220);
@@ -259,10 +265,11 @@ static void tip(const double *at, double *reached)
     const double r271 = 0.13043478260869565 * c5, r273 = r270 + r271 - 0.13043478260869565;
     const double r275 = 0.8846517369293828 * s5, r276 = 0.06521739130434782 * c5;
     const double r278 = r275 - r276 + 0.06521739130434782, r281 = r176 * r268 - r199 * r273 - r220 * r278;
-    const double r286 = r181 * r268 - r204 * r273 - r225 * r278, r291 = r186 * r268 - r209 * r273 - r230 * r278;
-    const double r293 = r270 - r271 + 0.13043478260869565, r296 = 0.21739130434782608 * c5 + 0.782608695652174;
-    const double r298 = 0.14744195615489714 * s5, r299 = 0.391304347826087 * c5;
-    const double r301 = r298 + r299 - 0.391304347826087, r304 = r220 * r301 + (r176 * r293 + r199 * r296);
+    const double r286 = r181 * r268 - r204 * r273 - r225 * r278;
+    const double r291 = r186 * r268 - r209 * r273 - r230 * r278, r293 = r270 - r271 + 0.13043478260869565;
+    const double r296 = 0.21739130434782608 * c5 + 0.782608695652174, r298 = 0.14744195615489714 * s5;
+    const double r299 = 0.391304347826087 * c5, r301 = r298 + r299 - 0.391304347826087;
+    const double r304 = r220 * r301 + (r176 * r293 + r199 * r296);
     const double r309 = r225 * r301 + (r181 * r293 + r204 * r296);
     const double r314 = r230 * r301 + (r186 * r293 + r209 * r296), r316 = r275 + r276 - 0.06521739130434782;
     const double r319 = r298 - r299 + 0.391304347826087, r322 = 0.8043478260869565 * c5 + 0.1956521739130435;
@@ -279,10 +286,11 @@ static void tip(const double *at, double *reached)
     const double r376 = 0.05084745762711865 * c6, r378 = r375 - r376 + 0.05084745762711865;
     const double r380 = 0.13018891098082389 * s6, r381 = 0.3559322033898305 * c6;
     const double r383 = r380 + r381 - 0.3559322033898305, r386 = r281 * r373 + r304 * r378 - r325 * r383;
-    const double r391 = r286 * r373 + r309 * r378 - r330 * r383, r396 = r291 * r373 + r314 * r378 - r335 * r383;
-    const double r398 = r375 + r376 - 0.05084745762711865, r401 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r403 = 0.3905667329424717 * s6, r404 = 0.11864406779661017 * c6;
-    const double r406 = r403 - r404 + 0.11864406779661017, r409 = r325 * r406 - (r281 * r398 - r304 * r401);
+    const double r391 = r286 * r373 + r309 * r378 - r330 * r383;
+    const double r396 = r291 * r373 + r314 * r378 - r335 * r383, r398 = r375 + r376 - 0.05084745762711865;
+    const double r401 = 0.9830508474576272 * c6 + 0.01694915254237288, r403 = 0.3905667329424717 * s6;
+    const double r404 = 0.11864406779661017 * c6, r406 = r403 - r404 + 0.11864406779661017;
+    const double r409 = r325 * r406 - (r281 * r398 - r304 * r401);
     const double r414 = r330 * r406 - (r286 * r398 - r309 * r401);
     const double r419 = r335 * r406 - (r291 * r398 - r314 * r401), r421 = r380 - r381 + 0.3559322033898305;
     const double r424 = r403 + r404 - 0.11864406779661017, r427 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -352,31 +360,33 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
-    const double s5 = at[8], c6 = at[9], s6 = at[10], r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6];
+    const double c5 = at[7], s5 = at[8], c6 = at[9], s6 = at[10];
+    const double r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76), r108 = 0.13488372093023257 * c1;
-    const double r109 = 0.10244113454326649 * s1, r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109);
-    const double r113 = 0.134790966504298 * s1, r114 = 0.10755813953488372 * c1;
-    const double r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114), r118 = 0.03774147062120344 * s1;
-    const double r119 = 0.01802325581395349 * c1, r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119);
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r108 = 0.13488372093023257 * c1, r109 = 0.10244113454326649 * s1;
+    const double r111 = 0.05 * r24 - 0.1 * r61 + 0.4 * r82 + (r108 - r109), r113 = 0.134790966504298 * s1;
+    const double r114 = 0.10755813953488372 * c1, r116 = 0.05 * r37 - 0.1 * r66 + 0.4 * r87 + (r113 + r114);
+    const double r118 = 0.03774147062120344 * s1, r119 = 0.01802325581395349 * c1;
+    const double r121 = 0.05 * r48 - 0.1 * r71 + 0.4 * r92 + (r118 - r119);
     const double r126 = 3.0 * r82 - (r24 - 8.0 * r61), r130 = 3.0 * r87 - (r37 - 8.0 * r66);
     const double r134 = 3.0 * r92 - (r48 - 8.0 * r71);
     const double r155 = 0.18488372093023256 - r111 + 0.11624763874381928 * (d3 * r126);
@@ -394,7 +404,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r194 = 0.17777777777777778 * c4, r196 = r193 + r194 - 0.17777777777777778;
     const double r199 = r82 * r196 - (r24 * r188 - r61 * r191), r204 = r87 * r196 - (r37 * r188 - r66 * r191);
     const double r209 = r92 * r196 - (r48 * r188 - r71 * r191), r211 = r163 + r171 - 0.4444444444444444;
-    const double r214 = r193 - r194 + 0.17777777777777778, r217 = 0.6444444444444445 * c4 + 0.35555555555555557;
+    const double r214 = r193 - r194 + 0.17777777777777778;
+    const double r217 = 0.6444444444444445 * c4 + 0.35555555555555557;
     const double r220 = r82 * r217 - (r24 * r211 + r61 * r214), r225 = r87 * r217 - (r37 * r211 + r66 * r214);
     const double r230 = r92 * r217 - (r48 * r211 + r71 * r214);
     const double r261 = r156 - (0.55 * r176 - 0.05 * r199 + 0.75 * r220);
@@ -407,10 +418,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r271 = 0.13043478260869565 * c5, r273 = r270 + r271 - 0.13043478260869565;
     const double r275 = 0.8846517369293828 * s5, r276 = 0.06521739130434782 * c5;
     const double r278 = r275 - r276 + 0.06521739130434782, r281 = r176 * r268 - r199 * r273 - r220 * r278;
-    const double r286 = r181 * r268 - r204 * r273 - r225 * r278, r291 = r186 * r268 - r209 * r273 - r230 * r278;
-    const double r293 = r270 - r271 + 0.13043478260869565, r296 = 0.21739130434782608 * c5 + 0.782608695652174;
-    const double r298 = 0.14744195615489714 * s5, r299 = 0.391304347826087 * c5;
-    const double r301 = r298 + r299 - 0.391304347826087, r304 = r220 * r301 + (r176 * r293 + r199 * r296);
+    const double r286 = r181 * r268 - r204 * r273 - r225 * r278;
+    const double r291 = r186 * r268 - r209 * r273 - r230 * r278, r293 = r270 - r271 + 0.13043478260869565;
+    const double r296 = 0.21739130434782608 * c5 + 0.782608695652174, r298 = 0.14744195615489714 * s5;
+    const double r299 = 0.391304347826087 * c5, r301 = r298 + r299 - 0.391304347826087;
+    const double r304 = r220 * r301 + (r176 * r293 + r199 * r296);
     const double r309 = r225 * r301 + (r181 * r293 + r204 * r296);
     const double r314 = r230 * r301 + (r186 * r293 + r209 * r296), r316 = r275 + r276 - 0.06521739130434782;
     const double r319 = r298 - r299 + 0.391304347826087, r322 = 0.8043478260869565 * c5 + 0.1956521739130435;
@@ -427,10 +439,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r376 = 0.05084745762711865 * c6, r378 = r375 - r376 + 0.05084745762711865;
     const double r380 = 0.13018891098082389 * s6, r381 = 0.3559322033898305 * c6;
     const double r383 = r380 + r381 - 0.3559322033898305, r386 = r281 * r373 + r304 * r378 - r325 * r383;
-    const double r391 = r286 * r373 + r309 * r378 - r330 * r383, r396 = r291 * r373 + r314 * r378 - r335 * r383;
-    const double r398 = r375 + r376 - 0.05084745762711865, r401 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r403 = 0.3905667329424717 * s6, r404 = 0.11864406779661017 * c6;
-    const double r406 = r403 - r404 + 0.11864406779661017, r409 = r325 * r406 - (r281 * r398 - r304 * r401);
+    const double r391 = r286 * r373 + r309 * r378 - r330 * r383;
+    const double r396 = r291 * r373 + r314 * r378 - r335 * r383, r398 = r375 + r376 - 0.05084745762711865;
+    const double r401 = 0.9830508474576272 * c6 + 0.01694915254237288, r403 = 0.3905667329424717 * s6;
+    const double r404 = 0.11864406779661017 * c6, r406 = r403 - r404 + 0.11864406779661017;
+    const double r409 = r325 * r406 - (r281 * r398 - r304 * r401);
     const double r414 = r330 * r406 - (r286 * r398 - r309 * r401);
     const double r419 = r335 * r406 - (r291 * r398 - r314 * r401), r421 = r380 - r381 + 0.3559322033898305;
     const double r424 = r403 + r404 - 0.11864406779661017, r427 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -816,7 +829,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -835,6 +849,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -862,11 +879,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -989,7 +1014,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2662,7 +2691,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2766,7 +2796,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -3166,7 +3197,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

@@ -140,6 +140,8 @@ int general_6r_nearest(const general_6r_solution *list, int count, const double 
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int general_6r_nearest(const general_6r_solution *list, int count, const double 
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,28 +211,29 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76), r94 = 0.1 * r61, r99 = 0.1 * r66, r104 = 0.1 * r71;
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r94 = 0.1 * r61, r99 = 0.1 * r66, r104 = 0.1 * r71;
     const double r110 = 0.13488372093023257 * c1 - 0.10244113454326649 * s1;
     const double r112 = 0.18488372093023256 - (0.05 * r24 - r94 + 0.4 * r82 + r110);
     const double r115 = 0.134790966504298 * s1 + 0.10755813953488372 * c1;
@@ -240,11 +245,12 @@ static void tip(const double *at, double *reached)
     const double r143 = 0.9299811099505543 * s3, r144 = 0.04054054054054054 * c3;
     const double r146 = r143 - r144 + 0.04054054054054054, r149 = r24 * r136 + r61 * r141 - r82 * r146;
     const double r154 = r37 * r136 + r66 * r141 - r87 * r146, r159 = r48 * r136 + r71 * r141 - r92 * r146;
-    const double r161 = r138 - r139 + 0.10810810810810811, r164 = 0.13513513513513514 * c3 + 0.8648648648648649;
-    const double r166 = 0.11624763874381928 * s3, r167 = 0.32432432432432434 * c3;
-    const double r169 = r166 + r167 - 0.32432432432432434, r172 = r82 * r169 + (r24 * r161 - r61 * r164);
-    const double r177 = r87 * r169 + (r37 * r161 - r66 * r164), r182 = r92 * r169 + (r48 * r161 - r71 * r164);
-    const double r184 = r143 + r144 - 0.04054054054054054, r187 = r166 - r167 + 0.32432432432432434;
+    const double r161 = r138 - r139 + 0.10810810810810811;
+    const double r164 = 0.13513513513513514 * c3 + 0.8648648648648649, r166 = 0.11624763874381928 * s3;
+    const double r167 = 0.32432432432432434 * c3, r169 = r166 + r167 - 0.32432432432432434;
+    const double r172 = r82 * r169 + (r24 * r161 - r61 * r164), r177 = r87 * r169 + (r37 * r161 - r66 * r164);
+    const double r182 = r92 * r169 + (r48 * r161 - r71 * r164), r184 = r143 + r144 - 0.04054054054054054;
+    const double r187 = r166 - r167 + 0.32432432432432434;
     const double r190 = 0.8783783783783784 * c3 + 0.12162162162162163;
     const double r193 = r82 * r190 + (r24 * r184 + r61 * r187), r198 = r87 * r190 + (r37 * r184 + r66 * r187);
     const double r203 = r92 * r190 + (r48 * r184 + r71 * r187);
@@ -262,7 +268,8 @@ static void tip(const double *at, double *reached)
     const double r276 = r193 * r273 - (r149 * r265 + r172 * r268);
     const double r281 = r198 * r273 - (r154 * r265 + r177 * r268);
     const double r286 = r203 * r273 - (r159 * r265 + r182 * r268), r288 = r240 + r248 - 0.4444444444444444;
-    const double r291 = r270 - r271 + 0.17777777777777778, r294 = 0.6444444444444445 * c4 + 0.35555555555555557;
+    const double r291 = r270 - r271 + 0.17777777777777778;
+    const double r294 = 0.6444444444444445 * c4 + 0.35555555555555557;
     const double r297 = r193 * r294 - (r149 * r288 - r172 * r291);
     const double r302 = r198 * r294 - (r154 * r288 - r177 * r291);
     const double r307 = r203 * r294 - (r159 * r288 - r182 * r291);
@@ -276,10 +283,11 @@ static void tip(const double *at, double *reached)
     const double r348 = 0.13043478260869565 * c5, r350 = r347 + r348 - 0.13043478260869565;
     const double r352 = 0.8846517369293828 * s5, r353 = 0.06521739130434782 * c5;
     const double r355 = r352 - r353 + 0.06521739130434782, r358 = r253 * r345 - r276 * r350 - r297 * r355;
-    const double r363 = r258 * r345 - r281 * r350 - r302 * r355, r368 = r263 * r345 - r286 * r350 - r307 * r355;
-    const double r370 = r347 - r348 + 0.13043478260869565, r373 = 0.21739130434782608 * c5 + 0.782608695652174;
-    const double r375 = 0.14744195615489714 * s5, r376 = 0.391304347826087 * c5;
-    const double r378 = r375 + r376 - 0.391304347826087, r381 = r297 * r378 + (r253 * r370 + r276 * r373);
+    const double r363 = r258 * r345 - r281 * r350 - r302 * r355;
+    const double r368 = r263 * r345 - r286 * r350 - r307 * r355, r370 = r347 - r348 + 0.13043478260869565;
+    const double r373 = 0.21739130434782608 * c5 + 0.782608695652174, r375 = 0.14744195615489714 * s5;
+    const double r376 = 0.391304347826087 * c5, r378 = r375 + r376 - 0.391304347826087;
+    const double r381 = r297 * r378 + (r253 * r370 + r276 * r373);
     const double r386 = r302 * r378 + (r258 * r370 + r281 * r373);
     const double r391 = r307 * r378 + (r263 * r370 + r286 * r373), r393 = r352 + r353 - 0.06521739130434782;
     const double r396 = r375 - r376 + 0.391304347826087, r399 = 0.8043478260869565 * c5 + 0.1956521739130435;
@@ -296,10 +304,11 @@ static void tip(const double *at, double *reached)
     const double r453 = 0.05084745762711865 * c6, r455 = r452 - r453 + 0.05084745762711865;
     const double r457 = 0.13018891098082389 * s6, r458 = 0.3559322033898305 * c6;
     const double r460 = r457 + r458 - 0.3559322033898305, r463 = r358 * r450 + r381 * r455 - r402 * r460;
-    const double r468 = r363 * r450 + r386 * r455 - r407 * r460, r473 = r368 * r450 + r391 * r455 - r412 * r460;
-    const double r475 = r452 + r453 - 0.05084745762711865, r478 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r480 = 0.3905667329424717 * s6, r481 = 0.11864406779661017 * c6;
-    const double r483 = r480 - r481 + 0.11864406779661017, r486 = r402 * r483 - (r358 * r475 - r381 * r478);
+    const double r468 = r363 * r450 + r386 * r455 - r407 * r460;
+    const double r473 = r368 * r450 + r391 * r455 - r412 * r460, r475 = r452 + r453 - 0.05084745762711865;
+    const double r478 = 0.9830508474576272 * c6 + 0.01694915254237288, r480 = 0.3905667329424717 * s6;
+    const double r481 = 0.11864406779661017 * c6, r483 = r480 - r481 + 0.11864406779661017;
+    const double r486 = r402 * r483 - (r358 * r475 - r381 * r478);
     const double r491 = r407 * r483 - (r363 * r475 - r386 * r478);
     const double r496 = r412 * r483 - (r368 * r475 - r391 * r478), r498 = r457 - r458 + 0.3559322033898305;
     const double r501 = r480 + r481 - 0.11864406779661017, r504 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -374,29 +383,30 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.9534883720930233 * c1 + 0.046511627906976744;
     const double r3 = 0.20967741935483872 * c2 + 0.7903225806451613, r5 = 0.9704949588309457 * s1;
     const double r6 = 0.023255813953488372 * c1, r8 = r5 - r6 + 0.023255813953488372;
-    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2, r12 = r9 + r10 - 0.3387096774193548;
-    const double r14 = 0.10783277320343841 * s1, r15 = 0.20930232558139536 * c1;
-    const double r17 = r14 + r15 - 0.20930232558139536, r18 = 0.38100038100057154 * s2;
-    const double r19 = 0.22580645161290322 * c2, r21 = r18 - r19 + 0.22580645161290322;
-    const double r24 = r17 * r21 + (r1 * r3 + r8 * r12), r26 = r5 + r6 - 0.023255813953488372;
-    const double r29 = 0.9883720930232558 * c1 + 0.011627906976744186, r31 = 0.21566554640687682 * s1;
-    const double r32 = 0.10465116279069768 * c1, r34 = r31 - r32 + 0.10465116279069768;
-    const double r37 = r21 * r34 + (r3 * r26 - r12 * r29), r39 = r14 - r15 + 0.20930232558139536;
-    const double r42 = r31 + r32 - 0.10465116279069768, r45 = 0.05813953488372093 * c1 + 0.9418604651162791;
-    const double r48 = r3 * r39 - r12 * r42 - r21 * r45, r50 = r9 - r10 + 0.3387096774193548;
-    const double r53 = 0.8548387096774194 * c2 + 0.14516129032258066, r55 = 0.8890008890013336 * s2;
-    const double r56 = 0.0967741935483871 * c2, r58 = r55 + r56 - 0.0967741935483871;
-    const double r61 = r1 * r50 - r8 * r53 - r17 * r58, r66 = r26 * r50 + r29 * r53 - r34 * r58;
-    const double r71 = r45 * r58 + (r39 * r50 + r42 * r53), r73 = r18 + r19 - 0.22580645161290322;
-    const double r76 = r55 - r56 + 0.0967741935483871, r79 = 0.9354838709677419 * c2 + 0.06451612903225806;
-    const double r82 = r1 * r73 + r8 * r76 - r17 * r79, r87 = r26 * r73 - r29 * r76 - r34 * r79;
-    const double r92 = r45 * r79 + (r39 * r73 - r42 * r76), r94 = 0.1 * r61, r99 = 0.1 * r66, r104 = 0.1 * r71;
-    const double r108 = 0.13488372093023257 * c1, r109 = 0.10244113454326649 * s1;
+    const double r9 = 0.254000254000381 * s2, r10 = 0.3387096774193548 * c2;
+    const double r12 = r9 + r10 - 0.3387096774193548, r14 = 0.10783277320343841 * s1;
+    const double r15 = 0.20930232558139536 * c1, r17 = r14 + r15 - 0.20930232558139536;
+    const double r18 = 0.38100038100057154 * s2, r19 = 0.22580645161290322 * c2;
+    const double r21 = r18 - r19 + 0.22580645161290322, r24 = r17 * r21 + (r1 * r3 + r8 * r12);
+    const double r26 = r5 + r6 - 0.023255813953488372, r29 = 0.9883720930232558 * c1 + 0.011627906976744186;
+    const double r31 = 0.21566554640687682 * s1, r32 = 0.10465116279069768 * c1;
+    const double r34 = r31 - r32 + 0.10465116279069768, r37 = r21 * r34 + (r3 * r26 - r12 * r29);
+    const double r39 = r14 - r15 + 0.20930232558139536, r42 = r31 + r32 - 0.10465116279069768;
+    const double r45 = 0.05813953488372093 * c1 + 0.9418604651162791, r48 = r3 * r39 - r12 * r42 - r21 * r45;
+    const double r50 = r9 - r10 + 0.3387096774193548, r53 = 0.8548387096774194 * c2 + 0.14516129032258066;
+    const double r55 = 0.8890008890013336 * s2, r56 = 0.0967741935483871 * c2;
+    const double r58 = r55 + r56 - 0.0967741935483871, r61 = r1 * r50 - r8 * r53 - r17 * r58;
+    const double r66 = r26 * r50 + r29 * r53 - r34 * r58, r71 = r45 * r58 + (r39 * r50 + r42 * r53);
+    const double r73 = r18 + r19 - 0.22580645161290322, r76 = r55 - r56 + 0.0967741935483871;
+    const double r79 = 0.9354838709677419 * c2 + 0.06451612903225806, r82 = r1 * r73 + r8 * r76 - r17 * r79;
+    const double r87 = r26 * r73 - r29 * r76 - r34 * r79, r92 = r45 * r79 + (r39 * r73 - r42 * r76);
+    const double r94 = 0.1 * r61, r99 = 0.1 * r66, r104 = 0.1 * r71, r108 = 0.13488372093023257 * c1;
+    const double r109 = 0.10244113454326649 * s1;
     const double r112 = 0.18488372093023256 - (0.05 * r24 - r94 + 0.4 * r82 + (r108 - r109));
     const double r113 = 0.134790966504298 * s1, r114 = 0.10755813953488372 * c1;
     const double r117 = 0.007558139534883721 - (0.05 * r37 - r99 + 0.4 * r87 + (r113 + r114));
@@ -413,13 +423,15 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r167 = 0.32432432432432434 * c3, r169 = r166 + r167 - 0.32432432432432434;
     const double r172 = r82 * r169 + (r24 * r161 - r61 * r164), r177 = r87 * r169 + (r37 * r161 - r66 * r164);
     const double r182 = r92 * r169 + (r48 * r161 - r71 * r164), r184 = r143 + r144 - 0.04054054054054054;
-    const double r187 = r166 - r167 + 0.32432432432432434, r190 = 0.8783783783783784 * c3 + 0.12162162162162163;
+    const double r187 = r166 - r167 + 0.32432432432432434;
+    const double r190 = 0.8783783783783784 * c3 + 0.12162162162162163;
     const double r193 = r82 * r190 + (r24 * r184 + r61 * r187), r198 = r87 * r190 + (r37 * r184 + r66 * r187);
     const double r203 = r92 * r190 + (r48 * r184 + r71 * r187);
     const double r220 = r112 + r126 - (0.3 * r149 - 0.1 * r172 + 0.7 * r193);
     const double r222 = r117 + r130 - (0.3 * r154 - 0.1 * r177 + 0.7 * r198);
     const double r224 = r122 + r134 - (0.3 * r159 - 0.1 * r182 + 0.7 * r203);
-    const double r229 = 0.55 * r149 + 0.05 * r172 + 0.75 * r193, r234 = 0.55 * r154 + 0.05 * r177 + 0.75 * r198;
+    const double r229 = 0.55 * r149 + 0.05 * r172 + 0.75 * r193;
+    const double r234 = 0.55 * r154 + 0.05 * r177 + 0.75 * r198;
     const double r239 = 0.55 * r159 + 0.05 * r182 + 0.75 * r203, r240 = 0.4444444444444444 * c4;
     const double r241 = r240 + 0.5555555555555556, r243 = 0.5962847939999439 * s4;
     const double r244 = 0.2222222222222222 * c4, r246 = r243 + r244 - 0.2222222222222222;
@@ -432,7 +444,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r276 = r193 * r273 - (r149 * r265 + r172 * r268);
     const double r281 = r198 * r273 - (r154 * r265 + r177 * r268);
     const double r286 = r203 * r273 - (r159 * r265 + r182 * r268), r288 = r240 + r248 - 0.4444444444444444;
-    const double r291 = r270 - r271 + 0.17777777777777778, r294 = 0.6444444444444445 * c4 + 0.35555555555555557;
+    const double r291 = r270 - r271 + 0.17777777777777778;
+    const double r294 = 0.6444444444444445 * c4 + 0.35555555555555557;
     const double r297 = r193 * r294 - (r149 * r288 - r172 * r291);
     const double r302 = r198 * r294 - (r154 * r288 - r177 * r291);
     const double r307 = r203 * r294 - (r159 * r288 - r182 * r291);
@@ -445,10 +458,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r348 = 0.13043478260869565 * c5, r350 = r347 + r348 - 0.13043478260869565;
     const double r352 = 0.8846517369293828 * s5, r353 = 0.06521739130434782 * c5;
     const double r355 = r352 - r353 + 0.06521739130434782, r358 = r253 * r345 - r276 * r350 - r297 * r355;
-    const double r363 = r258 * r345 - r281 * r350 - r302 * r355, r368 = r263 * r345 - r286 * r350 - r307 * r355;
-    const double r370 = r347 - r348 + 0.13043478260869565, r373 = 0.21739130434782608 * c5 + 0.782608695652174;
-    const double r375 = 0.14744195615489714 * s5, r376 = 0.391304347826087 * c5;
-    const double r378 = r375 + r376 - 0.391304347826087, r381 = r297 * r378 + (r253 * r370 + r276 * r373);
+    const double r363 = r258 * r345 - r281 * r350 - r302 * r355;
+    const double r368 = r263 * r345 - r286 * r350 - r307 * r355, r370 = r347 - r348 + 0.13043478260869565;
+    const double r373 = 0.21739130434782608 * c5 + 0.782608695652174, r375 = 0.14744195615489714 * s5;
+    const double r376 = 0.391304347826087 * c5, r378 = r375 + r376 - 0.391304347826087;
+    const double r381 = r297 * r378 + (r253 * r370 + r276 * r373);
     const double r386 = r302 * r378 + (r258 * r370 + r281 * r373);
     const double r391 = r307 * r378 + (r263 * r370 + r286 * r373), r393 = r352 + r353 - 0.06521739130434782;
     const double r396 = r375 - r376 + 0.391304347826087, r399 = 0.8043478260869565 * c5 + 0.1956521739130435;
@@ -464,10 +478,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r453 = 0.05084745762711865 * c6, r455 = r452 - r453 + 0.05084745762711865;
     const double r457 = 0.13018891098082389 * s6, r458 = 0.3559322033898305 * c6;
     const double r460 = r457 + r458 - 0.3559322033898305, r463 = r358 * r450 + r381 * r455 - r402 * r460;
-    const double r468 = r363 * r450 + r386 * r455 - r407 * r460, r473 = r368 * r450 + r391 * r455 - r412 * r460;
-    const double r475 = r452 + r453 - 0.05084745762711865, r478 = 0.9830508474576272 * c6 + 0.01694915254237288;
-    const double r480 = 0.3905667329424717 * s6, r481 = 0.11864406779661017 * c6;
-    const double r483 = r480 - r481 + 0.11864406779661017, r486 = r402 * r483 - (r358 * r475 - r381 * r478);
+    const double r468 = r363 * r450 + r386 * r455 - r407 * r460;
+    const double r473 = r368 * r450 + r391 * r455 - r412 * r460, r475 = r452 + r453 - 0.05084745762711865;
+    const double r478 = 0.9830508474576272 * c6 + 0.01694915254237288, r480 = 0.3905667329424717 * s6;
+    const double r481 = 0.11864406779661017 * c6, r483 = r480 - r481 + 0.11864406779661017;
+    const double r486 = r402 * r483 - (r358 * r475 - r381 * r478);
     const double r491 = r407 * r483 - (r363 * r475 - r386 * r478);
     const double r496 = r412 * r483 - (r368 * r475 - r391 * r478), r498 = r457 - r458 + 0.3559322033898305;
     const double r501 = r480 + r481 - 0.11864406779661017, r504 = 0.1694915254237288 * c6 + 0.8305084745762712;
@@ -479,12 +494,13 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r538 = r433 + r448 - (0.95 * r473 + 0.1 * r496 + 0.45 * r517);
     const double r543 = 1.1 * r463 + 0.15 * r486 + 0.3 * r507, r548 = 1.1 * r468 + 0.15 * r491 + 0.3 * r512;
     const double r553 = 1.1 * r473 + 0.15 * r496 + 0.3 * r517, r554 = r534 + r543, r555 = r536 + r548;
-    const double r556 = r538 + r553, r572 = 3.0 * r82 - (r24 - 8.0 * r61), r576 = 3.0 * r87 - (r37 - 8.0 * r66);
-    const double r580 = 3.0 * r92 - (r48 - 8.0 * r71), r585 = 5.0 * r149 + 2.0 * r172 + 4.0 * r193;
-    const double r590 = 5.0 * r154 + 2.0 * r177 + 4.0 * r198, r595 = 5.0 * r159 + 2.0 * r182 + 4.0 * r203;
-    const double r599 = r253 + 6.0 * r276 - 3.0 * r297, r603 = r258 + 6.0 * r281 - 3.0 * r302;
-    const double r607 = r263 + 6.0 * r286 - 3.0 * r307, r611 = r381 + 3.0 * r358 + 7.0 * r402;
-    const double r615 = r386 + 3.0 * r363 + 7.0 * r407, r619 = r391 + 3.0 * r368 + 7.0 * r412;
+    const double r556 = r538 + r553, r572 = 3.0 * r82 - (r24 - 8.0 * r61);
+    const double r576 = 3.0 * r87 - (r37 - 8.0 * r66), r580 = 3.0 * r92 - (r48 - 8.0 * r71);
+    const double r585 = 5.0 * r149 + 2.0 * r172 + 4.0 * r193, r590 = 5.0 * r154 + 2.0 * r177 + 4.0 * r198;
+    const double r595 = 5.0 * r159 + 2.0 * r182 + 4.0 * r203, r599 = r253 + 6.0 * r276 - 3.0 * r297;
+    const double r603 = r258 + 6.0 * r281 - 3.0 * r302, r607 = r263 + 6.0 * r286 - 3.0 * r307;
+    const double r611 = r381 + 3.0 * r358 + 7.0 * r402, r615 = r386 + 3.0 * r363 + 7.0 * r407;
+    const double r619 = r391 + 3.0 * r368 + 7.0 * r412;
     const double r622 = 0.10783277320343841 * r538 + 0.10783277320343841 * r553;
     const double r626 = r622 + 0.9704949588309457 * r536 + 0.9704949588309457 * r548;
     const double r630 = 0.9704949588309457 * r534 + 0.9704949588309457 * r543;
@@ -869,7 +885,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -888,6 +905,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -915,11 +935,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -1043,7 +1071,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2716,7 +2748,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2820,7 +2853,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -3220,7 +3254,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

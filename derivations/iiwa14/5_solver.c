@@ -142,6 +142,8 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -163,6 +165,8 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -182,7 +186,7 @@ int iiwa14_nearest(const iiwa14_solution *list, int count, const double *referen
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -267,12 +271,12 @@ static void tip(const double *at, double *reached)
     const double r14 = c3_ * r0 - s1 * s3_, r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2;
     const double r24 = s4 * r17, r25 = c4 * r3, r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2;
     const double r30 = s3_ * r0 + s1 * c3_, r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_;
-    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34;
-    const double r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47;
-    const double r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
-    const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r69 = s5 * r32 + c5 * r34;
-    const double r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13;
-    const double r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
+    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23;
+    const double r49 = c5 * r32 - s5 * r34, r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27;
+    const double r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53;
+    const double r62 = c6 * r55, r63 = c6 * r45 + s6 * r47, r65 = s5 * r28 + c5 * r30;
+    const double r67 = c6 * r49 + s6 * r51, r69 = s5 * r32 + c5 * r34, r71 = c6 * r53 + s6 * r55;
+    const double r73 = s5 * r36 + c5 * r13, r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
     const double r96 = 0.42 * r3 - 0.4 * r24 + 0.4 * r25 + 0.126 * r59;
     const double r105 = 0.42 * r2 - 0.4 * r22 + 0.4 * r23 + 0.126 * r57;
     reached[0] = r105 - 0.126 * r58;
@@ -344,12 +348,13 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r14 = c3_ * r0 - s1 * s3_, r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2;
     const double r24 = s4 * r17, r25 = c4 * r3, r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2;
     const double r30 = s3_ * r0 + s1 * c3_, r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_;
-    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34;
-    const double r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47;
-    const double r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
-    const double r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r68 = c7 * r67, r69 = s5 * r32 + c5 * r34;
-    const double r70 = s7 * r69, r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13, r82 = 0.4 * r26;
-    const double r84 = 0.4 * r27, r86 = 0.126 * r61, r88 = 0.126 * r62, r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
+    const double r36 = c4 * r8 - c2 * s4, r45 = c5 * r28 - s5 * r30, r47 = r22 - r23;
+    const double r49 = c5 * r32 - s5 * r34, r51 = r24 - r25, r53 = c5 * r36 - s5 * r13, r55 = r26 + r27;
+    const double r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49, r60 = c6 * r51, r61 = s6 * r53;
+    const double r62 = c6 * r55, r63 = c6 * r45 + s6 * r47, r65 = s5 * r28 + c5 * r30;
+    const double r67 = c6 * r49 + s6 * r51, r68 = c7 * r67, r69 = s5 * r32 + c5 * r34, r70 = s7 * r69;
+    const double r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13, r82 = 0.4 * r26, r84 = 0.4 * r27;
+    const double r86 = 0.126 * r61, r88 = 0.126 * r62, r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
     const double r91 = 0.4 * r24, r93 = 0.4 * r25, r95 = 0.126 * r59, r96 = 0.42 * r3 - r91 + r93 + r95;
     const double r97 = 0.126 * r60, r98 = r96 - r97, r100 = 0.4 * r22, r102 = 0.4 * r23, r104 = 0.126 * r57;
     const double r106 = 0.126 * r58, r107 = 0.42 * r2 - r100 + r102 + r104 - r106, r108 = r59 - r60;
@@ -357,8 +362,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r121 = s7 * r67 + c7 * r69, r122 = s7 * r63 + c7 * r65, r146 = r88 + (r82 + r84 - r86);
     const double r150 = r97 + (r91 - r93 - r95), r154 = r106 + (r100 - r102 - r104), r159 = r61 - r62;
     const double r164 = r47 * r108, r165 = r51 * r109, r170 = r65 * r108, r171 = r69 * r109;
-    const double r175 = r51 * r159 - r55 * r108, r177 = r69 * r159 - r73 * r108, r181 = r55 * r109 - r47 * r159;
-    const double r183 = r73 * r109 - r65 * r159, r195 = c7 * r71 - s7 * r73;
+    const double r175 = r51 * r159 - r55 * r108, r177 = r69 * r159 - r73 * r108;
+    const double r181 = r55 * r109 - r47 * r159, r183 = r73 * r109 - r65 * r159, r195 = c7 * r71 - s7 * r73;
     const Jacobian result = { {
         {r97 - r96, c1 * r89, r3 * r89 - c2 * r98, r34 * r146 - r13 * r150, 0.126 * r175, 0.126 * r177, 0.0},
         {r107, s1 * r89, c2 * r107 - r2 * r89, r13 * r154 - r30 * r146, 0.126 * r181, 0.126 * r183, 0.0},
@@ -669,7 +674,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -688,6 +694,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -715,11 +724,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -751,7 +768,7 @@ typedef struct {
     Solution *out;
     double relative[IIWA14_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[7][3];
@@ -851,7 +868,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1145,6 +1166,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1170,6 +1192,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1280,13 +1305,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 6, at[12], at[13]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1360,7 +1383,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1461,8 +1484,8 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r11 = p->r23_ * known->c1 - p->r13_ * known->s1, r15 = known->c3_ * r9 + known->s3_ * r11;
     const double r17 = p->r33_ * known->c2 + known->s2 * r4;
     const double r22 = known->c5 * (known->c4 * r15 + known->s4 * r17);
-    const double r24 = known->s5 * (known->c3_ * r11 - known->s3_ * r9), r25 = known->c4 * r17 - known->s4 * r15;
-    const double r26 = r22 + r24;
+    const double r24 = known->s5 * (known->c3_ * r11 - known->s3_ * r9);
+    const double r25 = known->c4 * r17 - known->s4 * r15, r26 = r22 + r24;
     const Shared6 own = { r25, r26 }, *const shared = &own;
     chart_6_1(p, known, shared, answers);
 }
@@ -1667,8 +1690,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
     const size_t before = answers->candidates;
-    const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_, r5 = 0.4 * (known->s3_ * known->s4);
-    const double r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
+    const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_;
+    const double r5 = 0.4 * (known->s3_ * known->s4), r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
     const Shared3 own = { r2, r4, r5, r6, r8 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);

@@ -335,6 +335,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -360,6 +362,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -379,7 +383,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -432,19 +436,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
-    let c3 = target[12].cos();
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11]; let c3 = target[12].cos();
     let s3 = target[12].sin();
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.306, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_)), f64::abs(c3)), f64::abs(s3));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, c3, s3, magnitude }
@@ -484,8 +478,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Chart 1 of block 1: given.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let c3_ = p.c3;
-    let s3_ = p.s3;
+    let c3_ = p.c3; let s3_ = p.s3;
     let next = Known { branch: 0, last: 1, close: false, c3_, s3_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -495,8 +488,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = 2.0 * (p.px * (p.px - 0.126 * p.r13_)) + 2.0 * (p.py * (p.py - 0.126 * p.r23_));
     let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.126 * p.r33_)) - p.px * p.px;
-    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.72 * p.pz;
-    let r24 = 0.190924 - (r21 + 0.09072 * p.r33_);
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.72 * p.pz; let r24 = 0.190924 - (r21 + 0.09072 * p.r33_);
     let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
@@ -510,8 +502,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r26 = shared.r24 * shared.r24 - 0.11289600000000001;
     let roots0 = square_roots(r26, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r30 = 0.0 - 8.857709750566892 * (0.336 * shared.r24);
-        let c4 = r30;
+        let r30 = 0.0 - 8.857709750566892 * (0.336 * shared.r24); let c4 = r30;
         let s4 = 8.857709750566892 * (0.336 * w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c4, s4, ..*known };
         block_3(p, &next, answers);
@@ -521,12 +512,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: A1.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = 0.126 * p.r23_ - p.py;
-    let r4 = p.px - 0.126 * p.r13_;
-    let r5 = 0.4 * (known.s3_ * known.s4);
-    let r6 = 0.0 - r5;
-    let r8 = f64::abs(p.magnitude + 2.486);
+    let before = answers.candidates; let r2 = 0.126 * p.r23_ - p.py; let r4 = p.px - 0.126 * p.r13_;
+    let r5 = 0.4 * (known.s3_ * known.s4); let r6 = 0.0 - r5; let r8 = f64::abs(p.magnitude + 2.486);
     let shared = &Shared3 { r2, r4, r5, r6, r8 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -539,22 +526,15 @@ struct Shared3 { r2: f64, r4: f64, r5: f64, r6: f64, r8: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r9 = shared.r2 * shared.r2;
-    let r10 = shared.r4 * shared.r4;
-    let r11 = r9 + r10;
-    let r12 = shared.r8 * shared.r8;
-    let r13 = r12 + r12;
+    let r9 = shared.r2 * shared.r2; let r10 = shared.r4 * shared.r4; let r11 = r9 + r10;
+    let r12 = shared.r8 * shared.r8; let r13 = r12 + r12;
     if !is_away(r11, 16.0 * r13) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(shared.r5 * shared.r5 - r9 - r10, f64::max(r13, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(shared.r5 * shared.r5 - r9 - r10, f64::max(r13, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r22 = w1 * shared.r2 - (0.0 - shared.r4 * shared.r5);
-        let r26 = 1.0 / r11;
-        let r27 = (shared.r2 * shared.r5 - w1 * shared.r4) * r26;
-        let c1 = r27;
-        let s1 = r22 * r26;
+        let r22 = w1 * shared.r2 - (0.0 - shared.r4 * shared.r5); let r26 = 1.0 / r11;
+        let r27 = (shared.r2 * shared.r5 - w1 * shared.r4) * r26; let c1 = r27; let s1 = r22 * r26;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -564,8 +544,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: A1.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r11 = shared.r2 * shared.r2 + shared.r4 * shared.r4;
-    let r12 = shared.r8 * shared.r8;
+    let r11 = shared.r2 * shared.r2 + shared.r4 * shared.r4; let r12 = shared.r8 * shared.r8;
     if !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), NEAR) && is_near(shared.r6, 0.0196, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), BESIDE) && is_near(shared.r6, 0.0196, BESIDE))) {
         return;
     }
@@ -579,13 +558,10 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: A2.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r8 = 0.4 * known.c4 + 0.42;
-    let r9 = 0.4 * (known.c3_ * known.s4);
+    let before = answers.candidates; let r8 = 0.4 * known.c4 + 0.42; let r9 = 0.4 * (known.c3_ * known.s4);
     let r12 = p.pz - 0.126 * p.r33_ - 0.36;
     let r13 = known.c1 * (p.px - 0.126 * p.r13_) + known.s1 * (p.py - 0.126 * p.r23_);
-    let r17 = f64::abs(p.magnitude + 2.846);
-    let r18 = f64::abs(2.0 * p.magnitude + 4.972);
+    let r17 = f64::abs(p.magnitude + 2.846); let r18 = f64::abs(2.0 * p.magnitude + 4.972);
     let shared = &Shared4 { r8, r9, r12, r13, r17, r18 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -609,12 +585,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     if !is_away(r21, 1667.8719999999998) {
         return;
     }
-    let f2 = 1.0;
-    let r25 = shared.r8 * shared.r13 - (0.0 - shared.r9 * shared.r12);
+    let f2 = 1.0; let r25 = shared.r8 * shared.r13 - (0.0 - shared.r9 * shared.r12);
     let r28 = shared.r8 * shared.r12 - shared.r9 * shared.r13;
-    let r33 = 1.0 / f64::max(r28 * r28 + r25 * r25, 0.0).sqrt();
-    let c2 = r28 * r33;
-    let s2 = r25 * r33;
+    let r33 = 1.0 / f64::max(r28 * r28 + r25 * r25, 0.0).sqrt(); let c2 = r28 * r33; let s2 = r25 * r33;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_5(p, &next, answers);
 }
@@ -637,13 +610,10 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: A5.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
-    let r9 = known.c2 * r4 - p.r33_ * known.s2;
-    let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let before = answers.candidates; let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let r9 = known.c2 * r4 - p.r33_ * known.s2; let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
     let r16 = known.c4 * (known.c3_ * r9 + known.s3_ * r11);
-    let r18 = known.s4 * (p.r33_ * known.c2 + known.s2 * r4);
-    let r19 = known.s3_ * r9 - known.c3_ * r11;
+    let r18 = known.s4 * (p.r33_ * known.c2 + known.s2 * r4); let r19 = known.s3_ * r9 - known.c3_ * r11;
     let r20 = r16 + r18;
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
@@ -664,17 +634,13 @@ struct Shared5 { r19: f64, r20: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r21 = shared.r19 * shared.r19;
-    let r22 = shared.r20 * shared.r20;
-    let r23 = r21 + r22;
+    let r21 = shared.r19 * shared.r19; let r22 = shared.r20 * shared.r20; let r23 = r21 + r22;
     if !is_away(r23, 28240.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r21 - r22, known.f2 * (42.01190307520001 * known.f1));
     for (i0, &w5) in roots0.as_slice().iter().enumerate().take(1) {
-        let r30 = 1.0 / r23;
-        let c5 = 0.0 - w5 * shared.r20 * r30;
-        let s5 = w5 * shared.r19 * r30;
+        let r30 = 1.0 / r23; let c5 = 0.0 - w5 * shared.r20 * r30; let s5 = w5 * shared.r19 * r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c5, s5, ..*known };
         block_6(p, &next, answers);
     }
@@ -697,14 +663,10 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, ans
 /// Block 6: A6.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
-    let r9 = known.c2 * r4 - p.r33_ * known.s2;
-    let r11 = p.r23_ * known.c1 - p.r13_ * known.s1;
-    let r15 = known.c3_ * r9 + known.s3_ * r11;
-    let r17 = p.r33_ * known.c2 + known.s2 * r4;
-    let r24 = known.s5 * (known.c3_ * r11 - known.s3_ * r9);
-    let r25 = known.c4 * r17 - known.s4 * r15;
-    let r26 = known.c5 * (known.c4 * r15 + known.s4 * r17) + r24;
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1; let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r11 = p.r23_ * known.c1 - p.r13_ * known.s1; let r15 = known.c3_ * r9 + known.s3_ * r11;
+    let r17 = p.r33_ * known.c2 + known.s2 * r4; let r24 = known.s5 * (known.c3_ * r11 - known.s3_ * r9);
+    let r25 = known.c4 * r17 - known.s4 * r15; let r26 = known.c5 * (known.c4 * r15 + known.s4 * r17) + r24;
     let shared = &Shared6 { r25, r26 };
     chart_6_1(p, known, shared, answers);
 }
@@ -722,10 +684,8 @@ struct Shared6 { r25: f64, r26: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r29 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
-    let r31 = 1.0 / f64::max(r29, 0.0).sqrt();
-    let c6 = shared.r25 * r31;
-    let s6 = shared.r26 * r31;
+    let r29 = shared.r25 * shared.r25 + shared.r26 * shared.r26; let r31 = 1.0 / f64::max(r29, 0.0).sqrt();
+    let c6 = shared.r25 * r31; let s6 = shared.r26 * r31;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c6, s6, ..*known };
     block_7(p, &next, answers);
 }
@@ -733,19 +693,14 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Block 7: A7.
 #[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
-    let r9 = known.c2 * r4 - p.r32_ * known.s2;
-    let r11 = p.r22_ * known.c1 - p.r12_ * known.s1;
-    let r16 = known.c4 * (known.c3_ * r9 + known.s3_ * r11);
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1; let r9 = known.c2 * r4 - p.r32_ * known.s2;
+    let r11 = p.r22_ * known.c1 - p.r12_ * known.s1; let r16 = known.c4 * (known.c3_ * r9 + known.s3_ * r11);
     let r18 = known.s4 * (p.r32_ * known.c2 + known.s2 * r4);
-    let r21 = known.c5 * (known.c3_ * r11 - known.s3_ * r9);
-    let r27 = p.r11_ * known.c1 + p.r21_ * known.s1;
-    let r32 = known.c2 * r27 - p.r31_ * known.s2;
-    let r34 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let r21 = known.c5 * (known.c3_ * r11 - known.s3_ * r9); let r27 = p.r11_ * known.c1 + p.r21_ * known.s1;
+    let r32 = known.c2 * r27 - p.r31_ * known.s2; let r34 = p.r21_ * known.c1 - p.r11_ * known.s1;
     let r39 = known.c4 * (known.c3_ * r32 + known.s3_ * r34);
     let r41 = known.s4 * (p.r31_ * known.c2 + known.s2 * r27);
-    let r44 = known.c5 * (known.c3_ * r34 - known.s3_ * r32);
-    let r46 = r21 - known.s5 * (r16 + r18);
+    let r44 = known.c5 * (known.c3_ * r34 - known.s3_ * r32); let r46 = r21 - known.s5 * (r16 + r18);
     let r47 = r44 - known.s5 * (r39 + r41);
     let shared = &Shared7 { r46, r47 };
     chart_7_1(p, known, shared, answers);
@@ -757,10 +712,8 @@ struct Shared7 { r46: f64, r47: f64 }
 /// Chart 1 of block 7: generic.
 #[inline(always)]
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r50 = shared.r46 * shared.r46 + shared.r47 * shared.r47;
-    let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
-    let c7 = shared.r46 * r52;
-    let s7 = shared.r47 * r52;
+    let r50 = shared.r46 * shared.r46 + shared.r47 * shared.r47; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
+    let c7 = shared.r46 * r52; let s7 = shared.r47 * r52;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3_, known.s3_, known.c4, known.s4, known.c5,
         known.s5, known.c6, known.s6, c7, s7,
@@ -782,44 +735,16 @@ const TIP: usize = 14;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c6, s6, c7, s7] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r8 = s2 * c3_;
-    let r13 = s2 * s3_;
-    let r14 = c3_ * r0 - s1 * s3_;
-    let r17 = c3_ * r1 + c1 * s3_;
-    let r22 = s4 * r14;
-    let r23 = c4 * r2;
-    let r24 = s4 * r17;
-    let r25 = c4 * r3;
-    let r26 = s4 * r8;
-    let r27 = c2 * c4;
-    let r28 = c4 * r14 + s4 * r2;
-    let r30 = s3_ * r0 + s1 * c3_;
-    let r32 = c4 * r17 + s4 * r3;
-    let r34 = s3_ * r1 - c1 * c3_;
-    let r36 = c4 * r8 - c2 * s4;
-    let r45 = c5 * r28 - s5 * r30;
-    let r47 = r22 - r23;
-    let r49 = c5 * r32 - s5 * r34;
-    let r51 = r24 - r25;
-    let r53 = c5 * r36 - s5 * r13;
-    let r55 = r26 + r27;
-    let r57 = s6 * r45;
-    let r58 = c6 * r47;
-    let r59 = s6 * r49;
-    let r60 = c6 * r51;
-    let r61 = s6 * r53;
-    let r62 = c6 * r55;
-    let r63 = c6 * r45 + s6 * r47;
-    let r65 = s5 * r28 + c5 * r30;
-    let r67 = c6 * r49 + s6 * r51;
-    let r69 = s5 * r32 + c5 * r34;
-    let r71 = c6 * r53 + s6 * r55;
-    let r73 = s5 * r36 + c5 * r13;
-    let r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r8 = s2 * c3_;
+    let r13 = s2 * s3_; let r14 = c3_ * r0 - s1 * s3_; let r17 = c3_ * r1 + c1 * s3_; let r22 = s4 * r14;
+    let r23 = c4 * r2; let r24 = s4 * r17; let r25 = c4 * r3; let r26 = s4 * r8; let r27 = c2 * c4;
+    let r28 = c4 * r14 + s4 * r2; let r30 = s3_ * r0 + s1 * c3_; let r32 = c4 * r17 + s4 * r3;
+    let r34 = s3_ * r1 - c1 * c3_; let r36 = c4 * r8 - c2 * s4; let r45 = c5 * r28 - s5 * r30;
+    let r47 = r22 - r23; let r49 = c5 * r32 - s5 * r34; let r51 = r24 - r25; let r53 = c5 * r36 - s5 * r13;
+    let r55 = r26 + r27; let r57 = s6 * r45; let r58 = c6 * r47; let r59 = s6 * r49; let r60 = c6 * r51;
+    let r61 = s6 * r53; let r62 = c6 * r55; let r63 = c6 * r45 + s6 * r47; let r65 = s5 * r28 + c5 * r30;
+    let r67 = c6 * r49 + s6 * r51; let r69 = s5 * r32 + c5 * r34; let r71 = c6 * r53 + s6 * r55;
+    let r73 = s5 * r36 + c5 * r13; let r87 = 0.42 * c2 + 0.4 * r26 + 0.4 * r27 - 0.126 * r61;
     let r96 = 0.42 * r3 - 0.4 * r24 + 0.4 * r25 + 0.126 * r59;
     let r105 = 0.42 * r2 - 0.4 * r22 + 0.4 * r23 + 0.126 * r57;
     [
@@ -886,80 +811,26 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c6, s6, c7, s7] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r8 = s2 * c3_;
-    let r13 = s2 * s3_;
-    let r14 = c3_ * r0 - s1 * s3_;
-    let r17 = c3_ * r1 + c1 * s3_;
-    let r22 = s4 * r14;
-    let r23 = c4 * r2;
-    let r24 = s4 * r17;
-    let r25 = c4 * r3;
-    let r26 = s4 * r8;
-    let r27 = c2 * c4;
-    let r28 = c4 * r14 + s4 * r2;
-    let r30 = s3_ * r0 + s1 * c3_;
-    let r32 = c4 * r17 + s4 * r3;
-    let r34 = s3_ * r1 - c1 * c3_;
-    let r36 = c4 * r8 - c2 * s4;
-    let r45 = c5 * r28 - s5 * r30;
-    let r47 = r22 - r23;
-    let r49 = c5 * r32 - s5 * r34;
-    let r51 = r24 - r25;
-    let r53 = c5 * r36 - s5 * r13;
-    let r55 = r26 + r27;
-    let r57 = s6 * r45;
-    let r58 = c6 * r47;
-    let r59 = s6 * r49;
-    let r60 = c6 * r51;
-    let r61 = s6 * r53;
-    let r62 = c6 * r55;
-    let r63 = c6 * r45 + s6 * r47;
-    let r65 = s5 * r28 + c5 * r30;
-    let r67 = c6 * r49 + s6 * r51;
-    let r68 = c7 * r67;
-    let r69 = s5 * r32 + c5 * r34;
-    let r70 = s7 * r69;
-    let r71 = c6 * r53 + s6 * r55;
-    let r73 = s5 * r36 + c5 * r13;
-    let r82 = 0.4 * r26;
-    let r84 = 0.4 * r27;
-    let r86 = 0.126 * r61;
-    let r88 = 0.126 * r62;
-    let r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
-    let r91 = 0.4 * r24;
-    let r93 = 0.4 * r25;
-    let r95 = 0.126 * r59;
-    let r96 = 0.42 * r3 - r91 + r93 + r95;
-    let r97 = 0.126 * r60;
-    let r98 = r96 - r97;
-    let r100 = 0.4 * r22;
-    let r102 = 0.4 * r23;
-    let r104 = 0.126 * r57;
-    let r106 = 0.126 * r58;
-    let r107 = 0.42 * r2 - r100 + r102 + r104 - r106;
-    let r108 = r59 - r60;
-    let r109 = r57 - r58;
-    let r114 = r68 - r70;
-    let r115 = c7 * r63 - s7 * r65;
-    let r120 = s7 * r71 + c7 * r73;
-    let r121 = s7 * r67 + c7 * r69;
-    let r122 = s7 * r63 + c7 * r65;
-    let r146 = r88 + (r82 + r84 - r86);
-    let r150 = r97 + (r91 - r93 - r95);
-    let r154 = r106 + (r100 - r102 - r104);
-    let r159 = r61 - r62;
-    let r164 = r47 * r108;
-    let r165 = r51 * r109;
-    let r170 = r65 * r108;
-    let r171 = r69 * r109;
-    let r175 = r51 * r159 - r55 * r108;
-    let r177 = r69 * r159 - r73 * r108;
-    let r181 = r55 * r109 - r47 * r159;
-    let r183 = r73 * r109 - r65 * r159;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r8 = s2 * c3_;
+    let r13 = s2 * s3_; let r14 = c3_ * r0 - s1 * s3_; let r17 = c3_ * r1 + c1 * s3_; let r22 = s4 * r14;
+    let r23 = c4 * r2; let r24 = s4 * r17; let r25 = c4 * r3; let r26 = s4 * r8; let r27 = c2 * c4;
+    let r28 = c4 * r14 + s4 * r2; let r30 = s3_ * r0 + s1 * c3_; let r32 = c4 * r17 + s4 * r3;
+    let r34 = s3_ * r1 - c1 * c3_; let r36 = c4 * r8 - c2 * s4; let r45 = c5 * r28 - s5 * r30;
+    let r47 = r22 - r23; let r49 = c5 * r32 - s5 * r34; let r51 = r24 - r25; let r53 = c5 * r36 - s5 * r13;
+    let r55 = r26 + r27; let r57 = s6 * r45; let r58 = c6 * r47; let r59 = s6 * r49; let r60 = c6 * r51;
+    let r61 = s6 * r53; let r62 = c6 * r55; let r63 = c6 * r45 + s6 * r47; let r65 = s5 * r28 + c5 * r30;
+    let r67 = c6 * r49 + s6 * r51; let r68 = c7 * r67; let r69 = s5 * r32 + c5 * r34; let r70 = s7 * r69;
+    let r71 = c6 * r53 + s6 * r55; let r73 = s5 * r36 + c5 * r13; let r82 = 0.4 * r26; let r84 = 0.4 * r27;
+    let r86 = 0.126 * r61; let r88 = 0.126 * r62; let r89 = 0.42 * c2 + r82 + r84 - r86 + r88;
+    let r91 = 0.4 * r24; let r93 = 0.4 * r25; let r95 = 0.126 * r59; let r96 = 0.42 * r3 - r91 + r93 + r95;
+    let r97 = 0.126 * r60; let r98 = r96 - r97; let r100 = 0.4 * r22; let r102 = 0.4 * r23;
+    let r104 = 0.126 * r57; let r106 = 0.126 * r58; let r107 = 0.42 * r2 - r100 + r102 + r104 - r106;
+    let r108 = r59 - r60; let r109 = r57 - r58; let r114 = r68 - r70; let r115 = c7 * r63 - s7 * r65;
+    let r120 = s7 * r71 + c7 * r73; let r121 = s7 * r67 + c7 * r69; let r122 = s7 * r63 + c7 * r65;
+    let r146 = r88 + (r82 + r84 - r86); let r150 = r97 + (r91 - r93 - r95);
+    let r154 = r106 + (r100 - r102 - r104); let r159 = r61 - r62; let r164 = r47 * r108; let r165 = r51 * r109;
+    let r170 = r65 * r108; let r171 = r69 * r109; let r175 = r51 * r159 - r55 * r108;
+    let r177 = r69 * r159 - r73 * r108; let r181 = r55 * r109 - r47 * r159; let r183 = r73 * r109 - r65 * r159;
     let r195 = c7 * r71 - s7 * r73;
     [
         [r97 - r96, c1 * r89, r3 * r89 - c2 * r98, r34 * r146 - r13 * r150, 0.126 * r175, 0.126 * r177, 0.0],
@@ -987,7 +858,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -998,20 +869,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1040,6 +912,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1383,7 +1258,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1452,12 +1331,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1468,6 +1352,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1863,8 +1750,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -141,6 +141,8 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -162,6 +164,8 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -181,7 +185,7 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -260,12 +264,12 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13, r22 = r14 - r15, r23 = s4 * r22;
-    const double r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17, r33 = r6 - r7;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13, r22 = r14 - r15;
+    const double r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17, r33 = r6 - r7;
     const double r35 = c1 * s4 - c4 * r20, r37 = r8 + r9, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33;
     const double r43 = c5 * r35, r44 = s5 * r37, r45 = c5 * r28, r46 = c5 * r29 - s5 * r31;
     const double r48 = s1 * c4 - s4 * r17, r50 = c5 * r33 + s5 * r35, r52 = c1 * c4 + s4 * r20;
@@ -332,12 +336,12 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13, r22 = r14 - r15, r23 = s4 * r22;
-    const double r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17, r33 = r6 - r7;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r17 = r10 + r11, r20 = r12 + r13, r22 = r14 - r15;
+    const double r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5, r31 = s1 * s4 + c4 * r17, r33 = r6 - r7;
     const double r35 = c1 * s4 - c4 * r20, r37 = r8 + r9, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33;
     const double r43 = c5 * r35, r44 = s5 * r37, r45 = c5 * r28, r46 = c5 * r29 - s5 * r31;
     const double r48 = s1 * c4 - s4 * r17, r50 = c5 * r33 + s5 * r35, r52 = c1 * c4 + s4 * r20;
@@ -354,10 +358,10 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r156 = r33 * r103, r165 = r33 * r102 - r37 * r151, r167 = r52 * r102 - r23 * r151;
     const double r170 = r37 * r103 - r29 * r102, r172 = r23 * r103 + r48 * r102;
     const double r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
-    const double r181 = r48 * r151 + r52 * r103, r183 = c1 * r108, r184 = s1 * r108, r185 = c6 * r50 - s6 * r52;
-    const double r212 = s1 * r185 + c1 * r109, r239 = 0.0 - c1 * r115, r243 = 0.0 - s1 * r115;
-    const double r249 = 0.0 - (s1 * r116 + c1 * r117), r254 = c1 * r102, r255 = s1 * r102;
-    const double r258 = s1 * r151 + c1 * r103;
+    const double r181 = r48 * r151 + r52 * r103, r183 = c1 * r108, r184 = s1 * r108;
+    const double r185 = c6 * r50 - s6 * r52, r212 = s1 * r185 + c1 * r109, r239 = 0.0 - c1 * r115;
+    const double r243 = 0.0 - s1 * r115, r249 = 0.0 - (s1 * r116 + c1 * r117), r254 = c1 * r102;
+    const double r255 = s1 * r102, r258 = s1 * r151 + c1 * r103;
     const Jacobian result = { {
         {0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0},
         {r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0},
@@ -665,7 +669,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -684,6 +689,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -711,11 +719,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -747,7 +763,7 @@ typedef struct {
     Solution *out;
     double relative[IRB120_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -846,7 +862,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1140,6 +1160,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1165,6 +1186,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1273,13 +1297,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1353,7 +1375,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.0300064515457703, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -475,9 +470,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Axis1.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = 0.16 * p.r23_ - p.py;
-    let r3 = p.px - 0.16 * p.r13_;
+    let before = answers.candidates; let r1 = 0.16 * p.r23_ - p.py; let r3 = p.px - 0.16 * p.r13_;
     let r5 = f64::abs(p.magnitude + 1.704);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
@@ -491,20 +484,14 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r17 = 1.0 / r8;
-        let c1 = 0.0 - w1 * shared.r3 * r17;
-        let s1 = w1 * shared.r1 * r17;
+        let r17 = 1.0 / r8; let c1 = 0.0 - w1 * shared.r3 * r17; let s1 = w1 * shared.r1 * r17;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -514,8 +501,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Axis1.
 fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
-    let r9 = shared.r5 * shared.r5;
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3; let r9 = shared.r5 * shared.r5;
     if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE)) {
         return;
     }
@@ -531,8 +517,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = 2.0 * (p.px * (p.px - 0.16 * p.r13_)) + 2.0 * (p.py * (p.py - 0.16 * p.r23_));
     let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.16 * p.r33_)) - p.px * p.px;
-    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.58 * p.pz;
-    let r24 = 0.059304 - (r21 + 0.0928 * p.r33_);
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.58 * p.pz; let r24 = 0.059304 - (r21 + 0.0928 * p.r33_);
     let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
@@ -554,8 +539,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let roots0 = square_roots(r27, 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r36 = 35.683793403054324 * (0.16308 * w3 - 0.0378 * shared.r24);
-        let r37 = 35.683793403054324 * (0.0378 * w3 - (0.0 - 0.16308 * shared.r24));
-        let c3 = r36;
+        let r37 = 35.683793403054324 * (0.0378 * w3 - (0.0 - 0.16308 * shared.r24)); let c3 = r36;
         let s3 = r37;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
@@ -565,13 +549,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Axis2.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r9 = 0.07 * known.c3 - 0.302 * known.s3 + 0.27;
-    let r12 = 0.302 * known.c3 + 0.07 * known.s3;
-    let r15 = p.pz - 0.16 * p.r33_ - 0.29;
+    let before = answers.candidates; let r9 = 0.07 * known.c3 - 0.302 * known.s3 + 0.27;
+    let r12 = 0.302 * known.c3 + 0.07 * known.s3; let r15 = p.pz - 0.16 * p.r33_ - 0.29;
     let r16 = known.c1 * (p.px - 0.16 * p.r13_) + known.s1 * (p.py - 0.16 * p.r23_);
-    let r20 = f64::abs(p.magnitude + 1.994);
-    let r21 = f64::abs(2.0 * p.magnitude + 3.408);
+    let r20 = f64::abs(p.magnitude + 1.994); let r21 = f64::abs(2.0 * p.magnitude + 3.408);
     let shared = &Shared3 { r9, r12, r15, r16, r20, r21 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -588,12 +569,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r24, 123.37644800000001) {
         return;
     }
-    let f2 = 1.0;
-    let r27 = shared.r9 * shared.r16 - shared.r12 * shared.r15;
+    let f2 = 1.0; let r27 = shared.r9 * shared.r16 - shared.r12 * shared.r15;
     let r31 = shared.r12 * shared.r16 - (0.0 - shared.r9 * shared.r15);
-    let r36 = 1.0 / f64::max(r31 * r31 + r27 * r27, 0.0).sqrt();
-    let c2 = r31 * r36;
-    let s2 = r27 * r36;
+    let r36 = 1.0 / f64::max(r31 * r31 + r27 * r27, 0.0).sqrt(); let c2 = r31 * r36; let s2 = r27 * r36;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -616,11 +594,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: Axis4.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let before = answers.candidates; let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
     let r11 = known.c3 * (p.r33_ * known.c2 + known.s2 * r4);
-    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2);
-    let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
+    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2); let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
     let r14 = r11 + r12;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
@@ -641,17 +617,13 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r24 = 1.0 / r17;
-        let c4 = w4 * shared.r14 * r24;
-        let s4 = w4 * shared.r13 * r24;
+        let r24 = 1.0 / r17; let c4 = w4 * shared.r14 * r24; let s4 = w4 * shared.r13 * r24;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -674,11 +646,8 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: Axis5.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
-    let r9 = known.c2 * r4 - p.r33_ * known.s2;
-    let r10 = known.c3 * r9;
-    let r11 = p.r33_ * known.c2 + known.s2 * r4;
-    let r12 = known.s3 * r11;
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1; let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r10 = known.c3 * r9; let r11 = p.r33_ * known.c2 + known.s2 * r4; let r12 = known.s3 * r11;
     let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
     let r19 = r18 - known.c4 * (known.c3 * r11 + known.s3 * r9);
     let shared = &Shared5 { r10, r12, r19 };
@@ -698,11 +667,8 @@ struct Shared5 { r10: f64, r12: f64, r19: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r20 = shared.r12 - shared.r10;
-    let r24 = f64::max(shared.r19 * shared.r19 + r20 * r20, 0.0).sqrt();
-    let r25 = 1.0 / r24;
-    let c5 = shared.r19 * r25;
-    let s5 = r20 * r25;
+    let r20 = shared.r12 - shared.r10; let r24 = f64::max(shared.r19 * shared.r19 + r20 * r20, 0.0).sqrt();
+    let r25 = 1.0 / r24; let c5 = shared.r19 * r25; let s5 = r20 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -710,15 +676,12 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: Axis6.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
-    let r11 = known.c3 * (p.r32_ * known.c2 + known.s2 * r4);
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1; let r11 = known.c3 * (p.r32_ * known.c2 + known.s2 * r4);
     let r12 = known.s3 * (known.c2 * r4 - p.r32_ * known.s2);
     let r14 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
-    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1;
-    let r28 = known.c3 * (p.r31_ * known.c2 + known.s2 * r21);
+    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1; let r28 = known.c3 * (p.r31_ * known.c2 + known.s2 * r21);
     let r29 = known.s3 * (known.c2 * r21 - p.r31_ * known.s2);
-    let r31 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
-    let r34 = r14 + known.s4 * (r11 + r12);
+    let r31 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1); let r34 = r14 + known.s4 * (r11 + r12);
     let r35 = r31 + known.s4 * (r28 + r29);
     let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
@@ -730,10 +693,8 @@ struct Shared6 { r34: f64, r35: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35;
-    let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
-    let c6 = shared.r34 * r40;
-    let s6 = shared.r35 * r40;
+    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35; let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r34 * r40; let s6 = shared.r35 * r40;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
         known.s5, c6, s6,
@@ -755,43 +716,14 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r17 = r10 + r11;
-    let r20 = r12 + r13;
-    let r22 = r14 - r15;
-    let r23 = s4 * r22;
-    let r28 = c4 * r22;
-    let r29 = r4 - r5;
-    let r31 = s1 * s4 + c4 * r17;
-    let r33 = r6 - r7;
-    let r35 = c1 * s4 - c4 * r20;
-    let r37 = r8 + r9;
-    let r40 = s5 * r29;
-    let r41 = c5 * r31;
-    let r42 = s5 * r33;
-    let r43 = c5 * r35;
-    let r44 = s5 * r37;
-    let r45 = c5 * r28;
-    let r46 = c5 * r29 - s5 * r31;
-    let r48 = s1 * c4 - s4 * r17;
-    let r50 = c5 * r33 + s5 * r35;
-    let r52 = c1 * c4 + s4 * r20;
-    let r54 = c5 * r37 - s5 * r28;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r17 = r10 + r11; let r20 = r12 + r13; let r22 = r14 - r15; let r23 = s4 * r22; let r28 = c4 * r22;
+    let r29 = r4 - r5; let r31 = s1 * s4 + c4 * r17; let r33 = r6 - r7; let r35 = c1 * s4 - c4 * r20;
+    let r37 = r8 + r9; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33; let r43 = c5 * r35;
+    let r44 = s5 * r37; let r45 = c5 * r28; let r46 = c5 * r29 - s5 * r31; let r48 = s1 * c4 - s4 * r17;
+    let r50 = c5 * r33 + s5 * r35; let r52 = c1 * c4 + s4 * r20; let r54 = c5 * r37 - s5 * r28;
     let r69 = 0.27 * c2 - 0.07 * r14 + 0.07 * r15 - 0.302 * r8;
     let r82 = 0.27 * r3 + 0.07 * r12 + 0.07 * r13 + 0.302 * r6;
     let r95 = 0.27 * r2 + 0.07 * r10 + 0.07 * r11 + 0.302 * r4;
@@ -857,91 +789,30 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r17 = r10 + r11;
-    let r20 = r12 + r13;
-    let r22 = r14 - r15;
-    let r23 = s4 * r22;
-    let r28 = c4 * r22;
-    let r29 = r4 - r5;
-    let r31 = s1 * s4 + c4 * r17;
-    let r33 = r6 - r7;
-    let r35 = c1 * s4 - c4 * r20;
-    let r37 = r8 + r9;
-    let r40 = s5 * r29;
-    let r41 = c5 * r31;
-    let r42 = s5 * r33;
-    let r43 = c5 * r35;
-    let r44 = s5 * r37;
-    let r45 = c5 * r28;
-    let r46 = c5 * r29 - s5 * r31;
-    let r48 = s1 * c4 - s4 * r17;
-    let r50 = c5 * r33 + s5 * r35;
-    let r52 = c1 * c4 + s4 * r20;
-    let r54 = c5 * r37 - s5 * r28;
-    let r64 = 0.07 * r14;
-    let r66 = 0.07 * r15;
-    let r68 = 0.302 * r8;
-    let r70 = 0.302 * r9;
-    let r72 = 0.16 * r44;
-    let r74 = 0.16 * r45;
-    let r75 = 0.27 * c2 - r64 + r66 - r68 - r70 + r72 + r74;
-    let r77 = 0.07 * r12;
-    let r79 = 0.07 * r13;
-    let r81 = 0.302 * r6;
-    let r83 = 0.302 * r7;
-    let r85 = 0.16 * r42;
-    let r87 = 0.16 * r43;
-    let r88 = 0.27 * r3 + r77 + r79 + r81 - r83 - r85 + r87;
-    let r90 = 0.07 * r10;
-    let r92 = 0.07 * r11;
-    let r94 = 0.302 * r4;
-    let r96 = 0.302 * r5;
-    let r98 = 0.16 * r40;
-    let r100 = 0.16 * r41;
-    let r101 = 0.27 * r2 + r90 + r92 + r94 - r96 - r98 - r100;
-    let r102 = r44 + r45;
-    let r103 = r40 + r41;
-    let r108 = c6 * r54 - s6 * r23;
-    let r109 = c6 * r46 + s6 * r48;
-    let r115 = s6 * r54 + c6 * r23;
-    let r116 = s6 * r50 + c6 * r52;
-    let r117 = s6 * r46 - c6 * r48;
-    let r135 = r70 + (r68 + (r64 - r66)) - r72 - r74;
-    let r151 = r42 - r43;
-    let r155 = r29 * r151;
-    let r156 = r33 * r103;
-    let r165 = r33 * r102 - r37 * r151;
-    let r167 = r52 * r102 - r23 * r151;
-    let r170 = r37 * r103 - r29 * r102;
-    let r172 = r23 * r103 + r48 * r102;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r17 = r10 + r11; let r20 = r12 + r13; let r22 = r14 - r15; let r23 = s4 * r22; let r28 = c4 * r22;
+    let r29 = r4 - r5; let r31 = s1 * s4 + c4 * r17; let r33 = r6 - r7; let r35 = c1 * s4 - c4 * r20;
+    let r37 = r8 + r9; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33; let r43 = c5 * r35;
+    let r44 = s5 * r37; let r45 = c5 * r28; let r46 = c5 * r29 - s5 * r31; let r48 = s1 * c4 - s4 * r17;
+    let r50 = c5 * r33 + s5 * r35; let r52 = c1 * c4 + s4 * r20; let r54 = c5 * r37 - s5 * r28;
+    let r64 = 0.07 * r14; let r66 = 0.07 * r15; let r68 = 0.302 * r8; let r70 = 0.302 * r9;
+    let r72 = 0.16 * r44; let r74 = 0.16 * r45; let r75 = 0.27 * c2 - r64 + r66 - r68 - r70 + r72 + r74;
+    let r77 = 0.07 * r12; let r79 = 0.07 * r13; let r81 = 0.302 * r6; let r83 = 0.302 * r7;
+    let r85 = 0.16 * r42; let r87 = 0.16 * r43; let r88 = 0.27 * r3 + r77 + r79 + r81 - r83 - r85 + r87;
+    let r90 = 0.07 * r10; let r92 = 0.07 * r11; let r94 = 0.302 * r4; let r96 = 0.302 * r5;
+    let r98 = 0.16 * r40; let r100 = 0.16 * r41; let r101 = 0.27 * r2 + r90 + r92 + r94 - r96 - r98 - r100;
+    let r102 = r44 + r45; let r103 = r40 + r41; let r108 = c6 * r54 - s6 * r23; let r109 = c6 * r46 + s6 * r48;
+    let r115 = s6 * r54 + c6 * r23; let r116 = s6 * r50 + c6 * r52; let r117 = s6 * r46 - c6 * r48;
+    let r135 = r70 + (r68 + (r64 - r66)) - r72 - r74; let r151 = r42 - r43; let r155 = r29 * r151;
+    let r156 = r33 * r103; let r165 = r33 * r102 - r37 * r151; let r167 = r52 * r102 - r23 * r151;
+    let r170 = r37 * r103 - r29 * r102; let r172 = r23 * r103 + r48 * r102;
     let r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
-    let r181 = r48 * r151 + r52 * r103;
-    let r183 = c1 * r108;
-    let r184 = s1 * r108;
-    let r185 = c6 * r50 - s6 * r52;
-    let r212 = s1 * r185 + c1 * r109;
-    let r239 = 0.0 - c1 * r115;
-    let r243 = 0.0 - s1 * r115;
-    let r249 = 0.0 - (s1 * r116 + c1 * r117);
-    let r254 = c1 * r102;
-    let r255 = s1 * r102;
-    let r258 = s1 * r151 + c1 * r103;
+    let r181 = r48 * r151 + r52 * r103; let r183 = c1 * r108; let r184 = s1 * r108;
+    let r185 = c6 * r50 - s6 * r52; let r212 = s1 * r185 + c1 * r109; let r239 = 0.0 - c1 * r115;
+    let r243 = 0.0 - s1 * r115; let r249 = 0.0 - (s1 * r116 + c1 * r117); let r254 = c1 * r102;
+    let r255 = s1 * r102; let r258 = s1 * r151 + c1 * r103;
     [
         [0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0],
         [r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0],
@@ -966,7 +837,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -977,20 +848,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1019,6 +891,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1361,7 +1236,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1430,12 +1309,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1446,6 +1330,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1841,8 +1728,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -104,6 +104,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -125,6 +127,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -144,7 +148,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -219,10 +223,10 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r1 = 1e-5 * s1, r4 = 1e-5 * c1, r6 = c1 * c2;
-    const double r7 = s1 * c2, r8 = c1 * s2, r9 = s1 * s2, r10 = 0.175 * r6, r14 = 0.175 * r7, r18 = 0.175 * s2;
-    const double r23 = 2e-5 * s1, r27 = 2e-5 * c1;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r1 = 1e-5 * s1, r4 = 1e-5 * c1;
+    const double r6 = c1 * c2, r7 = s1 * c2, r8 = c1 * s2, r9 = s1 * s2, r10 = 0.175 * r6, r14 = 0.175 * r7;
+    const double r18 = 0.175 * s2, r23 = 2e-5 * s1, r27 = 2e-5 * c1;
     const double r33 = 0.175 * c1 - r1 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
     const double r34 = 0.175 * s1 + r4 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
     const double r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)), r39 = c3 * r6 - s3 * r8;
@@ -258,8 +262,10 @@ static void tip(const double *at, double *reached)
     const double r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
     const double r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
     const double r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
-    const double r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110), r227 = r225 + c5 * r130;
-    const double r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117), r234 = r232 + c5 * r136;
+    const double r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110);
+    const double r227 = r225 + c5 * r130;
+    const double r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117);
+    const double r234 = r232 + c5 * r136;
     const double r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122);
     const double r241 = r239 + c5 * r140, r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
     const double r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
@@ -267,10 +273,10 @@ static void tip(const double *at, double *reached)
     const double r265 = 1.27001 * r193, r270 = 1.27001 * r200;
     const double r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
     const double r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
-    const double r277 = r158 + r173 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241), r280 = c6 * r208 + s6 * r227;
-    const double r283 = c6 * r214 + s6 * r234, r286 = c6 * r220 + s6 * r241, r287 = s6 * r208, r288 = c6 * r227;
-    const double r291 = s6 * r214, r292 = c6 * r234, r295 = s6 * r220, r296 = c6 * r241;
-    const double r302 = r260 + 1e-5 * r280 + 1.57002 * (r288 - r287);
+    const double r277 = r158 + r173 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241);
+    const double r280 = c6 * r208 + s6 * r227, r283 = c6 * r214 + s6 * r234, r286 = c6 * r220 + s6 * r241;
+    const double r287 = s6 * r208, r288 = c6 * r227, r291 = s6 * r214, r292 = c6 * r234, r295 = s6 * r220;
+    const double r296 = c6 * r241, r302 = r260 + 1e-5 * r280 + 1.57002 * (r288 - r287);
     const double r306 = r265 + 1e-5 * r283 + 1.57002 * (r292 - r291);
     const double r310 = r270 + 1e-5 * r286 + 1.57002 * (r296 - r295);
     reached[0] = r302 + (r275 - r302);
@@ -332,10 +338,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r1 = 1e-5 * s1, r2 = 0.175 * c1 - r1;
-    const double r4 = 1e-5 * c1, r5 = 0.175 * s1 + r4, r6 = c1 * c2, r7 = s1 * c2, r8 = c1 * s2, r9 = s1 * s2;
-    const double r10 = 0.175 * r6, r14 = 0.175 * r7, r18 = 0.175 * s2, r23 = 2e-5 * s1, r27 = 2e-5 * c1;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r1 = 1e-5 * s1;
+    const double r2 = 0.175 * c1 - r1, r4 = 1e-5 * c1, r5 = 0.175 * s1 + r4, r6 = c1 * c2, r7 = s1 * c2;
+    const double r8 = c1 * s2, r9 = s1 * s2, r10 = 0.175 * r6, r14 = 0.175 * r7, r18 = 0.175 * s2;
+    const double r23 = 2e-5 * s1, r27 = 2e-5 * c1;
     const double r33 = r2 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
     const double r34 = r5 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
     const double r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)), r39 = c3 * r6 - s3 * r8;
@@ -370,8 +377,10 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
     const double r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
     const double r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
-    const double r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110), r227 = r225 + c5 * r130;
-    const double r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117), r234 = r232 + c5 * r136;
+    const double r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110);
+    const double r227 = r225 + c5 * r130;
+    const double r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117);
+    const double r234 = r232 + c5 * r136;
     const double r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122);
     const double r241 = r239 + c5 * r140, r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
     const double r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
@@ -380,15 +389,16 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
     const double r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
     const double r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241), r280 = c6 * r208 + s6 * r227;
-    const double r283 = c6 * r214 + s6 * r234, r286 = c6 * r220 + s6 * r241, r287 = s6 * r208, r288 = c6 * r227;
-    const double r290 = r288 - r287, r294 = c6 * r234 - s6 * r214, r298 = c6 * r241 - s6 * r220;
-    const double r302 = r260 + 1e-5 * r280 + 1.57002 * r290, r306 = r265 + 1e-5 * r283 + 1.57002 * r294;
-    const double r310 = r270 + 1e-5 * r286 + 1.57002 * r298, r314 = r302 + (r275 - r302);
-    const double r315 = r306 + (r276 - r306), r316 = r310 + (r277 - r310), r330 = 100000.0 * r39 - r48;
-    const double r332 = 100000.0 * r42 - r51, r335 = 0.0 - 100000.0 * r45 - r54, r337 = r92 + 100000.0 * r110;
-    const double r339 = r99 + 100000.0 * r117, r341 = r103 + 100000.0 * r122, r344 = r316 - 0.495;
-    const double r353 = r316 - r36, r359 = 0.0 - (s1 * (r315 - r34) + c1 * (r314 - r33)), r360 = r314 - r80;
-    const double r361 = r315 - r81, r362 = r316 - r82, r366 = 9.9999999995e-6 * (r332 * r362 - r335 * r361);
+    const double r283 = c6 * r214 + s6 * r234, r286 = c6 * r220 + s6 * r241, r287 = s6 * r208;
+    const double r288 = c6 * r227, r290 = r288 - r287, r294 = c6 * r234 - s6 * r214;
+    const double r298 = c6 * r241 - s6 * r220, r302 = r260 + 1e-5 * r280 + 1.57002 * r290;
+    const double r306 = r265 + 1e-5 * r283 + 1.57002 * r294, r310 = r270 + 1e-5 * r286 + 1.57002 * r298;
+    const double r314 = r302 + (r275 - r302), r315 = r306 + (r276 - r306), r316 = r310 + (r277 - r310);
+    const double r330 = 100000.0 * r39 - r48, r332 = 100000.0 * r42 - r51, r335 = 0.0 - 100000.0 * r45 - r54;
+    const double r337 = r92 + 100000.0 * r110, r339 = r99 + 100000.0 * r117, r341 = r103 + 100000.0 * r122;
+    const double r344 = r316 - 0.495, r353 = r316 - r36, r359 = 0.0 - (s1 * (r315 - r34) + c1 * (r314 - r33));
+    const double r360 = r314 - r80, r361 = r315 - r81, r362 = r316 - r82;
+    const double r366 = 9.9999999995e-6 * (r332 * r362 - r335 * r361);
     const double r370 = 9.9999999995e-6 * (r335 * r360 - r330 * r362);
     const double r374 = 9.9999999995e-6 * (r330 * r361 - r332 * r360), r375 = r314 - r174, r376 = r315 - r175;
     const double r377 = r316 - r176, r381 = 9.9999999995e-6 * (r339 * r377 - r341 * r376);
@@ -721,7 +731,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -740,6 +751,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -767,11 +781,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -803,7 +825,7 @@ typedef struct {
     Solution *out;
     double relative[IRB4600_TOOL0_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -899,7 +921,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1193,6 +1219,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1218,6 +1245,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1276,13 +1306,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1318,7 +1346,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;

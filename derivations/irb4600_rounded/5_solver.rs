@@ -335,6 +335,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -360,6 +362,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -379,7 +383,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -432,18 +436,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(2.84000825037184, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -488,10 +483,8 @@ const SAMPLES_1: [[f64; 2]; 32] = [
 
 /// Block 1: joint_1.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = 0.13500000019600084 * p.r23_ - p.py;
-    let r3 = p.px - 0.13500000019600084 * p.r13_;
-    let r5 = f64::abs(p.magnitude + 5.545016499768999);
+    let before = answers.candidates; let r1 = 0.13500000019600084 * p.r23_ - p.py;
+    let r3 = p.px - 0.13500000019600084 * p.r13_; let r5 = f64::abs(p.magnitude + 5.545016499768999);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
     chart_1_2(p, shared, before, answers);
@@ -504,21 +497,15 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
-    let f1 = 1.0;
-    let r15 = 3162.2776601683795 * f64::max(r10, 0.0).sqrt();
+    let f1 = 1.0; let r15 = 3162.2776601683795 * f64::max(r10, 0.0).sqrt();
     let roots0 = square_roots(0.0 - r6 - r7, r15);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r18 = 1.0 / r8;
-        let c1 = 0.0 - w1 * shared.r3 * r18;
-        let s1 = w1 * shared.r1 * r18;
+        let r18 = 1.0 / r8; let c1 = 0.0 - w1 * shared.r3 * r18; let s1 = w1 * shared.r1 * r18;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -528,8 +515,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: joint_1.
 fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
-    let r9 = shared.r5 * shared.r5;
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3; let r9 = shared.r5 * shared.r5;
     if !is_near(r8, 0.001 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 0.001 * (r9 + r9), BESIDE)) {
         return;
     }
@@ -543,8 +529,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 /// Block 2: joint_3.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.px - 0.13500000019600084 * p.r13_;
-    let r4 = p.py - 0.13500000019600084 * p.r23_;
+    let r1 = p.px - 0.13500000019600084 * p.r13_; let r4 = p.py - 0.13500000019600084 * p.r23_;
     let r17 = 2.0 * (p.pz * (p.pz - 0.13500000019600084 * p.r33_));
     let r19 = 2.0 * (p.px * r1) + 2.0 * (p.py * r4) + r17 - p.px * p.px;
     let r23 = r19 - p.py * p.py - p.pz * p.pz - 0.35 * (known.c1 * r1);
@@ -572,8 +557,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let roots0 = square_roots(r32 - 2.9860353199791447, r35);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared.r30);
-        let r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared.r30;
-        let c3 = 0.3241217583793501 * r42;
+        let r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared.r30; let c3 = 0.3241217583793501 * r42;
         let s3 = 0.3241217583793501 * r39;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
@@ -583,14 +567,11 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: joint_2.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = known.c1 * (p.px - 0.13500000019600084 * p.r13_);
+    let before = answers.candidates; let r2 = known.c1 * (p.px - 0.13500000019600084 * p.r13_);
     let r5 = known.s1 * (p.py - 0.13500000019600084 * p.r23_);
-    let r8 = 0.1750000000825 * known.c3 - 0.9600082497039992 * known.s3;
-    let r9 = r8 + 0.9;
+    let r8 = 0.1750000000825 * known.c3 - 0.9600082497039992 * known.s3; let r9 = r8 + 0.9;
     let r12 = 0.9600082497039992 * known.c3 + 0.1750000000825 * known.s3;
-    let r15 = p.pz - 0.13500000019600084 * p.r33_ - 0.495;
-    let r17 = r2 + r5 - 0.175;
+    let r15 = p.pz - 0.13500000019600084 * p.r33_ - 0.495; let r17 = r2 + r5 - 0.175;
     let r21 = f64::abs(p.magnitude + 6.040016499768999);
     let r22 = f64::abs(2.0 * p.magnitude + 11.265032999537999);
     let shared = &Shared3 { r9, r12, r15, r17, r21, r22 };
@@ -609,12 +590,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r25, 950.3684484884604) {
         return;
     }
-    let f2 = 1.0;
-    let r28 = shared.r9 * shared.r17 - shared.r12 * shared.r15;
+    let f2 = 1.0; let r28 = shared.r9 * shared.r17 - shared.r12 * shared.r15;
     let r32 = shared.r12 * shared.r17 - (0.0 - shared.r9 * shared.r15);
-    let r37 = 1.0 / f64::max(r32 * r32 + r28 * r28, 0.0).sqrt();
-    let c2 = r32 * r37;
-    let s2 = r28 * r37;
+    let r37 = 1.0 / f64::max(r32 * r32 + r28 * r28, 0.0).sqrt(); let c2 = r32 * r37; let s2 = r28 * r37;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -637,11 +615,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: joint_4.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let before = answers.candidates; let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
     let r11 = known.c3 * (p.r33_ * known.c2 + known.s2 * r4);
-    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2);
-    let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
+    let r12 = known.s3 * (known.c2 * r4 - p.r33_ * known.s2); let r13 = p.r13_ * known.s1 - p.r23_ * known.c1;
     let r14 = r11 + r12;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
@@ -662,18 +638,14 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 6784.0) {
         return;
     }
     let r22 = 3162.2776601683795 * (known.f2 * (20.591260281974 * known.f1));
     let roots0 = square_roots(0.0 - r15 - r16, r22);
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r25 = 1.0 / r17;
-        let c4 = w4 * shared.r14 * r25;
-        let s4 = w4 * shared.r13 * r25;
+        let r25 = 1.0 / r17; let c4 = w4 * shared.r14 * r25; let s4 = w4 * shared.r13 * r25;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -696,12 +668,9 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: joint_5.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
-    let r9 = known.c2 * r4 - p.r33_ * known.s2;
-    let r11 = p.r33_ * known.c2 + known.s2 * r4;
-    let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
-    let r19 = known.c3 * r9 - known.s3 * r11;
-    let r20 = r18 - known.c4 * (known.c3 * r11 + known.s3 * r9);
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1; let r9 = known.c2 * r4 - p.r33_ * known.s2;
+    let r11 = p.r33_ * known.c2 + known.s2 * r4; let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
+    let r19 = known.c3 * r9 - known.s3 * r11; let r20 = r18 - known.c4 * (known.c3 * r11 + known.s3 * r9);
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
@@ -719,10 +688,8 @@ struct Shared5 { r19: f64, r20: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
-    let c5 = shared.r19 * r25;
-    let s5 = shared.r20 * r25;
+    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r19 * r25; let s5 = shared.r20 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -730,15 +697,12 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: joint_6.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r11_ * known.c1 + p.r21_ * known.s1;
-    let r11 = known.c3 * (p.r31_ * known.c2 + known.s2 * r4);
+    let r4 = p.r11_ * known.c1 + p.r21_ * known.s1; let r11 = known.c3 * (p.r31_ * known.c2 + known.s2 * r4);
     let r12 = known.s3 * (known.c2 * r4 - p.r31_ * known.s2);
     let r14 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
-    let r21 = p.r12_ * known.c1 + p.r22_ * known.s1;
-    let r28 = known.c3 * (p.r32_ * known.c2 + known.s2 * r21);
+    let r21 = p.r12_ * known.c1 + p.r22_ * known.s1; let r28 = known.c3 * (p.r32_ * known.c2 + known.s2 * r21);
     let r29 = known.s3 * (known.c2 * r21 - p.r32_ * known.s2);
-    let r31 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
-    let r34 = r14 + known.s4 * (r11 + r12);
+    let r31 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1); let r34 = r14 + known.s4 * (r11 + r12);
     let r35 = r31 + known.s4 * (r28 + r29);
     let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
@@ -750,10 +714,8 @@ struct Shared6 { r34: f64, r35: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r38 = shared.r35 * shared.r35 + shared.r34 * shared.r34;
-    let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
-    let c6 = shared.r35 * r40;
-    let s6 = shared.r34 * r40;
+    let r38 = shared.r35 * shared.r35 + shared.r34 * shared.r34; let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r35 * r40; let s6 = shared.r34 * r40;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
         known.s5, c6, s6,
@@ -775,44 +737,26 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r1 = 1e-5 * s1;
-    let r4 = 1e-5 * c1;
-    let r6 = c1 * c2;
-    let r7 = s1 * c2;
-    let r8 = c1 * s2;
-    let r9 = s1 * s2;
-    let r10 = 0.175 * r6;
-    let r14 = 0.175 * r7;
-    let r18 = 0.175 * s2;
-    let r23 = 2e-5 * s1;
-    let r27 = 2e-5 * c1;
-    let r33 = 0.175 * c1 - r1 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
+    let r1 = 1e-5 * s1; let r4 = 1e-5 * c1; let r6 = c1 * c2; let r7 = s1 * c2; let r8 = c1 * s2;
+    let r9 = s1 * s2; let r10 = 0.175 * r6; let r14 = 0.175 * r7; let r18 = 0.175 * s2; let r23 = 2e-5 * s1;
+    let r27 = 2e-5 * c1; let r33 = 0.175 * c1 - r1 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
     let r34 = 0.175 * s1 + r4 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
-    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18));
-    let r39 = c3 * r6 - s3 * r8;
-    let r42 = c3 * r7 - s3 * r9;
-    let r45 = s2 * c3 + c2 * s3;
-    let r48 = s3 * r6 + c3 * r8;
-    let r51 = s3 * r7 + c3 * r9;
-    let r54 = c2 * c3 - s2 * s3;
+    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)); let r39 = c3 * r6 - s3 * r8;
+    let r42 = c3 * r7 - s3 * r9; let r45 = s2 * c3 + c2 * s3; let r48 = s3 * r6 + c3 * r8;
+    let r51 = s3 * r7 + c3 * r9; let r54 = c2 * c3 - s2 * s3;
     let r80 = r33 - (0.175 * r39 - r23 + 1.395 * r48) + (0.17501 * r39 - r1 + 1.57 * r48);
     let r81 = r34 - (r27 + 0.175 * r42 + 1.395 * r51) + (r4 + 0.17501 * r42 + 1.57 * r51);
     let r82 = r36 - (1.395 * r54 - 0.175 * r45) + (1.57 * r54 - 0.17501 * r45);
-    let r84 = 9.999999999e-11 * c4 + 0.9999999999;
-    let r86 = s1 * s4;
-    let r89 = c4 - 1.0;
-    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89);
-    let r94 = c1 * s4;
+    let r84 = 9.999999999e-11 * c4 + 0.9999999999; let r86 = s1 * s4; let r89 = c4 - 1.0;
+    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89); let r94 = c1 * s4;
     let r99 = r42 * r84 - 9.9999999995e-6 * r94 + 9.999999999e-6 * (r51 * r89);
     let r103 = 9.999999999e-6 * (r54 * r89) - r45 * r84;
     let r110 = 9.9999999995e-6 * (s4 * r39) - s1 * c4 + 0.9999999999500001 * (s4 * r48);
     let r117 = c1 * c4 + 9.9999999995e-6 * (s4 * r42) + 0.9999999999500001 * (s4 * r51);
     let r122 = 0.9999999999500001 * (s4 * r54) - 9.9999999995e-6 * (s4 * r45);
     let r126 = 9.999999999e-6 * (r39 * r89) + 0.9999999999500001 * r86;
-    let r128 = 0.9999999999 * c4 + 9.999999999e-11;
-    let r130 = r126 + r48 * r128;
-    let r134 = 9.999999999e-6 * (r42 * r89) - 0.9999999999500001 * r94;
-    let r136 = r134 + r51 * r128;
+    let r128 = 0.9999999999 * c4 + 9.999999999e-11; let r130 = r126 + r48 * r128;
+    let r134 = 9.999999999e-6 * (r42 * r89) - 0.9999999999500001 * r94; let r136 = r134 + r51 * r128;
     let r140 = r54 * r128 - 9.999999999e-6 * (r45 * r89);
     let r156 = r80 - (0.17501 * r92 + 1e-5 * r110 + 1.57 * r130);
     let r157 = r81 - (0.17501 * r99 + 1e-5 * r117 + 1.57 * r136);
@@ -820,43 +764,27 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let r173 = 1.13501 * r103 + 2e-5 * r122 + 1.57001 * r140;
     let r174 = r156 + (1.13501 * r92 + 2e-5 * r110 + 1.57001 * r130);
     let r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136);
-    let r178 = 0.9999999999 * c5 + 9.999999999e-11;
-    let r180 = c5 - 1.0;
-    let r184 = s5 * r130;
-    let r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.9999999999500001 * r184;
-    let r191 = s5 * r136;
-    let r193 = r99 * r178 - 9.999999999e-6 * (r117 * r180) - 0.9999999999500001 * r191;
-    let r198 = s5 * r140;
+    let r178 = 0.9999999999 * c5 + 9.999999999e-11; let r180 = c5 - 1.0; let r184 = s5 * r130;
+    let r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.9999999999500001 * r184; let r191 = s5 * r136;
+    let r193 = r99 * r178 - 9.999999999e-6 * (r117 * r180) - 0.9999999999500001 * r191; let r198 = s5 * r140;
     let r200 = r103 * r178 - 9.999999999e-6 * (r122 * r180) - 0.9999999999500001 * r198;
     let r203 = 9.999999999e-11 * c5 + 0.9999999999;
     let r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
     let r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
     let r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
-    let r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110);
-    let r227 = r225 + c5 * r130;
-    let r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117);
-    let r234 = r232 + c5 * r136;
-    let r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122);
-    let r241 = r239 + c5 * r140;
+    let r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110); let r227 = r225 + c5 * r130;
+    let r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117); let r234 = r232 + c5 * r136;
+    let r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122); let r241 = r239 + c5 * r140;
     let r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
     let r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
-    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241;
-    let r260 = 1.27001 * r186;
-    let r265 = 1.27001 * r193;
-    let r270 = 1.27001 * r200;
+    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241; let r260 = 1.27001 * r186;
+    let r265 = 1.27001 * r193; let r270 = 1.27001 * r200;
     let r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
     let r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
-    let r277 = r158 + r173 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241);
-    let r280 = c6 * r208 + s6 * r227;
-    let r283 = c6 * r214 + s6 * r234;
-    let r286 = c6 * r220 + s6 * r241;
-    let r287 = s6 * r208;
-    let r288 = c6 * r227;
-    let r291 = s6 * r214;
-    let r292 = c6 * r234;
-    let r295 = s6 * r220;
-    let r296 = c6 * r241;
-    let r302 = r260 + 1e-5 * r280 + 1.57002 * (r288 - r287);
+    let r277 = r158 + r173 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241); let r280 = c6 * r208 + s6 * r227;
+    let r283 = c6 * r214 + s6 * r234; let r286 = c6 * r220 + s6 * r241; let r287 = s6 * r208;
+    let r288 = c6 * r227; let r291 = s6 * r214; let r292 = c6 * r234; let r295 = s6 * r220;
+    let r296 = c6 * r241; let r302 = r260 + 1e-5 * r280 + 1.57002 * (r288 - r287);
     let r306 = r265 + 1e-5 * r283 + 1.57002 * (r292 - r291);
     let r310 = r270 + 1e-5 * r286 + 1.57002 * (r296 - r295);
     [
@@ -920,143 +848,83 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r1 = 1e-5 * s1;
-    let r2 = 0.175 * c1 - r1;
-    let r4 = 1e-5 * c1;
-    let r5 = 0.175 * s1 + r4;
-    let r6 = c1 * c2;
-    let r7 = s1 * c2;
-    let r8 = c1 * s2;
-    let r9 = s1 * s2;
-    let r10 = 0.175 * r6;
-    let r14 = 0.175 * r7;
-    let r18 = 0.175 * s2;
-    let r23 = 2e-5 * s1;
-    let r27 = 2e-5 * c1;
+    let r1 = 1e-5 * s1; let r2 = 0.175 * c1 - r1; let r4 = 1e-5 * c1; let r5 = 0.175 * s1 + r4;
+    let r6 = c1 * c2; let r7 = s1 * c2; let r8 = c1 * s2; let r9 = s1 * s2; let r10 = 0.175 * r6;
+    let r14 = 0.175 * r7; let r18 = 0.175 * s2; let r23 = 2e-5 * s1; let r27 = 2e-5 * c1;
     let r33 = r2 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
     let r34 = r5 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
-    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18));
-    let r39 = c3 * r6 - s3 * r8;
-    let r42 = c3 * r7 - s3 * r9;
-    let r45 = s2 * c3 + c2 * s3;
-    let r48 = s3 * r6 + c3 * r8;
-    let r51 = s3 * r7 + c3 * r9;
-    let r54 = c2 * c3 - s2 * s3;
+    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)); let r39 = c3 * r6 - s3 * r8;
+    let r42 = c3 * r7 - s3 * r9; let r45 = s2 * c3 + c2 * s3; let r48 = s3 * r6 + c3 * r8;
+    let r51 = s3 * r7 + c3 * r9; let r54 = c2 * c3 - s2 * s3;
     let r80 = r33 - (0.175 * r39 - r23 + 1.395 * r48) + (0.17501 * r39 - r1 + 1.57 * r48);
     let r81 = r34 - (r27 + 0.175 * r42 + 1.395 * r51) + (r4 + 0.17501 * r42 + 1.57 * r51);
     let r82 = r36 - (1.395 * r54 - 0.175 * r45) + (1.57 * r54 - 0.17501 * r45);
-    let r84 = 9.999999999e-11 * c4 + 0.9999999999;
-    let r86 = s1 * s4;
-    let r89 = c4 - 1.0;
-    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89);
-    let r94 = c1 * s4;
+    let r84 = 9.999999999e-11 * c4 + 0.9999999999; let r86 = s1 * s4; let r89 = c4 - 1.0;
+    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89); let r94 = c1 * s4;
     let r99 = r42 * r84 - 9.9999999995e-6 * r94 + 9.999999999e-6 * (r51 * r89);
     let r103 = 9.999999999e-6 * (r54 * r89) - r45 * r84;
     let r110 = 9.9999999995e-6 * (s4 * r39) - s1 * c4 + 0.9999999999500001 * (s4 * r48);
     let r117 = c1 * c4 + 9.9999999995e-6 * (s4 * r42) + 0.9999999999500001 * (s4 * r51);
     let r122 = 0.9999999999500001 * (s4 * r54) - 9.9999999995e-6 * (s4 * r45);
     let r126 = 9.999999999e-6 * (r39 * r89) + 0.9999999999500001 * r86;
-    let r128 = 0.9999999999 * c4 + 9.999999999e-11;
-    let r130 = r126 + r48 * r128;
-    let r134 = 9.999999999e-6 * (r42 * r89) - 0.9999999999500001 * r94;
-    let r136 = r134 + r51 * r128;
+    let r128 = 0.9999999999 * c4 + 9.999999999e-11; let r130 = r126 + r48 * r128;
+    let r134 = 9.999999999e-6 * (r42 * r89) - 0.9999999999500001 * r94; let r136 = r134 + r51 * r128;
     let r140 = r54 * r128 - 9.999999999e-6 * (r45 * r89);
     let r156 = r80 - (0.17501 * r92 + 1e-5 * r110 + 1.57 * r130);
     let r157 = r81 - (0.17501 * r99 + 1e-5 * r117 + 1.57 * r136);
     let r158 = r82 - (0.17501 * r103 + 1e-5 * r122 + 1.57 * r140);
     let r173 = 1.13501 * r103 + 2e-5 * r122 + 1.57001 * r140;
     let r174 = r156 + (1.13501 * r92 + 2e-5 * r110 + 1.57001 * r130);
-    let r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136);
-    let r176 = r158 + r173;
-    let r178 = 0.9999999999 * c5 + 9.999999999e-11;
-    let r180 = c5 - 1.0;
-    let r184 = s5 * r130;
+    let r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136); let r176 = r158 + r173;
+    let r178 = 0.9999999999 * c5 + 9.999999999e-11; let r180 = c5 - 1.0; let r184 = s5 * r130;
     let r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.9999999999500001 * r184;
-    let r190 = r99 * r178 - 9.999999999e-6 * (r117 * r180);
-    let r191 = s5 * r136;
-    let r192 = 0.9999999999500001 * r191;
-    let r193 = r190 - r192;
-    let r198 = s5 * r140;
+    let r190 = r99 * r178 - 9.999999999e-6 * (r117 * r180); let r191 = s5 * r136;
+    let r192 = 0.9999999999500001 * r191; let r193 = r190 - r192; let r198 = s5 * r140;
     let r200 = r103 * r178 - 9.999999999e-6 * (r122 * r180) - 0.9999999999500001 * r198;
     let r203 = 9.999999999e-11 * c5 + 0.9999999999;
     let r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
     let r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
     let r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
-    let r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110);
-    let r227 = r225 + c5 * r130;
-    let r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117);
-    let r234 = r232 + c5 * r136;
-    let r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122);
-    let r241 = r239 + c5 * r140;
+    let r225 = 0.9999999999500001 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110); let r227 = r225 + c5 * r130;
+    let r232 = 0.9999999999500001 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117); let r234 = r232 + c5 * r136;
+    let r239 = 0.9999999999500001 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122); let r241 = r239 + c5 * r140;
     let r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
     let r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
-    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241;
-    let r260 = 1.27001 * r186;
-    let r265 = 1.27001 * r193;
-    let r270 = 1.27001 * r200;
+    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241; let r260 = 1.27001 * r186;
+    let r265 = 1.27001 * r193; let r270 = 1.27001 * r200;
     let r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
     let r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
-    let r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241);
-    let r280 = c6 * r208 + s6 * r227;
-    let r283 = c6 * r214 + s6 * r234;
-    let r286 = c6 * r220 + s6 * r241;
-    let r287 = s6 * r208;
-    let r288 = c6 * r227;
-    let r290 = r288 - r287;
-    let r294 = c6 * r234 - s6 * r214;
-    let r298 = c6 * r241 - s6 * r220;
-    let r302 = r260 + 1e-5 * r280 + 1.57002 * r290;
-    let r306 = r265 + 1e-5 * r283 + 1.57002 * r294;
-    let r310 = r270 + 1e-5 * r286 + 1.57002 * r298;
-    let r314 = r302 + (r275 - r302);
-    let r315 = r306 + (r276 - r306);
-    let r316 = r310 + (r277 - r310);
-    let r330 = 100000.0 * r39 - r48;
-    let r332 = 100000.0 * r42 - r51;
-    let r335 = 0.0 - 100000.0 * r45 - r54;
-    let r337 = r92 + 100000.0 * r110;
-    let r339 = r99 + 100000.0 * r117;
-    let r341 = r103 + 100000.0 * r122;
-    let r344 = r316 - 0.495;
-    let r353 = r316 - r36;
-    let r359 = 0.0 - (s1 * (r315 - r34) + c1 * (r314 - r33));
-    let r360 = r314 - r80;
-    let r361 = r315 - r81;
-    let r362 = r316 - r82;
+    let r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241); let r280 = c6 * r208 + s6 * r227;
+    let r283 = c6 * r214 + s6 * r234; let r286 = c6 * r220 + s6 * r241; let r287 = s6 * r208;
+    let r288 = c6 * r227; let r290 = r288 - r287; let r294 = c6 * r234 - s6 * r214;
+    let r298 = c6 * r241 - s6 * r220; let r302 = r260 + 1e-5 * r280 + 1.57002 * r290;
+    let r306 = r265 + 1e-5 * r283 + 1.57002 * r294; let r310 = r270 + 1e-5 * r286 + 1.57002 * r298;
+    let r314 = r302 + (r275 - r302); let r315 = r306 + (r276 - r306); let r316 = r310 + (r277 - r310);
+    let r330 = 100000.0 * r39 - r48; let r332 = 100000.0 * r42 - r51; let r335 = 0.0 - 100000.0 * r45 - r54;
+    let r337 = r92 + 100000.0 * r110; let r339 = r99 + 100000.0 * r117; let r341 = r103 + 100000.0 * r122;
+    let r344 = r316 - 0.495; let r353 = r316 - r36; let r359 = 0.0 - (s1 * (r315 - r34) + c1 * (r314 - r33));
+    let r360 = r314 - r80; let r361 = r315 - r81; let r362 = r316 - r82;
     let r366 = 9.9999999995e-6 * (r332 * r362 - r335 * r361);
     let r370 = 9.9999999995e-6 * (r335 * r360 - r330 * r362);
-    let r374 = 9.9999999995e-6 * (r330 * r361 - r332 * r360);
-    let r375 = r314 - r174;
-    let r376 = r315 - r175;
-    let r377 = r316 - r176;
-    let r381 = 9.9999999995e-6 * (r339 * r377 - r341 * r376);
+    let r374 = 9.9999999995e-6 * (r330 * r361 - r332 * r360); let r375 = r314 - r174; let r376 = r315 - r175;
+    let r377 = r316 - r176; let r381 = 9.9999999995e-6 * (r339 * r377 - r341 * r376);
     let r385 = 9.9999999995e-6 * (r341 * r375 - r337 * r377);
-    let r389 = 9.9999999995e-6 * (r337 * r376 - r339 * r375);
-    let r390 = r314 - r275;
-    let r391 = r315 - r276;
-    let r392 = r316 - r277;
-    let r407 = s1 * r294 + c1 * r290;
+    let r389 = 9.9999999995e-6 * (r337 * r376 - r339 * r375); let r390 = r314 - r275; let r391 = r315 - r276;
+    let r392 = r316 - r277; let r407 = s1 * r294 + c1 * r290;
     let r411 = 9.9999999995e-6 * (r332 * r298 - r335 * r294);
     let r416 = 9.9999999995e-6 * (r335 * r290 - r330 * r298);
     let r421 = 9.9999999995e-6 * (r330 * r294 - r332 * r290);
     let r426 = 9.9999999995e-6 * (r339 * r298 - r341 * r294);
     let r431 = 9.9999999995e-6 * (r341 * r290 - r337 * r298);
-    let r436 = 9.9999999995e-6 * (r337 * r294 - r339 * r290);
-    let r447 = 0.0 - c1 * r298;
-    let r448 = 0.0 - s1 * r298;
-    let r449 = c1 * r286;
-    let r450 = s1 * r286;
-    let r454 = 0.0 - (s1 * r283 + c1 * r280);
-    let r458 = 9.9999999995e-6 * (r332 * r286 - r335 * r283);
+    let r436 = 9.9999999995e-6 * (r337 * r294 - r339 * r290); let r447 = 0.0 - c1 * r298;
+    let r448 = 0.0 - s1 * r298; let r449 = c1 * r286; let r450 = s1 * r286;
+    let r454 = 0.0 - (s1 * r283 + c1 * r280); let r458 = 9.9999999995e-6 * (r332 * r286 - r335 * r283);
     let r462 = 9.9999999995e-6 * (r335 * r280 - r330 * r286);
     let r466 = 9.9999999995e-6 * (r330 * r283 - r332 * r280);
     let r470 = 9.9999999995e-6 * (r339 * r286 - r341 * r283);
     let r474 = 9.9999999995e-6 * (r341 * r280 - r337 * r286);
-    let r478 = 9.9999999995e-6 * (r337 * r283 - r339 * r280);
-    let r489 = c1 * r200;
-    let r490 = s1 * r200;
-    let r494 = 0.0 - (s1 * r193 + c1 * r186);
-    let r498 = 9.9999999995e-6 * (r332 * r200 - r335 * r193);
+    let r478 = 9.9999999995e-6 * (r337 * r283 - r339 * r280); let r489 = c1 * r200; let r490 = s1 * r200;
+    let r494 = 0.0 - (s1 * r193 + c1 * r186); let r498 = 9.9999999995e-6 * (r332 * r200 - r335 * r193);
     let r502 = 9.9999999995e-6 * (r335 * r186 - r330 * r200);
     let r506 = 9.9999999995e-6 * (r330 * r193 - r332 * r186);
     let r510 = 9.9999999995e-6 * (r339 * r200 - r341 * r193);
@@ -1086,7 +954,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1097,20 +965,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1139,6 +1008,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1461,7 +1333,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1530,12 +1406,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1546,6 +1427,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1941,8 +1825,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

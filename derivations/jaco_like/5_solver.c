@@ -140,6 +140,8 @@ int jaco_like_nearest(const jaco_like_solution *list, int count, const double *r
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int jaco_like_nearest(const jaco_like_solution *list, int count, const double *r
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,15 +211,16 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r16 = c3 * r0 - s3 * r2, r19 = c3 * r1 - s3 * r3, r22 = s2 * c3 + c2 * s3;
-    const double r23 = c4 * r22, r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r31 = s4 * r16 + s1 * c4;
-    const double r33 = r10 + r11, r35 = c4 * r19 + c1 * s4, r37 = s4 * r19 - c1 * c4, r39 = r12 + r13;
-    const double r43 = r14 - r15, r45 = s5 * r29, r47 = 0.3289896163265289 * c5 + 0.6710103836734711;
-    const double r48 = r31 * r47, r49 = c5 - 1.0, r50 = r33 * r49, r51 = s5 * r35, r52 = r37 * r47;
-    const double r53 = r39 * r49, r54 = s5 * r23, r55 = r28 * r47, r56 = r43 * r49, r57 = r31 * r49;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r16 = c3 * r0 - s3 * r2, r19 = c3 * r1 - s3 * r3;
+    const double r22 = s2 * c3 + c2 * s3, r23 = c4 * r22, r28 = s4 * r22, r29 = c4 * r16 - s1 * s4;
+    const double r31 = s4 * r16 + s1 * c4, r33 = r10 + r11, r35 = c4 * r19 + c1 * s4, r37 = s4 * r19 - c1 * c4;
+    const double r39 = r12 + r13, r43 = r14 - r15, r45 = s5 * r29;
+    const double r47 = 0.3289896163265289 * c5 + 0.6710103836734711, r48 = r31 * r47, r49 = c5 - 1.0;
+    const double r50 = r33 * r49, r51 = s5 * r35, r52 = r37 * r47, r53 = r39 * r49, r54 = s5 * r23;
+    const double r55 = r28 * r47, r56 = r43 * r49, r57 = r31 * r49;
     const double r59 = 0.6710103836734711 * c5 + 0.3289896163265289, r60 = r33 * r59, r61 = r37 * r49;
     const double r62 = r39 * r59, r63 = r28 * r49, r64 = r43 * r59;
     const double r68 = c5 * r29 + 0.5735761643640092 * (s5 * r31) - 0.819152234736298 * (s5 * r33);
@@ -324,13 +329,13 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r16 = c3 * r0 - s3 * r2, r19 = c3 * r1 - s3 * r3, r22 = s2 * c3 + c2 * s3;
-    const double r23 = c4 * r22, r24 = s4 * r16, r25 = s1 * c4, r26 = s4 * r19, r27 = c1 * c4, r28 = s4 * r22;
-    const double r29 = c4 * r16 - s1 * s4, r31 = r24 + r25, r33 = r10 + r11, r35 = c4 * r19 + c1 * s4;
-    const double r37 = r26 - r27, r39 = r12 + r13, r43 = r14 - r15, r45 = s5 * r29;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r16 = c3 * r0 - s3 * r2, r19 = c3 * r1 - s3 * r3;
+    const double r22 = s2 * c3 + c2 * s3, r23 = c4 * r22, r24 = s4 * r16, r25 = s1 * c4, r26 = s4 * r19;
+    const double r27 = c1 * c4, r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r31 = r24 + r25, r33 = r10 + r11;
+    const double r35 = c4 * r19 + c1 * s4, r37 = r26 - r27, r39 = r12 + r13, r43 = r14 - r15, r45 = s5 * r29;
     const double r47 = 0.3289896163265289 * c5 + 0.6710103836734711, r48 = r31 * r47, r49 = c5 - 1.0;
     const double r50 = r33 * r49, r51 = s5 * r35, r52 = r37 * r47, r53 = r39 * r49, r54 = s5 * r23;
     const double r55 = r28 * r47, r56 = r43 * r49, r57 = r31 * r49;
@@ -349,9 +354,9 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r115 = r78 * r114, r116 = s6 * r83, r117 = r88 * r112, r118 = r93 * r114, r119 = s6 * r98;
     const double r120 = r103 * r112, r121 = r108 * r114, r122 = r73 * r114;
     const double r124 = 0.88302239150017 * c6 + 0.11697760849982991, r125 = r78 * r124, r126 = r88 * r114;
-    const double r127 = r93 * r124, r128 = r103 * r114, r129 = r108 * r124, r130 = 0.41 * r2, r131 = 0.0098 * s1;
-    const double r133 = 0.2491 * r10, r135 = 0.2491 * r11, r137 = 0.00030673288789738896 * r45;
-    const double r139 = 0.0698 * r48, r141 = 0.03279526453875161 * r50;
+    const double r127 = r93 * r124, r128 = r103 * r114, r129 = r108 * r124, r130 = 0.41 * r2;
+    const double r131 = 0.0098 * s1, r133 = 0.2491 * r10, r135 = 0.2491 * r11;
+    const double r137 = 0.00030673288789738896 * r45, r139 = 0.0698 * r48, r141 = 0.03279526453875161 * r50;
     const double r142 = r130 - r131 + r133 + r135 + r137 - r139 + r141, r143 = 0.02278754054626724 * r57;
     const double r145 = 0.0485 * r60, r148 = r142 + r143 - r145 - 0.8054369277695369 * r110;
     const double r152 = r148 - 0.0796 * r113 + 0.0255829307443332 * r115;
@@ -361,9 +366,9 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r169 = r157 + r158 + r160 + r162 + r164 - r166 + r168, r170 = 0.02278754054626724 * r61;
     const double r172 = 0.0485 * r62, r175 = r169 + r170 - r172 - 0.8054369277695369 * r116;
     const double r179 = r175 - 0.0796 * r117 + 0.0255829307443332 * r118;
-    const double r183 = r179 + 0.2847868710119805 * r126 - 0.8861 * r127, r184 = 0.41 * c2, r185 = 0.2491 * r14;
-    const double r187 = 0.2491 * r15, r189 = 0.00030673288789738896 * r54, r191 = 0.0698 * r55;
-    const double r193 = 0.03279526453875161 * r56, r195 = 0.02278754054626724 * r63;
+    const double r183 = r179 + 0.2847868710119805 * r126 - 0.8861 * r127, r184 = 0.41 * c2;
+    const double r185 = 0.2491 * r14, r187 = 0.2491 * r15, r189 = 0.00030673288789738896 * r54;
+    const double r191 = 0.0698 * r55, r193 = 0.03279526453875161 * r56, r195 = 0.02278754054626724 * r63;
     const double r196 = r184 - r185 + r187 - r189 + r191 - r193 - r195, r197 = 0.0485 * r64;
     const double r202 = r196 + r197 + 0.8054369277695369 * r119 + 0.0796 * r120;
     const double r206 = r202 - 0.0255829307443332 * r121 - 0.2847868710119805 * r128;
@@ -718,7 +723,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -737,6 +743,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -764,11 +773,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -892,7 +909,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2565,7 +2586,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2669,7 +2691,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -3069,7 +3092,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

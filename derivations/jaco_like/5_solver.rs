@@ -323,6 +323,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -348,6 +350,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -410,18 +414,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, }
 }
 
@@ -836,8 +831,7 @@ mod six_axes {
             let index = self.solved;
             self.rows.still.swap(index, row);
             self.order.swap(index, place);
-            let column = self.order[index];
-            let inverse = 1.0 / self.rows.still[index][column];
+            let column = self.order[index]; let inverse = 1.0 / self.rows.still[index][column];
             self.rows.still[index].iter_mut().for_each(|entry| *entry *= inverse);
             let pivot = self.rows.still[index];
             for (k, still) in self.rows.still.iter_mut().enumerate() {
@@ -1152,8 +1146,7 @@ mod six_axes {
     /// The first row of the lowest block that does not fall apart.
     fn start_of_block(h: &mut Matrix, high: usize) -> Option<usize> {
         for row in (1..=high).rev() {
-            let entry = h[row][row - 1].abs();
-            let size = h[row][row].abs() + h[row - 1][row - 1].abs();
+            let entry = h[row][row - 1].abs(); let size = h[row][row].abs() + h[row - 1][row - 1].abs();
             if !entry.is_finite() || !size.is_finite() {
                 return None;
             }
@@ -1167,14 +1160,12 @@ mod six_axes {
 
     fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (a, b, c, d) = (h[low][low], h[low][low + 1], h[low + 1][low], h[low + 1][low + 1]);
-        let half = 0.5 * (a - d);
-        let discriminant = half * half + b * c;
+        let half = 0.5 * (a - d); let discriminant = half * half + b * c;
         if discriminant < 0.0 {
             let (re, im) = (0.5 * (a + d), (-discriminant).sqrt());
             return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
         }
-        let way = half + discriminant.sqrt().copysign(half);
-        let first = d + way;
+        let way = half + discriminant.sqrt().copysign(half); let first = d + way;
         let second = if way == 0.0 { d } else { d - b * c / way };
         (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
     }
@@ -1195,8 +1186,7 @@ mod six_axes {
                 }
                 self.reflect(top, column);
             }
-            let top = self.high - 1;
-            let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
+            let top = self.high - 1; let column = [self.h[top][top - 1], self.h[top + 1][top - 1]];
             self.reflect(top, column);
         }
 
@@ -1204,8 +1194,7 @@ mod six_axes {
         fn shifts(&self, is_exceptional: bool) -> [f64; 2] {
             let (h, m) = (&self.h, self.high);
             if is_exceptional {
-                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs();
-                let centre = h[m][m] + 0.75 * size;
+                let size = h[m][m - 1].abs() + h[m - 1][m - 2].abs(); let centre = h[m][m] + 0.75 * size;
                 return [2.0 * centre, centre * centre + 0.4375 * size * size];
             }
             [h[m - 1][m - 1] + h[m][m], h[m - 1][m - 1] * h[m][m] - h[m - 1][m] * h[m][m - 1]]
@@ -2046,18 +2035,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
         p.px, p.py, p.pz, p.r11_, p.r12_, p.r13_, p.r21_, p.r22_, p.r23_, p.r31_, p.r32_, p.r33_,
     ]);
     for (i0, six0) in found0.as_slice().iter().enumerate() {
-        let c1 = six0.q[0].cos();
-        let s1 = six0.q[0].sin();
-        let c2 = six0.q[1].cos();
-        let s2 = six0.q[1].sin();
-        let c3 = six0.q[2].cos();
-        let s3 = six0.q[2].sin();
-        let c4 = six0.q[3].cos();
-        let s4 = six0.q[3].sin();
-        let c5 = six0.q[4].cos();
-        let s5 = six0.q[4].sin();
-        let c6 = six0.q[5].cos();
-        let s6 = six0.q[5].sin();
+        let c1 = six0.q[0].cos(); let s1 = six0.q[0].sin(); let c2 = six0.q[1].cos(); let s2 = six0.q[1].sin();
+        let c3 = six0.q[2].cos(); let s3 = six0.q[2].sin(); let c4 = six0.q[3].cos(); let s4 = six0.q[3].sin();
+        let c5 = six0.q[4].cos(); let s5 = six0.q[4].sin(); let c6 = six0.q[5].cos(); let s6 = six0.q[5].sin();
         let at = [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6];
         let q = [
             angle(at[0], at[1]), angle(at[2], at[3]), angle(at[4], at[5]), angle(at[6], at[7]),
@@ -2073,76 +2053,30 @@ const TIP: usize = 12;
 /// The tip, as the equations compare it.
 fn tip(at: &[f64; PLACES]) -> [f64; TIP] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r16 = c3 * r0 - s3 * r2;
-    let r19 = c3 * r1 - s3 * r3;
-    let r22 = s2 * c3 + c2 * s3;
-    let r23 = c4 * r22;
-    let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4;
-    let r31 = s4 * r16 + s1 * c4;
-    let r33 = r10 + r11;
-    let r35 = c4 * r19 + c1 * s4;
-    let r37 = s4 * r19 - c1 * c4;
-    let r39 = r12 + r13;
-    let r43 = r14 - r15;
-    let r45 = s5 * r29;
-    let r47 = 0.3289896163265289 * c5 + 0.6710103836734711;
-    let r48 = r31 * r47;
-    let r49 = c5 - 1.0;
-    let r50 = r33 * r49;
-    let r51 = s5 * r35;
-    let r52 = r37 * r47;
-    let r53 = r39 * r49;
-    let r54 = s5 * r23;
-    let r55 = r28 * r47;
-    let r56 = r43 * r49;
-    let r57 = r31 * r49;
-    let r59 = 0.6710103836734711 * c5 + 0.3289896163265289;
-    let r60 = r33 * r59;
-    let r61 = r37 * r49;
-    let r62 = r39 * r59;
-    let r63 = r28 * r49;
-    let r64 = r43 * r59;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r16 = c3 * r0 - s3 * r2; let r19 = c3 * r1 - s3 * r3; let r22 = s2 * c3 + c2 * s3; let r23 = c4 * r22;
+    let r28 = s4 * r22; let r29 = c4 * r16 - s1 * s4; let r31 = s4 * r16 + s1 * c4; let r33 = r10 + r11;
+    let r35 = c4 * r19 + c1 * s4; let r37 = s4 * r19 - c1 * c4; let r39 = r12 + r13; let r43 = r14 - r15;
+    let r45 = s5 * r29; let r47 = 0.3289896163265289 * c5 + 0.6710103836734711; let r48 = r31 * r47;
+    let r49 = c5 - 1.0; let r50 = r33 * r49; let r51 = s5 * r35; let r52 = r37 * r47; let r53 = r39 * r49;
+    let r54 = s5 * r23; let r55 = r28 * r47; let r56 = r43 * r49; let r57 = r31 * r49;
+    let r59 = 0.6710103836734711 * c5 + 0.3289896163265289; let r60 = r33 * r59; let r61 = r37 * r49;
+    let r62 = r39 * r59; let r63 = r28 * r49; let r64 = r43 * r59;
     let r68 = c5 * r29 + 0.5735761643640092 * (s5 * r31) - 0.819152234736298 * (s5 * r33);
     let r73 = 0.5735761643640092 * r45 - r48 + 0.4698461968302523 * r50;
-    let r77 = 0.819152234736298 * r45 - 0.4698461968302523 * r57;
-    let r78 = r60 + r77;
+    let r77 = 0.819152234736298 * r45 - 0.4698461968302523 * r57; let r78 = r60 + r77;
     let r83 = c5 * r35 + 0.5735761643640092 * (s5 * r37) - 0.819152234736298 * (s5 * r39);
     let r88 = 0.5735761643640092 * r51 - r52 + 0.4698461968302523 * r53;
-    let r92 = 0.819152234736298 * r51 - 0.4698461968302523 * r61;
-    let r93 = r62 + r92;
+    let r92 = 0.819152234736298 * r51 - 0.4698461968302523 * r61; let r93 = r62 + r92;
     let r98 = c5 * r23 + 0.5735761643640092 * (s5 * r28) - 0.819152234736298 * (s5 * r43);
     let r103 = 0.5735761643640092 * r54 - r55 + 0.4698461968302523 * r56;
-    let r107 = 0.819152234736298 * r54 - 0.4698461968302523 * r63;
-    let r108 = r64 + r107;
-    let r110 = s6 * r68;
-    let r112 = 0.11697760849982991 * c6 + 0.88302239150017;
-    let r113 = r73 * r112;
-    let r114 = c6 - 1.0;
-    let r115 = r78 * r114;
-    let r116 = s6 * r83;
-    let r117 = r88 * r112;
-    let r118 = r93 * r114;
-    let r119 = s6 * r98;
-    let r120 = r103 * r112;
-    let r121 = r108 * r114;
-    let r122 = r73 * r114;
-    let r124 = 0.88302239150017 * c6 + 0.11697760849982991;
-    let r125 = r78 * r124;
-    let r126 = r88 * r114;
-    let r127 = r93 * r124;
-    let r128 = r103 * r114;
-    let r129 = r108 * r124;
+    let r107 = 0.819152234736298 * r54 - 0.4698461968302523 * r63; let r108 = r64 + r107; let r110 = s6 * r68;
+    let r112 = 0.11697760849982991 * c6 + 0.88302239150017; let r113 = r73 * r112; let r114 = c6 - 1.0;
+    let r115 = r78 * r114; let r116 = s6 * r83; let r117 = r88 * r112; let r118 = r93 * r114;
+    let r119 = s6 * r98; let r120 = r103 * r112; let r121 = r108 * r114; let r122 = r73 * r114;
+    let r124 = 0.88302239150017 * c6 + 0.11697760849982991; let r125 = r78 * r124; let r126 = r88 * r114;
+    let r127 = r93 * r124; let r128 = r103 * r114; let r129 = r108 * r124;
     let r136 = 0.41 * r2 - 0.0098 * s1 + 0.2491 * r10 + 0.2491 * r11;
     let r140 = r136 + 0.00030673288789738896 * r45 - 0.0698 * r48;
     let r144 = r140 + 0.03279526453875161 * r50 + 0.02278754054626724 * r57;
@@ -2228,154 +2162,70 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r16 = c3 * r0 - s3 * r2;
-    let r19 = c3 * r1 - s3 * r3;
-    let r22 = s2 * c3 + c2 * s3;
-    let r23 = c4 * r22;
-    let r24 = s4 * r16;
-    let r25 = s1 * c4;
-    let r26 = s4 * r19;
-    let r27 = c1 * c4;
-    let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4;
-    let r31 = r24 + r25;
-    let r33 = r10 + r11;
-    let r35 = c4 * r19 + c1 * s4;
-    let r37 = r26 - r27;
-    let r39 = r12 + r13;
-    let r43 = r14 - r15;
-    let r45 = s5 * r29;
-    let r47 = 0.3289896163265289 * c5 + 0.6710103836734711;
-    let r48 = r31 * r47;
-    let r49 = c5 - 1.0;
-    let r50 = r33 * r49;
-    let r51 = s5 * r35;
-    let r52 = r37 * r47;
-    let r53 = r39 * r49;
-    let r54 = s5 * r23;
-    let r55 = r28 * r47;
-    let r56 = r43 * r49;
-    let r57 = r31 * r49;
-    let r59 = 0.6710103836734711 * c5 + 0.3289896163265289;
-    let r60 = r33 * r59;
-    let r61 = r37 * r49;
-    let r62 = r39 * r59;
-    let r63 = r28 * r49;
-    let r64 = r43 * r59;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r16 = c3 * r0 - s3 * r2; let r19 = c3 * r1 - s3 * r3; let r22 = s2 * c3 + c2 * s3; let r23 = c4 * r22;
+    let r24 = s4 * r16; let r25 = s1 * c4; let r26 = s4 * r19; let r27 = c1 * c4; let r28 = s4 * r22;
+    let r29 = c4 * r16 - s1 * s4; let r31 = r24 + r25; let r33 = r10 + r11; let r35 = c4 * r19 + c1 * s4;
+    let r37 = r26 - r27; let r39 = r12 + r13; let r43 = r14 - r15; let r45 = s5 * r29;
+    let r47 = 0.3289896163265289 * c5 + 0.6710103836734711; let r48 = r31 * r47; let r49 = c5 - 1.0;
+    let r50 = r33 * r49; let r51 = s5 * r35; let r52 = r37 * r47; let r53 = r39 * r49; let r54 = s5 * r23;
+    let r55 = r28 * r47; let r56 = r43 * r49; let r57 = r31 * r49;
+    let r59 = 0.6710103836734711 * c5 + 0.3289896163265289; let r60 = r33 * r59; let r61 = r37 * r49;
+    let r62 = r39 * r59; let r63 = r28 * r49; let r64 = r43 * r59;
     let r68 = c5 * r29 + 0.5735761643640092 * (s5 * r31) - 0.819152234736298 * (s5 * r33);
     let r73 = 0.5735761643640092 * r45 - r48 + 0.4698461968302523 * r50;
-    let r77 = 0.819152234736298 * r45 - 0.4698461968302523 * r57;
-    let r78 = r60 + r77;
+    let r77 = 0.819152234736298 * r45 - 0.4698461968302523 * r57; let r78 = r60 + r77;
     let r83 = c5 * r35 + 0.5735761643640092 * (s5 * r37) - 0.819152234736298 * (s5 * r39);
     let r88 = 0.5735761643640092 * r51 - r52 + 0.4698461968302523 * r53;
-    let r92 = 0.819152234736298 * r51 - 0.4698461968302523 * r61;
-    let r93 = r62 + r92;
+    let r92 = 0.819152234736298 * r51 - 0.4698461968302523 * r61; let r93 = r62 + r92;
     let r98 = c5 * r23 + 0.5735761643640092 * (s5 * r28) - 0.819152234736298 * (s5 * r43);
     let r103 = 0.5735761643640092 * r54 - r55 + 0.4698461968302523 * r56;
-    let r107 = 0.819152234736298 * r54 - 0.4698461968302523 * r63;
-    let r108 = r64 + r107;
-    let r110 = s6 * r68;
-    let r112 = 0.11697760849982991 * c6 + 0.88302239150017;
-    let r113 = r73 * r112;
-    let r114 = c6 - 1.0;
-    let r115 = r78 * r114;
-    let r116 = s6 * r83;
-    let r117 = r88 * r112;
-    let r118 = r93 * r114;
-    let r119 = s6 * r98;
-    let r120 = r103 * r112;
-    let r121 = r108 * r114;
-    let r122 = r73 * r114;
-    let r124 = 0.88302239150017 * c6 + 0.11697760849982991;
-    let r125 = r78 * r124;
-    let r126 = r88 * r114;
-    let r127 = r93 * r124;
-    let r128 = r103 * r114;
-    let r129 = r108 * r124;
-    let r130 = 0.41 * r2;
-    let r131 = 0.0098 * s1;
-    let r133 = 0.2491 * r10;
-    let r135 = 0.2491 * r11;
-    let r137 = 0.00030673288789738896 * r45;
-    let r139 = 0.0698 * r48;
-    let r141 = 0.03279526453875161 * r50;
-    let r142 = r130 - r131 + r133 + r135 + r137 - r139 + r141;
-    let r143 = 0.02278754054626724 * r57;
-    let r145 = 0.0485 * r60;
-    let r148 = r142 + r143 - r145 - 0.8054369277695369 * r110;
+    let r107 = 0.819152234736298 * r54 - 0.4698461968302523 * r63; let r108 = r64 + r107; let r110 = s6 * r68;
+    let r112 = 0.11697760849982991 * c6 + 0.88302239150017; let r113 = r73 * r112; let r114 = c6 - 1.0;
+    let r115 = r78 * r114; let r116 = s6 * r83; let r117 = r88 * r112; let r118 = r93 * r114;
+    let r119 = s6 * r98; let r120 = r103 * r112; let r121 = r108 * r114; let r122 = r73 * r114;
+    let r124 = 0.88302239150017 * c6 + 0.11697760849982991; let r125 = r78 * r124; let r126 = r88 * r114;
+    let r127 = r93 * r124; let r128 = r103 * r114; let r129 = r108 * r124; let r130 = 0.41 * r2;
+    let r131 = 0.0098 * s1; let r133 = 0.2491 * r10; let r135 = 0.2491 * r11;
+    let r137 = 0.00030673288789738896 * r45; let r139 = 0.0698 * r48; let r141 = 0.03279526453875161 * r50;
+    let r142 = r130 - r131 + r133 + r135 + r137 - r139 + r141; let r143 = 0.02278754054626724 * r57;
+    let r145 = 0.0485 * r60; let r148 = r142 + r143 - r145 - 0.8054369277695369 * r110;
     let r152 = r148 - 0.0796 * r113 + 0.0255829307443332 * r115;
-    let r156 = r152 + 0.2847868710119805 * r122 - 0.8861 * r125;
-    let r157 = 0.41 * r3;
-    let r158 = 0.0098 * c1;
-    let r160 = 0.2491 * r12;
-    let r162 = 0.2491 * r13;
-    let r164 = 0.00030673288789738896 * r51;
-    let r166 = 0.0698 * r52;
-    let r168 = 0.03279526453875161 * r53;
-    let r169 = r157 + r158 + r160 + r162 + r164 - r166 + r168;
-    let r170 = 0.02278754054626724 * r61;
-    let r172 = 0.0485 * r62;
-    let r175 = r169 + r170 - r172 - 0.8054369277695369 * r116;
+    let r156 = r152 + 0.2847868710119805 * r122 - 0.8861 * r125; let r157 = 0.41 * r3; let r158 = 0.0098 * c1;
+    let r160 = 0.2491 * r12; let r162 = 0.2491 * r13; let r164 = 0.00030673288789738896 * r51;
+    let r166 = 0.0698 * r52; let r168 = 0.03279526453875161 * r53;
+    let r169 = r157 + r158 + r160 + r162 + r164 - r166 + r168; let r170 = 0.02278754054626724 * r61;
+    let r172 = 0.0485 * r62; let r175 = r169 + r170 - r172 - 0.8054369277695369 * r116;
     let r179 = r175 - 0.0796 * r117 + 0.0255829307443332 * r118;
-    let r183 = r179 + 0.2847868710119805 * r126 - 0.8861 * r127;
-    let r184 = 0.41 * c2;
-    let r185 = 0.2491 * r14;
-    let r187 = 0.2491 * r15;
-    let r189 = 0.00030673288789738896 * r54;
-    let r191 = 0.0698 * r55;
-    let r193 = 0.03279526453875161 * r56;
-    let r195 = 0.02278754054626724 * r63;
-    let r196 = r184 - r185 + r187 - r189 + r191 - r193 - r195;
-    let r197 = 0.0485 * r64;
+    let r183 = r179 + 0.2847868710119805 * r126 - 0.8861 * r127; let r184 = 0.41 * c2; let r185 = 0.2491 * r14;
+    let r187 = 0.2491 * r15; let r189 = 0.00030673288789738896 * r54; let r191 = 0.0698 * r55;
+    let r193 = 0.03279526453875161 * r56; let r195 = 0.02278754054626724 * r63;
+    let r196 = r184 - r185 + r187 - r189 + r191 - r193 - r195; let r197 = 0.0485 * r64;
     let r202 = r196 + r197 + 0.8054369277695369 * r119 + 0.0796 * r120;
     let r206 = r202 - 0.0255829307443332 * r121 - 0.2847868710119805 * r128;
     let r211 = r206 + 0.8861 * r129 + 0.2755 - 0.8054325288708888 * r119;
     let r215 = r211 - 0.2299 * r120 + 0.07388838917238949 * r121;
     let r219 = r215 + 0.3023671010586517 * r128 - 0.9408 * r129;
     let r223 = r183 + 0.8054325288708888 * r116 + 0.2299 * r117;
-    let r227 = r223 - 0.07388838917238949 * r118 - 0.3023671010586517 * r126;
-    let r229 = r227 + 0.9408 * r127;
+    let r227 = r223 - 0.07388838917238949 * r118 - 0.3023671010586517 * r126; let r229 = r227 + 0.9408 * r127;
     let r233 = r156 + 0.8054325288708888 * r110 + 0.2299 * r113;
-    let r237 = r233 - 0.07388838917238949 * r115 - 0.3023671010586517 * r122;
-    let r239 = r237 + 0.9408 * r125;
-    let r247 = c6 * r83 + 0.342019894888923 * (s6 * r88);
-    let r248 = 0.9396927112094517 * (s6 * r93);
+    let r237 = r233 - 0.07388838917238949 * r115 - 0.3023671010586517 * r122; let r239 = r237 + 0.9408 * r125;
+    let r247 = c6 * r83 + 0.342019894888923 * (s6 * r88); let r248 = 0.9396927112094517 * (s6 * r93);
     let r249 = r247 - r248;
     let r253 = c6 * r68 + 0.342019894888923 * (s6 * r73) - 0.9396927112094517 * (s6 * r78);
     let r261 = 0.342019894888923 * r119 - r120 + 0.3213936023157437 * r121;
     let r265 = 0.342019894888923 * r116 - r117 + 0.3213936023157437 * r118;
     let r269 = 0.342019894888923 * r110 - r113 + 0.3213936023157437 * r115;
-    let r277 = 0.9396927112094517 * r119 - 0.3213936023157437 * r128;
-    let r278 = r129 + r277;
-    let r281 = 0.9396927112094517 * r116 - 0.3213936023157437 * r126;
-    let r282 = r127 + r281;
-    let r285 = 0.9396927112094517 * r110 - 0.3213936023157437 * r122;
-    let r286 = r125 + r285;
-    let r291 = r219 - 0.2755;
-    let r296 = r219 - r184;
-    let r297 = r296 - 0.2755;
-    let r300 = r229 - r157;
-    let r302 = r239 - r130;
-    let r305 = r300 - r158;
-    let r307 = r131 + r302;
+    let r277 = 0.9396927112094517 * r119 - 0.3213936023157437 * r128; let r278 = r129 + r277;
+    let r281 = 0.9396927112094517 * r116 - 0.3213936023157437 * r126; let r282 = r127 + r281;
+    let r285 = 0.9396927112094517 * r110 - 0.3213936023157437 * r122; let r286 = r125 + r285;
+    let r291 = r219 - 0.2755; let r296 = r219 - r184; let r297 = r296 - 0.2755; let r300 = r229 - r157;
+    let r302 = r239 - r130; let r305 = r300 - r158; let r307 = r131 + r302;
     let r314 = 0.819152234736298 * r26 - 0.819152234736298 * r27;
-    let r318 = r314 + 0.5735761643640092 * r12 + 0.5735761643640092 * r13;
-    let r320 = r185 + r296 - r187;
-    let r321 = r320 - 0.2755;
-    let r325 = 0.819152234736298 * r28 + 0.5735761643640092 * r14;
-    let r327 = r325 - 0.5735761643640092 * r15;
-    let r329 = r305 - r160 - r162;
-    let r332 = r307 - r133 - r135;
+    let r318 = r314 + 0.5735761643640092 * r12 + 0.5735761643640092 * r13; let r320 = r185 + r296 - r187;
+    let r321 = r320 - 0.2755; let r325 = 0.819152234736298 * r28 + 0.5735761643640092 * r14;
+    let r327 = r325 - 0.5735761643640092 * r15; let r329 = r305 - r160 - r162; let r332 = r307 - r133 - r135;
     let r336 = 0.819152234736298 * r24 + 0.819152234736298 * r25;
     let r340 = r336 + 0.5735761643640092 * r10 + 0.5735761643640092 * r11;
     let r348 = r145 + (r139 + (r332 - r137) - r141 - r143);
@@ -2383,23 +2233,15 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r359 = r195 + (r193 + (r189 + r320 - r191)) - r197 - 0.2755;
     let r362 = 0.8191517021988689 * r51 - 0.9396927112094517 * r52;
     let r366 = r362 + 0.44151104655086953 * r53 - 0.1606967468538431 * r61;
-    let r368 = r366 + 0.342019894888923 * r62;
-    let r372 = 0.8191517021988689 * r54 - 0.9396927112094517 * r55;
+    let r368 = r366 + 0.342019894888923 * r62; let r372 = 0.8191517021988689 * r54 - 0.9396927112094517 * r55;
     let r376 = r372 + 0.44151104655086953 * r56 - 0.1606967468538431 * r63;
-    let r378 = r376 + 0.342019894888923 * r64;
-    let r383 = 0.8191517021988689 * r45 - 0.9396927112094517 * r48;
+    let r378 = r376 + 0.342019894888923 * r64; let r383 = 0.8191517021988689 * r45 - 0.9396927112094517 * r48;
     let r387 = r383 + 0.44151104655086953 * r50 - 0.1606967468538431 * r57;
     let r389 = r387 + 0.342019894888923 * r60;
     let r410 = c6 * r98 + 0.342019894888923 * (s6 * r103) - 0.9396927112094517 * (s6 * r108);
-    let r434 = 0.0 - c1 * r410;
-    let r438 = 0.0 - s1 * r410;
-    let r443 = 0.0 - (s1 * r249 + c1 * r253);
-    let r447 = c1 * r261;
-    let r448 = s1 * r261;
-    let r475 = s1 * r265 + c1 * r269;
-    let r502 = 0.0 - c1 * r278;
-    let r506 = 0.0 - s1 * r278;
-    let r511 = 0.0 - (s1 * r282 + c1 * r286);
+    let r434 = 0.0 - c1 * r410; let r438 = 0.0 - s1 * r410; let r443 = 0.0 - (s1 * r249 + c1 * r253);
+    let r447 = c1 * r261; let r448 = s1 * r261; let r475 = s1 * r265 + c1 * r269; let r502 = 0.0 - c1 * r278;
+    let r506 = 0.0 - s1 * r278; let r511 = 0.0 - (s1 * r282 + c1 * r286);
     [
         [0.0 - r229, c1 * r291, c1 * r297, r39 * r297 + r43 * r305, 0.0 - (r318 * r321 + r327 * r329), r359 * r368 + r353 * r378],
         [r239, s1 * r291, s1 * r297, 0.0 - (r43 * r307 + r33 * r297), r327 * r332 + r321 * r340, 0.0 - (r348 * r378 + r359 * r389)],
@@ -2803,7 +2645,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2882,12 +2728,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2898,6 +2749,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);

@@ -289,6 +289,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -314,9 +316,11 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -330,8 +334,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let py = target[0];
-    let pz = target[1];
+    let py = target[0]; let pz = target[1];
     let magnitude = f64::max(f64::max(218.7, f64::abs(py)), f64::abs(pz));
     Parameters { py, pz, magnitude }
 }
@@ -347,8 +350,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// It runs where pz is not zero and py^2 + pz^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r0 = p.py * p.py;
-    let r1 = p.pz * p.pz;
+    let r0 = p.py * p.py; let r1 = p.pz * p.pz;
     if !(is_away(p.pz, p.magnitude) && is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude))) {
         return;
     }
@@ -357,15 +359,10 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r18 = 7991298000.0 - 4200000.0 * r0 - 4200000.0 * r1;
     let roots0 = real_roots(&[r9 + r13, p.py * r18, 441000000.0 * r0 + 441000000.0 * r1], 1.0);
     for (i0, &s2) in roots0.as_slice().iter().enumerate() {
-        let r23 = 21000.0 * s2;
-        let r24 = 100.0 * p.py;
-        let r27 = 100.0 * r1;
-        let r31 = (p.py * (r23 - r24) + (r27 + 190269.0)) / (22740.0 * p.pz);
-        let s4 = r31;
-        let r37 = (p.py * (r24 - r23) + (r27 - 190269.0)) / (21000.0 * p.pz);
-        let c2 = r37;
-        let c4 = (10.0 * p.py - 1050.0 * s2) / 1137.0;
-        let at = [c2, s2, c4, s4];
+        let r23 = 21000.0 * s2; let r24 = 100.0 * p.py; let r27 = 100.0 * r1;
+        let r31 = (p.py * (r23 - r24) + (r27 + 190269.0)) / (22740.0 * p.pz); let s4 = r31;
+        let r37 = (p.py * (r24 - r23) + (r27 - 190269.0)) / (21000.0 * p.pz); let c2 = r37;
+        let c4 = (10.0 * p.py - 1050.0 * s2) / 1137.0; let at = [c2, s2, c4, s4];
         answers.finish(p, i0, 2, roots0.close, &at, NONE_FREE);
     }
 }
@@ -376,14 +373,11 @@ fn chart_1_2(p: &Parameters, before: usize, answers: &mut Answers<'_>) {
     if !(is_near(p.pz, p.magnitude, NEAR) && is_away(p.py, p.magnitude)) || (answers.suffice_since(p, before) && !(is_near(p.pz, p.magnitude, BESIDE) && is_away(p.py, p.magnitude))) {
         return;
     }
-    let r0 = p.py * p.py;
-    let r1 = 100.0 * r0;
-    let s2 = (r1 - 190269.0) / (21000.0 * p.py);
+    let r0 = p.py * p.py; let r1 = 100.0 * r0; let s2 = (r1 - 190269.0) / (21000.0 * p.py);
     let r8 = r0 * (10000.0 * r0 - 479053800.0) + 36202292361.0;
     let roots0 = real_roots(&[r8, 0.0, 517107600.0 * r0], 1.0);
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
-        let c2 = 0.0 - 379.0 * s4 / 350.0;
-        let c4 = (r1 + 190269.0) / (22740.0 * p.py);
+        let c2 = 0.0 - 379.0 * s4 / 350.0; let c4 = (r1 + 190269.0) / (22740.0 * p.py);
         let at = [c2, s2, c4, s4];
         answers.finish(p, 2 + i0, 4, roots0.close, &at, NONE_FREE);
     }
@@ -463,7 +457,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -474,21 +468,24 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         let missed = end.1.relative;
         end = polish(p, end);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -719,7 +716,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -787,12 +788,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit)) -> ([f64; JOINTS], Fit) {
         }
         let Some(next) = improved(p, &end) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -803,6 +809,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JO
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative);
@@ -890,6 +899,18 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     substituted(&triangle(p, q, damping))
+}
+
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
+    let columns = triangle(p, q, 0.0);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.
@@ -1115,8 +1136,7 @@ impl Polynomial {
     fn quadratic_roots(&self) -> Roots {
         let mut roots = Roots::NONE;
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
+        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
         let typical = 2.0 * a * self.scale;
         if discriminant < -TANGENT * f64::max(size, typical * typical) {
             return roots;
@@ -1253,8 +1273,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

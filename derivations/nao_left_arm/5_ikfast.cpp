@@ -101,6 +101,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -122,6 +124,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -141,7 +145,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -202,7 +206,8 @@ typedef struct {
 
 static Parameters parameters(const double *target)
 {
-    const double px = target[0], py = target[1], pz = target[2], dx = target[3], dy = target[4], dz = target[5];
+    const double px = target[0], py = target[1], pz = target[2], dx = target[3], dy = target[4];
+    const double dz = target[5];
     const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(0.3610777288643948, fabs(px)), fabs(py)), fabs(pz)), fabs(dx)), fabs(dy)), fabs(dz));
     const Parameters result = {px, py, pz, dx, dy, dz, magnitude};
     return result;
@@ -214,10 +219,10 @@ static const int TIP = 6;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3;
-    const double r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4, r18 = s4 * r6;
-    const double r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2;
+    const double r6 = c2 * c3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4;
+    const double r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20;
     const double r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
     const double r49 = r45 - 0.01231 * (s5 * (s2 * s4 - c4 * r6)) + 0.01231 * (c5 * (c2 * s3));
     const double r56 = 0.015 * r2 - 0.105 * r0 - 0.1137 * r14 + 0.1137 * r16;
@@ -275,11 +280,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3;
-    const double r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4;
-    const double r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20, r29 = s3 * r2 + s1 * c3;
-    const double r32 = s3 * r3 - c1 * c3, r42 = 0.1137 * r17, r44 = 0.1137 * r18;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2;
+    const double r6 = c2 * c3, r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15;
+    const double r17 = s2 * c4, r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20;
+    const double r29 = s3 * r2 + s1 * c3, r32 = s3 * r3 - c1 * c3, r42 = 0.1137 * r17, r44 = 0.1137 * r18;
     const double r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)), r48 = 0.01231 * (c5 * r11);
     const double r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48, r53 = 0.1137 * r14, r55 = 0.1137 * r16;
     const double r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15)), r59 = 0.01231 * (c5 * r29);
@@ -590,7 +595,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -609,6 +615,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -636,11 +645,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -672,7 +689,7 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEFT_ARM_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[5][3];
@@ -767,7 +784,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1061,6 +1082,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1086,6 +1108,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1143,13 +1168,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 4, at[8], at[9]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1223,7 +1246,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1282,7 +1305,8 @@ typedef struct {
 static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r37 = 0.01231 * shared->r36, r38 = 0.01231 * shared->r34;
-    const double r43 = 1.0 / sqrt(fmax(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43, s5 = 0.0 - r37 * r43;
+    const double r43 = 1.0 / sqrt(fmax(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43;
+    const double s5 = 0.0 - r37 * r43;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4, c5, s5,
     };
@@ -1597,8 +1621,9 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 /* Chart 1 of block 1: across x. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3, ux = 0.0;
-    const double uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5, vz = p->dx * r4;
+    const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3;
+    const double ux = 0.0, uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5;
+    const double vz = p->dx * r4;
     Known next = NOTHING_KNOWN;
     next.last = 1;
     next.ux = ux;
@@ -1642,8 +1667,9 @@ static double claim_1_2(const Parameters *p)
 /* Chart 3 of block 1: across z. */
 static void chart_1_3(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3, ux = r4;
-    const double uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4, vz = 0.0 - p->dx * r5 - p->dy * r4;
+    const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3;
+    const double ux = r4, uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4;
+    const double vz = 0.0 - p->dx * r5 - p->dy * r4;
     Known next = NOTHING_KNOWN;
     next.last = 1;
     next.ux = ux;

@@ -312,6 +312,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -337,6 +339,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -356,7 +360,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -397,11 +401,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let dx = target[3];
-    let dy = target[4];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let dx = target[3]; let dy = target[4];
     let dz = target[5];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3610777288643948, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(dx)), f64::abs(dy)), f64::abs(dz));
     Parameters { px, py, pz, dx, dy, dz, magnitude }
@@ -445,14 +445,8 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 
 /// Chart 1 of block 1: across x.
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r3 = f64::max(p.dy * p.dy + p.dz * p.dz, 0.0).sqrt();
-    let r4 = p.dz / r3;
-    let r5 = p.dy / r3;
-    let ux = 0.0;
-    let uy = r4;
-    let uz = 0.0 - r5;
-    let vx = 0.0 - p.dy * r5 - p.dz * r4;
-    let vy = p.dx * r5;
+    let r3 = f64::max(p.dy * p.dy + p.dz * p.dz, 0.0).sqrt(); let r4 = p.dz / r3; let r5 = p.dy / r3;
+    let ux = 0.0; let uy = r4; let uz = 0.0 - r5; let vx = 0.0 - p.dy * r5 - p.dz * r4; let vy = p.dx * r5;
     let vz = p.dx * r4;
     let next = Known { branch: 0, last: 1, close: false, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -465,14 +459,8 @@ fn claim_1_1(p: &Parameters) -> f64 {
 
 /// Chart 2 of block 1: across y.
 fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
-    let r3 = f64::max(p.dz * p.dz + p.dx * p.dx, 0.0).sqrt();
-    let r4 = p.dx / r3;
-    let r5 = p.dz / r3;
-    let ux = 0.0 - r5;
-    let uy = 0.0;
-    let uz = r4;
-    let vx = p.dy * r4;
-    let vy = 0.0 - p.dz * r5 - p.dx * r4;
+    let r3 = f64::max(p.dz * p.dz + p.dx * p.dx, 0.0).sqrt(); let r4 = p.dx / r3; let r5 = p.dz / r3;
+    let ux = 0.0 - r5; let uy = 0.0; let uz = r4; let vx = p.dy * r4; let vy = 0.0 - p.dz * r5 - p.dx * r4;
     let vz = p.dy * r5;
     let next = Known { branch: 0, last: 1, close: false, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -485,14 +473,8 @@ fn claim_1_2(p: &Parameters) -> f64 {
 
 /// Chart 3 of block 1: across z.
 fn chart_1_3(p: &Parameters, answers: &mut Answers<'_>) {
-    let r3 = f64::max(p.dx * p.dx + p.dy * p.dy, 0.0).sqrt();
-    let r4 = p.dy / r3;
-    let r5 = p.dx / r3;
-    let ux = r4;
-    let uy = 0.0 - r5;
-    let uz = 0.0;
-    let vx = p.dz * r5;
-    let vy = p.dz * r4;
+    let r3 = f64::max(p.dx * p.dx + p.dy * p.dy, 0.0).sqrt(); let r4 = p.dy / r3; let r5 = p.dx / r3;
+    let ux = r4; let uy = 0.0 - r5; let uz = 0.0; let vx = p.dz * r5; let vy = p.dz * r4;
     let vz = 0.0 - p.dx * r5 - p.dy * r4;
     let next = Known { branch: 0, last: 1, close: false, ux, uy, uz, vx, vy, vz, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -505,24 +487,18 @@ fn claim_1_3(p: &Parameters) -> f64 {
 
 /// Block 2: turn about the ray.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r20 = 0.02462 * (p.px * known.ux) + 0.02462 * (p.py * known.uy);
-    let r24 = r20 + 0.02462 * (p.pz * known.uz) - 0.00241276 * known.uy;
-    let r26 = 0.002462 * known.uz - r24;
+    let before = answers.candidates; let r20 = 0.02462 * (p.px * known.ux) + 0.02462 * (p.py * known.uy);
+    let r24 = r20 + 0.02462 * (p.pz * known.uz) - 0.00241276 * known.uy; let r26 = 0.002462 * known.uz - r24;
     let r29 = 0.02462 * (p.px * known.vx) + 0.02462 * (p.py * known.vy);
-    let r33 = r29 + 0.02462 * (p.pz * known.vz) - 0.00241276 * known.vy;
-    let r35 = r33 - 0.002462 * known.vz;
+    let r33 = r29 + 0.02462 * (p.pz * known.vz) - 0.00241276 * known.vy; let r35 = r33 - 0.002462 * known.vz;
     let r38 = 2.0 * (p.px * (p.px - 0.1137 * p.dx)) + 2.0 * (p.py * (p.py - 0.1137 * p.dy));
     let r41 = r38 + 2.0 * (p.pz * (p.pz - 0.1137 * p.dz)) - p.px * p.px;
     let r45 = r41 - p.py * p.py - p.pz * p.pz - 0.196 * p.py;
-    let r51 = r45 + 0.0222852 * p.dy - 0.2 * p.pz + 0.02274 * p.dz;
-    let r52 = r51 + 0.0214332261;
-    let r53 = 0.0 - r52;
-    let r61 = 6.0 * (p.magnitude * (p.magnitude + 1.16248));
+    let r51 = r45 + 0.0222852 * p.dy - 0.2 * p.pz + 0.02274 * p.dz; let r52 = r51 + 0.0214332261;
+    let r53 = 0.0 - r52; let r61 = 6.0 * (p.magnitude * (p.magnitude + 1.16248));
     let r65 = r61 + 3.0 * (p.magnitude * p.magnitude) + 0.396 * p.magnitude;
     let r67 = f64::abs(6.36654 * p.magnitude + 1.1545233044);
-    let r68 = f64::abs(2.48214 * p.magnitude + 0.32792888);
-    let r69 = f64::abs(r65 + 1.4594794227);
+    let r68 = f64::abs(2.48214 * p.magnitude + 0.32792888); let r69 = f64::abs(r65 + 1.4594794227);
     let shared = &Shared2 { r26, r35, r52, r53, r67, r68, r69 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -535,21 +511,15 @@ struct Shared2 { r26: f64, r35: f64, r52: f64, r53: f64, r67: f64, r68: f64, r69
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r70 = shared.r26 * shared.r26;
-    let r71 = shared.r35 * shared.r35;
-    let r72 = r70 + r71;
+    let r70 = shared.r26 * shared.r26; let r71 = shared.r35 * shared.r35; let r72 = r70 + r71;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
     if !is_away(r72, 16.0 * r75) {
         return;
     }
-    let fr = 1.0;
-    let roots0 = square_roots(shared.r52 * shared.r52 - r70 - r71, f64::max(r75, 0.0).sqrt());
+    let fr = 1.0; let roots0 = square_roots(shared.r52 * shared.r52 - r70 - r71, f64::max(r75, 0.0).sqrt());
     for (i0, &wr) in roots0.as_slice().iter().enumerate() {
-        let r84 = wr * shared.r26 - (0.0 - shared.r35 * shared.r52);
-        let r88 = 1.0 / r72;
-        let r89 = (shared.r26 * shared.r52 - wr * shared.r35) * r88;
-        let cr = r89;
-        let sr = r84 * r88;
+        let r84 = wr * shared.r26 - (0.0 - shared.r35 * shared.r52); let r88 = 1.0 / r72;
+        let r89 = (shared.r26 * shared.r52 - wr * shared.r35) * r88; let cr = r89; let sr = r84 * r88;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, cr, sr, fr, ..*known };
         block_3(p, &next, answers);
     }
@@ -574,12 +544,10 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: ShoulderPitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r7 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
+    let before = answers.candidates; let r7 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
     let r10 = 0.1 - (r7 + 0.01231 * (known.cr * known.uz));
     let r14 = p.px - 0.1137 * p.dx - 0.01231 * (known.sr * known.vx);
-    let r16 = r14 + 0.01231 * (known.cr * known.ux);
-    let r19 = f64::abs(p.magnitude + 2.73726);
+    let r16 = r14 + 0.01231 * (known.cr * known.ux); let r19 = f64::abs(p.magnitude + 2.73726);
     let r20 = f64::abs(p.magnitude + 2.63726);
     let shared = &Shared3 { r10, r16, r19, r20 };
     chart_3_1(p, known, shared, answers);
@@ -600,19 +568,14 @@ struct Shared3 { r10: f64, r16: f64, r19: f64, r20: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r21 = shared.r10 * shared.r10;
-    let r22 = shared.r16 * shared.r16;
-    let r23 = r21 + r22;
+    let r21 = shared.r10 * shared.r10; let r22 = shared.r16 * shared.r16; let r23 = r21 + r22;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
     if !is_away(r23, 16.0 * r26) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r21 - r22, known.fr * f64::max(r26, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r21 - r22, known.fr * f64::max(r26, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r34 = 1.0 / r23;
-        let c1 = w1 * shared.r16 * r34;
-        let s1 = w1 * shared.r10 * r34;
+        let r34 = 1.0 / r23; let c1 = w1 * shared.r16 * r34; let s1 = w1 * shared.r10 * r34;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, f1, ..*known };
         block_4(p, &next, answers);
     }
@@ -642,8 +605,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r16 = p.pz - 0.1137 * p.dz - 0.01231 * (known.sr * known.vz);
     let r20 = known.s1 * (r16 + 0.01231 * (known.cr * known.uz) - 0.1);
     let r24 = p.py - 0.1137 * p.dy - 0.01231 * (known.sr * known.vy);
-    let r27 = r24 + 0.01231 * (known.cr * known.uy) - 0.098;
-    let r28 = r20 - r12;
+    let r27 = r24 + 0.01231 * (known.cr * known.uy) - 0.098; let r28 = r20 - r12;
     let shared = &Shared4 { r27, r28 };
     chart_4_1(p, known, shared, answers);
 }
@@ -663,9 +625,7 @@ struct Shared4 { r27: f64, r28: f64 }
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r32 = 0.015 * shared.r28 - (0.0 - 0.105 * shared.r27);
     let r35 = 0.015 * shared.r27 - 0.105 * shared.r28;
-    let r40 = 1.0 / f64::max(r35 * r35 + r32 * r32, 0.0).sqrt();
-    let c2 = r35 * r40;
-    let s2 = r32 * r40;
+    let r40 = 1.0 / f64::max(r35 * r35 + r32 * r32, 0.0).sqrt(); let c2 = r35 * r40; let s2 = r32 * r40;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_5(p, &next, answers);
 }
@@ -673,10 +633,8 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: ElbowYaw.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r6 = known.s2 * (p.dx * known.c1 - p.dz * known.s1);
-    let r7 = p.dz * known.c1 + p.dx * known.s1;
-    let r8 = p.dy * known.c2 - r6;
+    let before = answers.candidates; let r6 = known.s2 * (p.dx * known.c1 - p.dz * known.s1);
+    let r7 = p.dz * known.c1 + p.dx * known.s1; let r8 = p.dy * known.c2 - r6;
     let shared = &Shared5 { r7, r8 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, before, answers);
@@ -689,17 +647,13 @@ struct Shared5 { r7: f64, r8: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r9 = shared.r7 * shared.r7;
-    let r10 = shared.r8 * shared.r8;
-    let r11 = r9 + r10;
+    let r9 = shared.r7 * shared.r7; let r10 = shared.r8 * shared.r8; let r11 = r9 + r10;
     if !is_away(r11, 976.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * (7.810249675906654 * known.fr));
     for (i0, &w3) in roots0.as_slice().iter().enumerate().take(1) {
-        let r18 = 1.0 / r11;
-        let c3 = 0.0 - w3 * shared.r8 * r18;
-        let s3 = 0.0 - w3 * shared.r7 * r18;
+        let r18 = 1.0 / r11; let c3 = 0.0 - w3 * shared.r8 * r18; let s3 = 0.0 - w3 * shared.r7 * r18;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c3, s3, ..*known };
         block_6(p, &next, answers);
     }
@@ -722,10 +676,8 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, ans
 /// Block 6: ElbowRoll.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.dx * known.c1 - p.dz * known.s1;
-    let r12 = known.s3 * (p.dz * known.c1 + p.dx * known.s1);
-    let r13 = known.c2 * r4 + p.dy * known.s2;
-    let r14 = known.c3 * (p.dy * known.c2 - known.s2 * r4) + r12;
+    let r4 = p.dx * known.c1 - p.dz * known.s1; let r12 = known.s3 * (p.dz * known.c1 + p.dx * known.s1);
+    let r13 = known.c2 * r4 + p.dy * known.s2; let r14 = known.c3 * (p.dy * known.c2 - known.s2 * r4) + r12;
     let shared = &Shared6 { r13, r14 };
     chart_6_1(p, known, shared, answers);
 }
@@ -743,10 +695,8 @@ struct Shared6 { r13: f64, r14: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
-    let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
-    let c4 = shared.r13 * r19;
-    let s4 = shared.r14 * r19;
+    let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14; let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
+    let c4 = shared.r13 * r19; let s4 = shared.r14 * r19;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c4, s4, ..*known };
     block_7(p, &next, answers);
 }
@@ -754,15 +704,12 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Block 7: WristYaw.
 #[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.pz - 0.1;
-    let r9 = known.c2 * (p.py - 0.098) - known.s2 * (p.px * known.c1 - known.s1 * r1);
-    let r20 = known.cr * known.vx + known.sr * known.ux;
-    let r22 = known.cr * known.vz + known.sr * known.uz;
+    let r1 = p.pz - 0.1; let r9 = known.c2 * (p.py - 0.098) - known.s2 * (p.px * known.c1 - known.s1 * r1);
+    let r20 = known.cr * known.vx + known.sr * known.ux; let r22 = known.cr * known.vz + known.sr * known.uz;
     let r28 = known.c2 * (known.cr * known.vy + known.sr * known.uy);
     let r30 = r28 - known.s2 * (known.c1 * r20 - known.s1 * r22);
     let r34 = known.c3 * (known.c1 * r1 + p.px * known.s1) - known.s3 * (r9 - 0.015);
-    let r35 = known.c3 * (known.c1 * r22 + known.s1 * r20) - known.s3 * r30;
-    let r36 = 0.01231 * r35;
+    let r35 = known.c3 * (known.c1 * r22 + known.s1 * r20) - known.s3 * r30; let r36 = 0.01231 * r35;
     let shared = &Shared7 { r34, r36 };
     chart_7_1(p, known, shared, answers);
 }
@@ -773,10 +720,8 @@ struct Shared7 { r34: f64, r36: f64 }
 /// Chart 1 of block 7: generic.
 #[inline(always)]
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r37 = 0.01231 * shared.r36;
-    let r38 = 0.01231 * shared.r34;
-    let r43 = 1.0 / f64::max(r38 * r38 + r37 * r37, 0.0).sqrt();
-    let c5 = 0.0 - r38 * r43;
+    let r37 = 0.01231 * shared.r36; let r38 = 0.01231 * shared.r34;
+    let r43 = 1.0 / f64::max(r38 * r38 + r37 * r37, 0.0).sqrt(); let c5 = 0.0 - r38 * r43;
     let s5 = 0.0 - r37 * r43;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, c5, s5,
@@ -808,19 +753,9 @@ const TIP: usize = 6;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r6 = c2 * c3;
-    let r14 = c4 * r0;
-    let r15 = c3 * r2 - s1 * s3;
-    let r16 = s4 * r15;
-    let r17 = s2 * c4;
-    let r18 = s4 * r6;
-    let r19 = c4 * r1;
-    let r20 = c3 * r3 + c1 * s3;
-    let r21 = s4 * r20;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r6 = c2 * c3;
+    let r14 = c4 * r0; let r15 = c3 * r2 - s1 * s3; let r16 = s4 * r15; let r17 = s2 * c4; let r18 = s4 * r6;
+    let r19 = c4 * r1; let r20 = c3 * r3 + c1 * s3; let r21 = s4 * r20;
     let r45 = 0.015 * c2 + 0.105 * s2 + 0.1137 * r17 + 0.1137 * r18;
     let r49 = r45 - 0.01231 * (s5 * (s2 * s4 - c4 * r6)) + 0.01231 * (c5 * (c2 * s3));
     let r56 = 0.015 * r2 - 0.105 * r0 - 0.1137 * r14 + 0.1137 * r16;
@@ -881,44 +816,18 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r6 = c2 * c3;
-    let r11 = c2 * s3;
-    let r14 = c4 * r0;
-    let r15 = c3 * r2 - s1 * s3;
-    let r16 = s4 * r15;
-    let r17 = s2 * c4;
-    let r18 = s4 * r6;
-    let r19 = c4 * r1;
-    let r20 = c3 * r3 + c1 * s3;
-    let r21 = s4 * r20;
-    let r29 = s3 * r2 + s1 * c3;
-    let r32 = s3 * r3 - c1 * c3;
-    let r42 = 0.1137 * r17;
-    let r44 = 0.1137 * r18;
-    let r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6));
-    let r48 = 0.01231 * (c5 * r11);
-    let r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48;
-    let r53 = 0.1137 * r14;
-    let r55 = 0.1137 * r16;
-    let r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15));
-    let r59 = 0.01231 * (c5 * r29);
-    let r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59;
-    let r64 = 0.1137 * r19;
-    let r66 = 0.1137 * r21;
-    let r68 = 0.01231 * (s5 * (s4 * r1 + c4 * r20));
-    let r70 = 0.01231 * (c5 * r32);
-    let r71 = 0.015 * r3 - 0.105 * r1 - r64 + r66 + r68 + r70;
-    let r72 = r17 + r18;
-    let r73 = r14 - r16;
-    let r90 = r64 - r66 - r68 - r70;
-    let r94 = r48 + (r42 + r44 - r46);
-    let r98 = r53 - r55 - r57 - r59;
-    let r113 = 0.05775 * r19 - 0.05775 * r21 - r68 - r70;
-    let r115 = r19 - r21;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r6 = c2 * c3;
+    let r11 = c2 * s3; let r14 = c4 * r0; let r15 = c3 * r2 - s1 * s3; let r16 = s4 * r15; let r17 = s2 * c4;
+    let r18 = s4 * r6; let r19 = c4 * r1; let r20 = c3 * r3 + c1 * s3; let r21 = s4 * r20;
+    let r29 = s3 * r2 + s1 * c3; let r32 = s3 * r3 - c1 * c3; let r42 = 0.1137 * r17; let r44 = 0.1137 * r18;
+    let r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)); let r48 = 0.01231 * (c5 * r11);
+    let r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48; let r53 = 0.1137 * r14; let r55 = 0.1137 * r16;
+    let r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15)); let r59 = 0.01231 * (c5 * r29);
+    let r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59; let r64 = 0.1137 * r19; let r66 = 0.1137 * r21;
+    let r68 = 0.01231 * (s5 * (s4 * r1 + c4 * r20)); let r70 = 0.01231 * (c5 * r32);
+    let r71 = 0.015 * r3 - 0.105 * r1 - r64 + r66 + r68 + r70; let r72 = r17 + r18; let r73 = r14 - r16;
+    let r90 = r64 - r66 - r68 - r70; let r94 = r48 + (r42 + r44 - r46); let r98 = r53 - r55 - r57 - r59;
+    let r113 = 0.05775 * r19 - 0.05775 * r21 - r68 - r70; let r115 = r19 - r21;
     let r120 = r48 + (0.05775 * r17 + 0.05775 * r18 - r46);
     let r126 = 0.05775 * r14 - 0.05775 * r16 - r57 - r59;
     [
@@ -939,7 +848,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -950,20 +859,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -992,6 +902,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1333,7 +1246,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1402,12 +1319,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1418,6 +1340,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1813,8 +1738,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -318,6 +318,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -343,6 +345,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -360,7 +364,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -376,10 +380,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let c3 = target[3].cos();
+    let px = target[0]; let py = target[1]; let pz = target[2]; let c3 = target[3].cos();
     let s3 = target[3].sin();
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(0.36044474637583046, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(c3)), f64::abs(s3));
     Parameters { px, py, pz, c3, s3, magnitude }
@@ -416,8 +417,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Chart 1 of block 1: given.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let c3_ = p.c3;
-    let s3_ = p.s3;
+    let c3_ = p.c3; let s3_ = p.s3;
     let next = Known { branch: 0, last: 1, close: false, c3_, s3_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -425,8 +425,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: ElbowRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r3 = 0.003411 * known.c3_;
+    let before = answers.candidates; let r3 = 0.003411 * known.c3_;
     let r6 = 0.0003693 * known.s3_ - p.px * p.px - p.py * p.py;
     let r12 = r6 - p.pz * p.pz + 0.196 * p.py + 0.2 * p.pz + 0.0047252261;
     let shared = &Shared2 { r3, r12 };
@@ -441,20 +440,15 @@ struct Shared2 { r3: f64, r12: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r13 = shared.r3 * shared.r3;
-    let r14 = r13 + 0.0005701111289999999;
+    let r13 = shared.r3 * shared.r3; let r14 = r13 + 0.0005701111289999999;
     if !is_away(r14, 32.0) {
         return;
     }
-    let f4 = 1.0;
-    let r16 = shared.r12 * shared.r12 - 0.0005701111289999999;
+    let f4 = 1.0; let r16 = shared.r12 * shared.r12 - 0.0005701111289999999;
     let roots0 = square_roots(r16 - r13, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r24 = 1.0 / r14;
-        let r25 = (w4 * shared.r3 + 0.023877 * shared.r12) * r24;
-        let r27 = (0.023877 * w4 - shared.r3 * shared.r12) * r24;
-        let c4 = 0.0 - r25;
-        let s4 = r27;
+        let r24 = 1.0 / r14; let r25 = (w4 * shared.r3 + 0.023877 * shared.r12) * r24;
+        let r27 = (0.023877 * w4 - shared.r3 * shared.r12) * r24; let c4 = 0.0 - r25; let s4 = r27;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, f4, ..*known };
         block_3(p, &next, answers);
     }
@@ -478,10 +472,8 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: ShoulderPitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = 0.1 - p.pz;
-    let r4 = 0.1137 * (known.s3_ * known.s4) - 0.01231 * known.c3_;
-    let r6 = f64::abs(p.magnitude + 0.1);
+    let before = answers.candidates; let r1 = 0.1 - p.pz;
+    let r4 = 0.1137 * (known.s3_ * known.s4) - 0.01231 * known.c3_; let r6 = f64::abs(p.magnitude + 0.1);
     let shared = &Shared3 { r1, r4, r6 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -501,19 +493,15 @@ struct Shared3 { r1: f64, r4: f64, r6: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r7 = shared.r1 * shared.r1;
-    let r8 = p.px * p.px;
-    let r9 = r7 + r8;
+    let r7 = shared.r1 * shared.r1; let r8 = p.px * p.px; let r9 = r7 + r8;
     let r12 = shared.r6 * shared.r6 + p.magnitude * p.magnitude;
     if !is_away(r9, 16.0 * r12) {
         return;
     }
     let roots0 = square_roots(shared.r4 * shared.r4 - r7 - r8, known.f4 * f64::max(r12, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r26 = 1.0 / r9;
-        let r28 = (w1 * shared.r1 - (0.0 - p.px * shared.r4)) * r26;
-        let c1 = (p.px * w1 - shared.r1 * shared.r4) * r26;
-        let s1 = r28;
+        let r26 = 1.0 / r9; let r28 = (w1 * shared.r1 - (0.0 - p.px * shared.r4)) * r26;
+        let c1 = (p.px * w1 - shared.r1 * shared.r4) * r26; let s1 = r28;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -536,13 +524,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: ShoulderRoll.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r6 = 0.1137 * (known.c3_ * known.s4) + 0.01231 * known.s3_;
-    let r7 = r6 + 0.015;
-    let r9 = 0.1137 * known.c4 + 0.105;
-    let r10 = p.py - 0.098;
-    let r11 = known.s1 * (p.pz - 0.1) - p.px * known.c1;
-    let r15 = f64::abs(p.magnitude + 0.098);
+    let before = answers.candidates; let r6 = 0.1137 * (known.c3_ * known.s4) + 0.01231 * known.s3_;
+    let r7 = r6 + 0.015; let r9 = 0.1137 * known.c4 + 0.105; let r10 = p.py - 0.098;
+    let r11 = known.s1 * (p.pz - 0.1) - p.px * known.c1; let r15 = f64::abs(p.magnitude + 0.098);
     let r16 = f64::abs(2.0 * p.magnitude + 0.1);
     let shared = &Shared4 { r7, r9, r10, r11, r15, r16 };
     chart_4_1(p, known, shared, answers);
@@ -569,9 +553,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
     let r23 = shared.r7 * shared.r11 - (0.0 - shared.r9 * shared.r10);
     let r26 = shared.r7 * shared.r10 - shared.r9 * shared.r11;
-    let r31 = 1.0 / f64::max(r26 * r26 + r23 * r23, 0.0).sqrt();
-    let c2 = r26 * r31;
-    let s2 = r23 * r31;
+    let r31 = 1.0 / f64::max(r26 * r26 + r23 * r23, 0.0).sqrt(); let c2 = r26 * r31; let s2 = r23 * r31;
     let at = [known.c1, known.s1, c2, s2, known.c3_, known.s3_, known.c4, known.s4];
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, known.free);
 }
@@ -597,10 +579,7 @@ const TIP: usize = 5;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3_, s3_, c4, s4] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2;
     let r28 = 0.015 * c2 + 0.105 * s2 + 0.1137 * (s2 * c4) + 0.1137 * (s4 * (c2 * c3_));
     let r37 = 0.015 * r2 - 0.105 * r0 - 0.1137 * (c4 * r0) + 0.1137 * (s4 * (c3_ * r2 - s1 * s3_));
     let r41 = r37 + 0.01231 * (s3_ * r2) + 0.01231 * (s1 * c3_);
@@ -657,34 +636,15 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3_, s3_, c4, s4] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r9 = s3_ * r2;
-    let r10 = s1 * c3_;
-    let r11 = c2 * s3_;
-    let r12 = s3_ * r3;
-    let r13 = c1 * c3_;
-    let r25 = 0.1137 * (s2 * c4);
-    let r27 = 0.1137 * (s4 * (c2 * c3_));
-    let r29 = 0.01231 * r11;
-    let r30 = 0.015 * c2 + 0.105 * s2 + r25 + r27 + r29;
-    let r34 = 0.1137 * (c4 * r0);
-    let r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_));
-    let r38 = 0.01231 * r9;
-    let r40 = 0.01231 * r10;
-    let r41 = 0.015 * r2 - 0.105 * r0 - r34 + r36 + r38 + r40;
-    let r45 = 0.1137 * (c4 * r1);
-    let r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_));
-    let r49 = 0.01231 * r12;
-    let r51 = 0.01231 * r13;
-    let r52 = 0.015 * r3 - 0.105 * r1 - r45 + r47 + r49 - r51;
-    let r67 = r51 + (r45 - r47 - r49);
-    let r70 = r29 + (r25 + r27);
-    let r74 = r34 - r36 - r38 - r40;
-    let r80 = r12 - r13;
-    let r83 = r9 + r10;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r9 = s3_ * r2;
+    let r10 = s1 * c3_; let r11 = c2 * s3_; let r12 = s3_ * r3; let r13 = c1 * c3_;
+    let r25 = 0.1137 * (s2 * c4); let r27 = 0.1137 * (s4 * (c2 * c3_)); let r29 = 0.01231 * r11;
+    let r30 = 0.015 * c2 + 0.105 * s2 + r25 + r27 + r29; let r34 = 0.1137 * (c4 * r0);
+    let r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_)); let r38 = 0.01231 * r9; let r40 = 0.01231 * r10;
+    let r41 = 0.015 * r2 - 0.105 * r0 - r34 + r36 + r38 + r40; let r45 = 0.1137 * (c4 * r1);
+    let r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_)); let r49 = 0.01231 * r12; let r51 = 0.01231 * r13;
+    let r52 = 0.015 * r3 - 0.105 * r1 - r45 + r47 + r49 - r51; let r67 = r51 + (r45 - r47 - r49);
+    let r70 = r29 + (r25 + r27); let r74 = r34 - r36 - r38 - r40; let r80 = r12 - r13; let r83 = r9 + r10;
     [
         [r52, 0.0 - c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80],
         [0.0, 0.0 - (c1 * r41 + s1 * r52), r0 * r67 - r1 * r74, r67 * r83 - r74 * r80],
@@ -702,7 +662,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -713,20 +673,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -755,6 +716,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1095,7 +1059,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1164,12 +1132,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1180,6 +1153,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1575,8 +1551,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -127,6 +127,8 @@ int nao_leg_sagittal_nearest(const nao_leg_sagittal_solution *list, int count, c
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -148,6 +150,8 @@ int nao_leg_sagittal_nearest(const nao_leg_sagittal_solution *list, int count, c
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
 #define PI 3.141592653589793
@@ -546,6 +550,19 @@ static bool newton_step(const Parameters *p, const double *q, double damping, do
     return substituted(columns, step);
 }
 
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least / most;
+}
+
 /* q - step, angles in (-pi, pi]. */
 static void stepped(const double *q, const double *step, double *next)
 {
@@ -626,7 +643,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -645,6 +663,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit)) {
@@ -672,11 +693,19 @@ static void polish(const Parameters *p, double *q, Fit *fit)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -796,7 +825,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE));
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound);
 }
 
 /* Whether two answers, with their relative residuals, are one. */
@@ -1018,6 +1051,18 @@ static void unite(Answers *answers)
     }
 }
 
+/* Insertion sort by branch. */
+static void sort(Answers *answers)
+{
+    for (size_t end = 1; end < answers->count; end++) {
+        for (size_t i = end; i > 0 && answers->out[i - 1].branch > answers->out[i].branch; i--) {
+            const Solution later = answers->out[i - 1];
+            answers->out[i - 1] = answers->out[i];
+            answers->out[i] = later;
+        }
+    }
+}
+
 /* The source chooses the answer with the least value of this. */
 static double preference(const double *q)
 {
@@ -1103,6 +1148,7 @@ int nao_leg_sagittal_solve(const double *target, nao_leg_sagittal_solution *out)
         return fault;
     }
     unite(&answers);
+    sort(&answers);
     mark_choice(&answers);
     return (int)answers.count;
 }

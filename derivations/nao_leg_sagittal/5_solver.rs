@@ -85,6 +85,7 @@ pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<u
     let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
     block_1(p, &mut answers);
     answers.unite();
+    answers.sort();
     answers.mark_choice();
     Ok(answers.count)
 }
@@ -267,6 +268,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -292,6 +295,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
@@ -304,8 +309,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let pz = target[1];
+    let px = target[0]; let pz = target[1];
     let magnitude = f64::max(f64::max(305.8, f64::abs(px)), f64::abs(pz));
     Parameters { px, pz, magnitude }
 }
@@ -319,25 +323,19 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// It runs where px^2 + pz^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r0 = p.px * p.px;
-    let r1 = p.pz * p.pz;
+    let r0 = p.px * p.px; let r1 = p.pz * p.pz;
     if !is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude)) {
         return;
     }
-    let r6 = 20000.0 * r1;
-    let r13 = r1 * (10000.0 * r1 - 411768200.0) + 3462263281.0;
+    let r6 = 20000.0 * r1; let r13 = r1 * (10000.0 * r1 - 411768200.0) + 3462263281.0;
     let roots0 = real_roots(&[
         r0 * (10000.0 * r0 + r6 - 411768200.0) + r13, 0.0, 4235364000000.0,
     ], 1.0);
     for (i0, &s4) in roots0.as_slice().iter().enumerate() {
-        let r17 = 100.0 * r0 + 100.0 * r1;
-        let r18 = r17 - 58841.0;
-        let r24 = r6 + 20000.0 * r0;
+        let r17 = 100.0 * r0 + 100.0 * r1; let r18 = r17 - 58841.0; let r24 = r6 + 20000.0 * r0;
         let s3 = (p.px * r18 - 2058000.0 * (p.pz * s4)) / r24;
-        let c3 = (p.pz * r18 + 2058000.0 * (p.px * s4)) / r24;
-        let c4 = (r17 - 2058841.0) / 2058000.0;
-        let at = [c3, s3, c4, s4];
-        let q = [angle(at[0], at[1]), angle(at[2], at[3])];
+        let c3 = (p.pz * r18 + 2058000.0 * (p.px * s4)) / r24; let c4 = (r17 - 2058841.0) / 2058000.0;
+        let at = [c3, s3, c4, s4]; let q = [angle(at[0], at[1]), angle(at[2], at[3])];
         answers.finish(p, i0, 2, roots0.close, &at, q, NONE_FREE);
     }
 }
@@ -376,9 +374,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c3, s3, c4, s4] = *at;
-    let r0 = 102.9 * c4;
-    let r4 = 102.9 * (c3 * s4);
-    let r9 = 102.9 * (s4 * s3);
+    let r0 = 102.9 * c4; let r4 = 102.9 * (c3 * s4); let r9 = 102.9 * (s4 * s3);
     [
         [c3 * (r0 + 100.0) - r9, 102.9 * (c4 * c3) - r9],
         [s3 * (0.0 - r0 - 100.0) - r4, 0.0 - 102.9 * (c4 * s3) - r4],
@@ -560,6 +556,18 @@ impl Answers<'_> {
         }
     }
 
+    /// Insertion sort by branch.
+    fn sort(&mut self) {
+        for end in 1..self.count {
+            for place in (1..=end).rev() {
+                if self.out[place - 1].branch <= self.out[place].branch {
+                    break;
+                }
+                self.out.swap(place - 1, place);
+            }
+        }
+    }
+
     /// Marks what the source would choose.
     fn mark_choice(&mut self) {
         let answers = &mut self.out[..self.count];
@@ -636,7 +644,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -710,12 +722,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit)) -> ([f64; JOINTS], Fit) {
         }
         let Some(next) = improved(p, &end) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -726,6 +743,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JO
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative);
@@ -813,6 +833,18 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     substituted(&triangle(p, q, damping))
+}
+
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
+    let columns = triangle(p, q, 0.0);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.
@@ -1039,8 +1071,7 @@ impl Polynomial {
     fn quadratic_roots(&self) -> Roots {
         let mut roots = Roots::NONE;
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
+        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
         let typical = 2.0 * a * self.scale;
         if discriminant < -TANGENT * f64::max(size, typical * typical) {
             return roots;

@@ -320,6 +320,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -345,6 +347,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -364,7 +368,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -430,24 +434,11 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let left_px = target[0];
-    let left_py = target[1];
-    let left_pz = target[2];
-    let left_r11 = target[3];
-    let left_r12 = target[4];
-    let left_r13 = target[5];
-    let left_r21 = target[6];
-    let left_r22 = target[7];
-    let left_r23 = target[8];
-    let left_r31 = target[9];
-    let left_r32 = target[10];
-    let left_r33 = target[11];
-    let right_px = target[12];
-    let right_py = target[13];
-    let right_pz = target[14];
-    let right_dx = target[15];
-    let right_dy = target[16];
-    let right_dz = target[17];
+    let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
+    let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
+    let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10]; let left_r33 = target[11];
+    let right_px = target[12]; let right_py = target[13]; let right_pz = target[14]; let right_dx = target[15];
+    let right_dy = target[16]; let right_dz = target[17];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(left_px)), f64::abs(left_py)), f64::abs(left_pz)), f64::abs(left_r11)), f64::abs(left_r12)), f64::abs(left_r13)), f64::abs(left_r21)), f64::abs(left_r22)), f64::abs(left_r23)), f64::abs(left_r31)), f64::abs(left_r32)), f64::abs(left_r33)), f64::abs(right_px)), f64::abs(right_py)), f64::abs(right_pz)), f64::abs(right_dx)), f64::abs(right_dy)), f64::abs(right_dz));
     Parameters { left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude }
 }
@@ -488,8 +479,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.left_px * p.left_px;
     let r19 = r17 - p.left_py * p.left_py - p.left_pz * p.left_pz;
     let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
-    let r28 = 0.0088212739 - r27;
+    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared1 { r28 };
     chart_1_1(p, shared, answers);
 }
@@ -503,8 +493,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
-        let left_c4 = r34;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let left_c4 = r34;
         let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         let next = Known { branch: i0, last: 2, close: roots0.close, left_c4, left_s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -514,15 +503,11 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnkleRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r9 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
+    let before = answers.candidates; let r9 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
     let r11 = p.left_pz * p.left_r32 - (r9 - p.left_py * p.left_r22);
     let r15 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
-    let r17 = r15 - p.left_py * p.left_r23 - p.left_pz * p.left_r33;
-    let r18 = r17 - 0.04519;
-    let r19 = 3.0 * p.magnitude;
-    let r22 = f64::abs(r19 + 0.235);
-    let r23 = f64::abs(r19 + 0.75599);
+    let r17 = r15 - p.left_py * p.left_r23 - p.left_pz * p.left_r33; let r18 = r17 - 0.04519;
+    let r19 = 3.0 * p.magnitude; let r22 = f64::abs(r19 + 0.235); let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -535,18 +520,14 @@ struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r24 = shared.r11 * shared.r11;
-    let r25 = shared.r18 * shared.r18;
-    let r26 = r24 + r25;
+    let r24 = shared.r11 * shared.r11; let r25 = shared.r18 * shared.r18; let r26 = r24 + r25;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_away(r26, 16.0 * r29) {
         return;
     }
-    let left_f6 = 1.0;
-    let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
+    let left_f6 = 1.0; let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r36 = 1.0 / r26;
-        let left_c6 = 0.0 - left_w6 * shared.r18 * r36;
+        let r36 = 1.0 / r26; let left_c6 = 0.0 - left_w6 * shared.r18 * r36;
         let left_s6 = left_w6 * shared.r11 * r36;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c6, left_s6, left_f6, ..*known };
         block_3(p, &next, answers);
@@ -572,34 +553,26 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.left_r22 * known.left_s6;
-    let r3 = p.left_r23 * known.left_c6;
-    let r4 = p.left_r32 * known.left_s6;
-    let r5 = p.left_r33 * known.left_c6;
+    let before = answers.candidates; let r2 = p.left_r22 * known.left_s6; let r3 = p.left_r23 * known.left_c6;
+    let r4 = p.left_r32 * known.left_s6; let r5 = p.left_r33 * known.left_c6;
     let r8 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
     let r9 = p.left_r12 * known.left_s6 + p.left_r13 * known.left_c6;
     let r14 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
     let r20 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
     let r29 = 0.009300102 * known.left_c6 + 0.2058 * (p.left_px * r9);
     let r33 = r29 + 0.2058 * (p.left_py * (r2 + r3)) + 0.2058 * (p.left_pz * (r4 + r5));
-    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4;
-    let r41 = r39 + 0.017493 * r5;
+    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4; let r41 = r39 + 0.017493 * r5;
     let r44 = 0.2058 * (p.left_px * p.left_r11) + 0.2058 * (p.left_py * p.left_r21);
     let r48 = r44 + 0.2058 * (p.left_pz * p.left_r31) - 0.01029 * p.left_r21;
-    let r50 = r48 + 0.017493 * p.left_r31;
-    let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
+    let r50 = r48 + 0.017493 * p.left_r31; let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
     let r58 = r56 - p.left_py * p.left_py - p.left_pz * p.left_pz;
     let r62 = r58 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
-    let r67 = r66 + 0.0123555461;
-    let r68 = 0.02058 * known.left_s4;
-    let r69 = 0.0 - r68;
+    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.left_s4; let r69 = 0.0 - r68;
     let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
     let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
-    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
-    let r85 = f64::abs(r81 + 3.1572666541);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -624,11 +597,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r88, 16.0 * r91) {
         return;
     }
-    let left_f5 = 1.0;
-    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let left_f5 = 1.0; let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
     let r99 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
-    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt();
-    let left_c5 = r99 * r104;
+    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt(); let left_c5 = r99 * r104;
     let left_s5 = r96 * r104;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c5, left_s5, left_f5, ..*known };
     block_4(p, &next, answers);
@@ -653,11 +624,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: HipYawPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r6 = p.left_r13 * known.left_s6 - p.left_r12 * known.left_c6;
+    let before = answers.candidates; let r6 = p.left_r13 * known.left_s6 - p.left_r12 * known.left_c6;
     let r7 = p.left_r32 * known.left_c6 - p.left_r33 * known.left_s6;
-    let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6;
-    let r10 = 0.7071067811865475 * r9;
+    let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6; let r10 = 0.7071067811865475 * r9;
     let shared = &Shared4 { r6, r10 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -677,17 +646,14 @@ struct Shared4 { r6: f64, r10: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r11 = shared.r6 * shared.r6;
-    let r12 = shared.r10 * shared.r10;
-    let r13 = r11 + r12;
+    let r11 = shared.r6 * shared.r6; let r12 = shared.r10 * shared.r10; let r13 = r11 + r12;
     if !is_away(r13, 191.99999999999997) {
         return;
     }
     let r17 = known.left_f5 * (3.4641016151377544 * known.left_f6);
     let roots0 = square_roots(0.0 - r11 - r12, r17);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r20 = 1.0 / r13;
-        let left_c1 = 0.0 - left_w1 * shared.r10 * r20;
+        let r20 = 1.0 / r13; let left_c1 = 0.0 - left_w1 * shared.r10 * r20;
         let left_s1 = left_w1 * shared.r6 * r20;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_5(p, &next, answers);
@@ -711,14 +677,11 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.left_r32 * known.left_c6;
-    let r5 = p.left_r33 * known.left_s6;
-    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6;
-    let r9 = 0.5 * (r5 + (r6 - r4));
+    let r4 = p.left_r32 * known.left_c6; let r5 = p.left_r33 * known.left_s6;
+    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6; let r9 = 0.5 * (r5 + (r6 - r4));
     let r11 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
     let r18 = 0.7071067811865475 * (known.left_s1 * r11);
-    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5)));
-    let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
+    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5))); let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
     let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
 }
@@ -736,10 +699,8 @@ struct Shared5 { r19: f64, r21: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
-    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
-    let left_c2 = shared.r21 * r26;
-    let left_s2 = shared.r19 * r26;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let left_c2 = shared.r21 * r26; let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -747,23 +708,19 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: HipPitch.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.left_c5 * known.left_s6;
-    let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
+    let r0 = known.left_c5 * known.left_s6; let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
     let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s5);
     let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
     let r20 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s5);
     let r23 = p.left_r33 * r5 + (r20 + 0.1029 * (p.left_r32 * r0));
     let r26 = p.left_py + r23 - 0.1029 * (p.left_r21 * known.left_s5);
     let r29 = p.left_r23 * r5 + (r26 + 0.1029 * (p.left_r22 * r0));
-    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5;
-    let r37 = known.left_s6 * r36;
-    let r38 = known.left_c6 * r36;
-    let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
+    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5; let r37 = known.left_s6 * r36;
+    let r38 = known.left_c6 * r36; let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
     let r50 = p.left_r13 * r38 + (p.left_r11 * r39 + p.left_r12 * r37);
     let r53 = p.left_r33 * r38 + (p.left_r31 * r39 + p.left_r32 * r37);
     let r56 = p.left_r23 * r38 + (p.left_r22 * r37 + (p.left_r21 * r39 + r53));
-    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
-    let r59 = known.left_c1 * r17 - r58;
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared6 { r59, r62 };
     chart_6_1(p, known, shared, answers);
@@ -775,10 +732,8 @@ struct Shared6 { r59: f64, r62: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r63 = 0.1 * shared.r59;
-    let r64 = 0.1 * shared.r62;
-    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt();
-    let left_c3 = r64 * r69;
+    let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
+    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let left_c3 = r64 * r69;
     let left_s3 = 0.0 - r63 * r69;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3, left_s3, ..*known };
     block_7(p, &next, answers);
@@ -833,17 +788,12 @@ fn claim_7_3(p: &Parameters) -> f64 {
 
 /// Block 8: HipRoll.
 fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r3 = p.right_py + 0.04519 * p.right_dy;
-    let r5 = p.right_pz + 0.04519 * p.right_dz;
-    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
-    let r15 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx);
-    let r16 = 0.7071067811865475 * r15;
+    let before = answers.candidates; let r3 = p.right_py + 0.04519 * p.right_dy;
+    let r5 = p.right_pz + 0.04519 * p.right_dz; let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
+    let r15 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx); let r16 = 0.7071067811865475 * r15;
     let r20 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r16);
-    let r21 = r9 + (r16 + known.left_c1 * (r5 - r9 + 0.085));
-    let r22 = 4.0 * p.magnitude;
-    let r25 = f64::abs(r22 + 3.16896);
-    let r26 = f64::abs(r22 + 3.27396);
+    let r21 = r9 + (r16 + known.left_c1 * (r5 - r9 + 0.085)); let r22 = 4.0 * p.magnitude;
+    let r25 = f64::abs(r22 + 3.16896); let r26 = f64::abs(r22 + 3.27396);
     let shared = &Shared8 { r20, r21, r25, r26 };
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, before, answers);
@@ -856,18 +806,14 @@ struct Shared8 { r20: f64, r21: f64, r25: f64, r26: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r27 = shared.r20 * shared.r20;
-    let r28 = shared.r21 * shared.r21;
-    let r29 = r27 + r28;
+    let r27 = shared.r20 * shared.r20; let r28 = shared.r21 * shared.r21; let r29 = r27 + r28;
     let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
     if !is_away(r29, 16.0 * r32) {
         return;
     }
-    let right_f2 = 1.0;
-    let roots0 = square_roots(0.0 - r27 - r28, f64::max(r32, 0.0).sqrt());
+    let right_f2 = 1.0; let roots0 = square_roots(0.0 - r27 - r28, f64::max(r32, 0.0).sqrt());
     for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r39 = 1.0 / r29;
-        let right_c2 = right_w2 * shared.r21 * r39;
+        let r39 = 1.0 / r29; let right_c2 = right_w2 * shared.r21 * r39;
         let right_s2 = 0.0 - right_w2 * shared.r20 * r39;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, right_c2, right_s2, right_f2, ..*known };
         block_9(p, &next, answers);
@@ -899,8 +845,7 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.right_px * p.right_px;
     let r19 = r17 - p.right_py * p.right_py - p.right_pz * p.right_pz;
     let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_dy;
-    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_dz;
-    let r28 = 0.0088212739 - r27;
+    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_dz; let r28 = 0.0088212739 - r27;
     let shared = &Shared9 { r28 };
     chart_9_1(p, known, shared, answers);
 }
@@ -921,8 +866,7 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951 * known.right_f2);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
-        let right_c4 = r35;
+        let r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let right_c4 = r35;
         let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c4, right_s4, ..*known };
         block_10(p, &next, answers);
@@ -932,21 +876,14 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// Block 10: HipPitch.
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = p.right_px + 0.04519 * p.right_dx;
-    let r3 = p.right_py + 0.04519 * p.right_dy;
-    let r5 = p.right_pz + 0.04519 * p.right_dz;
-    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
-    let r18 = 0.7071067811865475 * (known.left_s1 * (r5 - r3 + 0.035));
-    let r19 = known.left_c1 * r1 - r18;
-    let r22 = 0.7071067811865475 * (known.left_s1 * r1);
+    let before = answers.candidates; let r1 = p.right_px + 0.04519 * p.right_dx;
+    let r3 = p.right_py + 0.04519 * p.right_dy; let r5 = p.right_pz + 0.04519 * p.right_dz;
+    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675; let r18 = 0.7071067811865475 * (known.left_s1 * (r5 - r3 + 0.035));
+    let r19 = known.left_c1 * r1 - r18; let r22 = 0.7071067811865475 * (known.left_s1 * r1);
     let r26 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r22);
-    let r27 = r9 + (r22 + known.left_c1 * (r5 - r9 + 0.085));
-    let r30 = 0.1029 * known.right_s4;
-    let r32 = 0.1029 * known.right_c4 + 0.1;
-    let r33 = known.right_s2 * r26 - known.right_c2 * r27;
-    let r38 = f64::abs(3.0 * p.magnitude + 2.29797);
-    let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
+    let r27 = r9 + (r22 + known.left_c1 * (r5 - r9 + 0.085)); let r30 = 0.1029 * known.right_s4;
+    let r32 = 0.1029 * known.right_c4 + 0.1; let r33 = known.right_s2 * r26 - known.right_c2 * r27;
+    let r38 = f64::abs(3.0 * p.magnitude + 2.29797); let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
     let shared = &Shared10 { r19, r30, r32, r33, r38, r39 };
     chart_10_1(p, known, shared, answers);
     chart_10_2(p, known, shared, before, answers);
@@ -963,11 +900,9 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
     if !is_away(r42, 12.40855712) {
         return;
     }
-    let right_f3 = 1.0;
-    let r45 = shared.r19 * shared.r32 + shared.r30 * shared.r33;
+    let right_f3 = 1.0; let r45 = shared.r19 * shared.r32 + shared.r30 * shared.r33;
     let r48 = shared.r32 * shared.r33 - shared.r19 * shared.r30;
-    let r53 = 1.0 / f64::max(r48 * r48 + r45 * r45, 0.0).sqrt();
-    let right_c3 = r48 * r53;
+    let r53 = 1.0 / f64::max(r48 * r48 + r45 * r45, 0.0).sqrt(); let right_c3 = r48 * r53;
     let right_s3 = 0.0 - r45 * r53;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c3, right_s3, right_f3, ..*known };
     block_11(p, &next, answers);
@@ -991,15 +926,12 @@ fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, before: usize, a
 /// Block 11: AnklePitch.
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = p.right_dz - p.right_dy;
-    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
-    let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
+    let before = answers.candidates; let r1 = p.right_dz - p.right_dy;
+    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz; let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
     let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1);
     let r17 = known.right_c2 * (r12 + (r9 + 0.5 * (known.left_c1 * r1)));
     let r20 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
-    let r22 = r17 - known.right_s2 * (r9 + r10 - r12);
-    let r26 = known.right_c3 * r20 - known.right_s3 * r22;
+    let r22 = r17 - known.right_s2 * (r9 + r10 - r12); let r26 = known.right_c3 * r20 - known.right_s3 * r22;
     let r28 = known.right_c3 * r22 + known.right_s3 * r20;
     let r32 = known.right_s4 * r28 - known.right_c4 * r26;
     let r33 = known.right_c4 * r28 + known.right_s4 * r26;
@@ -1022,17 +954,14 @@ struct Shared11 { r32: f64, r33: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r34 = shared.r32 * shared.r32;
-    let r35 = shared.r33 * shared.r33;
-    let r36 = r34 + r35;
+    let r34 = shared.r32 * shared.r32; let r35 = shared.r33 * shared.r33; let r36 = r34 + r35;
     if !is_away(r36, 36992.0) {
         return;
     }
     let r40 = known.right_f3 * (48.08326112068523 * known.right_f2);
     let roots0 = square_roots(0.0 - r34 - r35, r40);
     for (i0, &right_w5) in roots0.as_slice().iter().enumerate().take(1) {
-        let r43 = 1.0 / r36;
-        let right_c5 = 0.0 - right_w5 * shared.r33 * r43;
+        let r43 = 1.0 / r36; let right_c5 = 0.0 - right_w5 * shared.r33 * r43;
         let right_s5 = right_w5 * shared.r32 * r43;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, right_c5, right_s5, ..*known };
         block_12(p, &next, answers);
@@ -1056,11 +985,9 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
 /// Block 12: AnkleRoll.
 #[inline(always)]
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.right_dz - p.right_dy;
-    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
+    let r1 = p.right_dz - p.right_dy; let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
     let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
-    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1);
-    let r13 = r9 + r10 - r12;
+    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1); let r13 = r9 + r10 - r12;
     let r17 = r12 + (r9 + 0.5 * (known.left_c1 * r1));
     let r22 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
     let r24 = known.right_c2 * r17 - known.right_s2 * r13;
@@ -1068,8 +995,7 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r30 = known.right_c3 * r24 + known.right_s3 * r22;
     let r36 = known.right_c5 * (known.right_c4 * r30 + known.right_s4 * r28);
     let r37 = known.right_s5 * (known.right_c4 * r28 - known.right_s4 * r30);
-    let r38 = known.right_c2 * r13 + known.right_s2 * r17;
-    let r39 = r36 + r37;
+    let r38 = known.right_c2 * r13 + known.right_s2 * r17; let r39 = r36 + r37;
     let shared = &Shared12 { r38, r39 };
     chart_12_1(p, known, shared, answers);
 }
@@ -1087,10 +1013,8 @@ struct Shared12 { r38: f64, r39: f64 }
 /// Chart 1 of block 12: generic.
 #[inline(always)]
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r42 = shared.r39 * shared.r39 + shared.r38 * shared.r38;
-    let r44 = 1.0 / f64::max(r42, 0.0).sqrt();
-    let right_c6 = shared.r39 * r44;
-    let right_s6 = 0.0 - shared.r38 * r44;
+    let r42 = shared.r39 * shared.r39 + shared.r38 * shared.r38; let r44 = 1.0 / f64::max(r42, 0.0).sqrt();
+    let right_c6 = shared.r39 * r44; let right_s6 = 0.0 - shared.r38 * r44;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c6, right_s6, ..*known };
     block_13(p, &next, answers);
 }
@@ -1144,98 +1068,42 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
         right_c6, right_s6,
     ] = *at;
-    let r0 = left_s1 * left_c2;
-    let r1 = left_s1 * left_s2;
-    let r2 = left_c1 + 1.0;
-    let r3 = left_c2 * r2;
-    let r4 = left_c1 - 1.0;
-    let r5 = left_s2 * r4;
-    let r6 = left_c2 * r4;
-    let r7 = left_s2 * r2;
-    let r9 = r1 - r0;
-    let r12 = r7 - r6;
-    let r14 = r5 - r3;
-    let r16 = left_c1 * left_s3;
-    let r17 = left_c3 * r9;
-    let r18 = left_s1 * left_s3;
-    let r19 = left_c3 * r12;
-    let r20 = left_c3 * r14;
+    let r0 = left_s1 * left_c2; let r1 = left_s1 * left_s2; let r2 = left_c1 + 1.0; let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0; let r5 = left_s2 * r4; let r6 = left_c2 * r4; let r7 = left_s2 * r2;
+    let r9 = r1 - r0; let r12 = r7 - r6; let r14 = r5 - r3; let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9; let r18 = left_s1 * left_s3; let r19 = left_c3 * r12; let r20 = left_c3 * r14;
     let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
-    let r25 = r16 - 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
-    let r29 = r27 - 0.5 * (left_s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 + 0.5 * r19;
-    let r36 = r27 - 0.5 * (left_s3 * r14);
-    let r39 = r31 + 0.5 * r20;
-    let r41 = left_s4 * r22;
-    let r42 = left_c4 * r25;
-    let r43 = left_s4 * r29;
-    let r44 = left_c4 * r33;
-    let r45 = left_s4 * r36;
-    let r46 = left_c4 * r39;
-    let r47 = left_c4 * r22 - left_s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = left_c4 * r29 - left_s4 * r33;
-    let r53 = r43 + r44;
-    let r55 = left_c4 * r36 - left_s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 + r1;
-    let r67 = left_s5 * r47 + left_c5 * r49;
-    let r69 = r3 + r5;
-    let r71 = left_s5 * r51 + left_c5 * r53;
-    let r73 = r6 + r7;
-    let r75 = left_s5 * r55 + left_c5 * r57;
-    let r77 = left_s6 * r65;
-    let r78 = left_c6 * r67;
-    let r79 = left_s6 * r69;
-    let r80 = left_c6 * r71;
-    let r81 = left_s6 * r73;
-    let r82 = left_c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
+    let r25 = r16 - 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14); let r39 = r31 + 0.5 * r20; let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25; let r43 = left_s4 * r29; let r44 = left_c4 * r33; let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39; let r47 = left_c4 * r22 - left_s4 * r25; let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33; let r53 = r43 + r44; let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46; let r65 = r0 + r1; let r67 = left_s5 * r47 + left_c5 * r49; let r69 = r3 + r5;
+    let r71 = left_s5 * r51 + left_c5 * r53; let r73 = r6 + r7; let r75 = left_s5 * r55 + left_c5 * r57;
+    let r77 = left_s6 * r65; let r78 = left_c6 * r67; let r79 = left_s6 * r69; let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73; let r82 = left_c6 * r75; let r83 = 0.07071067811865475 * r18;
     let r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
     let r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
     let r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
     let r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
-    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65);
-    let r147 = left_s1 * right_c2;
-    let r148 = left_s1 * right_s2;
-    let r149 = right_c2 * r2;
-    let r150 = right_s2 * r4;
-    let r151 = right_c2 * r4;
-    let r152 = right_s2 * r2;
-    let r154 = r147 + r148;
-    let r157 = r151 + r152;
-    let r159 = r149 + r150;
-    let r161 = left_c1 * right_s3;
-    let r162 = right_c3 * r154;
-    let r163 = left_s1 * right_s3;
-    let r164 = right_c3 * r157;
-    let r165 = right_c3 * r159;
+    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65); let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2; let r149 = right_c2 * r2; let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4; let r152 = right_s2 * r2; let r154 = r147 + r148; let r157 = r151 + r152;
+    let r159 = r149 + r150; let r161 = left_c1 * right_s3; let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3; let r164 = right_c3 * r157; let r165 = right_c3 * r159;
     let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
-    let r170 = r161 + 0.7071067811865475 * r162;
-    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
-    let r174 = r172 + 0.5 * (right_s3 * r157);
-    let r176 = 0.7071067811865475 * r163;
-    let r178 = r176 - 0.5 * r164;
-    let r181 = r172 + 0.5 * (right_s3 * r159);
-    let r184 = r176 - 0.5 * r165;
-    let r186 = right_s4 * r167;
-    let r187 = right_c4 * r170;
-    let r188 = right_s4 * r174;
-    let r189 = right_c4 * r178;
-    let r190 = right_s4 * r181;
-    let r191 = right_c4 * r184;
+    let r170 = r161 + 0.7071067811865475 * r162; let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157); let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164; let r181 = r172 + 0.5 * (right_s3 * r159); let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167; let r187 = right_c4 * r170; let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178; let r190 = right_s4 * r181; let r191 = right_c4 * r184;
     let r198 = right_s5 * (right_c4 * r167 - right_s4 * r170);
     let r200 = right_s5 * (right_c4 * r174 - right_s4 * r178);
-    let r202 = right_s5 * (right_c4 * r181 - right_s4 * r184);
-    let r210 = right_s6 * (r147 - r148);
-    let r211 = right_c6 * (r198 + right_c5 * (r186 + r187));
-    let r212 = right_s6 * (r149 - r150);
-    let r213 = right_c6 * (r200 + right_c5 * (r188 + r189));
-    let r214 = right_s6 * (r151 - r152);
-    let r215 = right_c6 * (r202 + right_c5 * (r190 + r191));
-    let r216 = 0.07071067811865475 * r163;
+    let r202 = right_s5 * (right_c4 * r181 - right_s4 * r184); let r210 = right_s6 * (r147 - r148);
+    let r211 = right_c6 * (r198 + right_c5 * (r186 + r187)); let r212 = right_s6 * (r149 - r150);
+    let r213 = right_c6 * (r200 + right_c5 * (r188 + r189)); let r214 = right_s6 * (r151 - r152);
+    let r215 = right_c6 * (r202 + right_c5 * (r190 + r191)); let r216 = 0.07071067811865475 * r163;
     let r222 = r216 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
     let r232 = r216 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
     let r241 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
@@ -1317,155 +1185,59 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
         right_c6, right_s6,
     ] = *at;
-    let r0 = left_s1 * left_c2;
-    let r1 = left_s1 * left_s2;
-    let r2 = left_c1 + 1.0;
-    let r3 = left_c2 * r2;
-    let r4 = left_c1 - 1.0;
-    let r5 = left_s2 * r4;
-    let r6 = left_c2 * r4;
-    let r7 = left_s2 * r2;
-    let r9 = r1 - r0;
-    let r12 = r7 - r6;
-    let r14 = r5 - r3;
-    let r16 = left_c1 * left_s3;
-    let r17 = left_c3 * r9;
-    let r18 = left_s1 * left_s3;
-    let r19 = left_c3 * r12;
-    let r20 = left_c3 * r14;
+    let r0 = left_s1 * left_c2; let r1 = left_s1 * left_s2; let r2 = left_c1 + 1.0; let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0; let r5 = left_s2 * r4; let r6 = left_c2 * r4; let r7 = left_s2 * r2;
+    let r9 = r1 - r0; let r12 = r7 - r6; let r14 = r5 - r3; let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9; let r18 = left_s1 * left_s3; let r19 = left_c3 * r12; let r20 = left_c3 * r14;
     let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
-    let r25 = r16 - 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
-    let r29 = r27 - 0.5 * (left_s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 + 0.5 * r19;
-    let r36 = r27 - 0.5 * (left_s3 * r14);
-    let r39 = r31 + 0.5 * r20;
-    let r41 = left_s4 * r22;
-    let r42 = left_c4 * r25;
-    let r43 = left_s4 * r29;
-    let r44 = left_c4 * r33;
-    let r45 = left_s4 * r36;
-    let r46 = left_c4 * r39;
-    let r47 = left_c4 * r22 - left_s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = left_c4 * r29 - left_s4 * r33;
-    let r52 = left_c5 * r51;
-    let r53 = r43 + r44;
-    let r54 = left_s5 * r53;
-    let r55 = left_c4 * r36 - left_s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 + r1;
-    let r66 = left_c6 * r65;
-    let r67 = left_s5 * r47 + left_c5 * r49;
-    let r68 = left_s6 * r67;
-    let r69 = r3 + r5;
-    let r70 = left_c6 * r69;
-    let r71 = left_s5 * r51 + left_c5 * r53;
-    let r72 = left_s6 * r71;
-    let r73 = r6 + r7;
-    let r74 = left_c6 * r73;
-    let r75 = left_s5 * r55 + left_c5 * r57;
-    let r76 = left_s6 * r75;
-    let r77 = left_s6 * r65;
-    let r78 = left_c6 * r67;
-    let r79 = left_s6 * r69;
-    let r80 = left_c6 * r71;
-    let r81 = left_s6 * r73;
-    let r82 = left_c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
-    let r86 = 0.1029 * r45;
-    let r88 = 0.1029 * r46;
-    let r90 = 0.022595 * r81;
-    let r92 = 0.04519 * r82;
-    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
-    let r96 = 0.1029 * r43;
-    let r98 = 0.1029 * r44;
-    let r100 = 0.022595 * r79;
-    let r102 = 0.04519 * r80;
-    let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
-    let r107 = 0.1029 * r41;
-    let r109 = 0.1029 * r42;
-    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109;
-    let r111 = 0.03195415544182008 * r77;
-    let r113 = 0.04519 * r78;
-    let r114 = r110 - r111 + r113;
-    let r115 = left_c5 * r47 - left_s5 * r49;
-    let r128 = 0.5 * r74 - r76;
-    let r130 = 0.5 * r70 - r72;
-    let r132 = r68 + 0.7071067811865475 * r66;
-    let r137 = r82 + 0.5 * r81;
-    let r139 = r80 + 0.5 * r79;
-    let r147 = left_s1 * right_c2;
-    let r148 = left_s1 * right_s2;
-    let r149 = right_c2 * r2;
-    let r150 = right_s2 * r4;
-    let r151 = right_c2 * r4;
-    let r152 = right_s2 * r2;
-    let r154 = r147 + r148;
-    let r157 = r151 + r152;
-    let r159 = r149 + r150;
-    let r161 = left_c1 * right_s3;
-    let r162 = right_c3 * r154;
-    let r163 = left_s1 * right_s3;
-    let r164 = right_c3 * r157;
-    let r165 = right_c3 * r159;
+    let r25 = r16 - 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14); let r39 = r31 + 0.5 * r20; let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25; let r43 = left_s4 * r29; let r44 = left_c4 * r33; let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39; let r47 = left_c4 * r22 - left_s4 * r25; let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33; let r52 = left_c5 * r51; let r53 = r43 + r44;
+    let r54 = left_s5 * r53; let r55 = left_c4 * r36 - left_s4 * r39; let r57 = r45 + r46; let r65 = r0 + r1;
+    let r66 = left_c6 * r65; let r67 = left_s5 * r47 + left_c5 * r49; let r68 = left_s6 * r67;
+    let r69 = r3 + r5; let r70 = left_c6 * r69; let r71 = left_s5 * r51 + left_c5 * r53;
+    let r72 = left_s6 * r71; let r73 = r6 + r7; let r74 = left_c6 * r73;
+    let r75 = left_s5 * r55 + left_c5 * r57; let r76 = left_s6 * r75; let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67; let r79 = left_s6 * r69; let r80 = left_c6 * r71; let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75; let r83 = 0.07071067811865475 * r18; let r86 = 0.1029 * r45;
+    let r88 = 0.1029 * r46; let r90 = 0.022595 * r81; let r92 = 0.04519 * r82;
+    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92; let r96 = 0.1029 * r43; let r98 = 0.1029 * r44;
+    let r100 = 0.022595 * r79; let r102 = 0.04519 * r80; let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
+    let r107 = 0.1029 * r41; let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109; let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78; let r114 = r110 - r111 + r113; let r115 = left_c5 * r47 - left_s5 * r49;
+    let r128 = 0.5 * r74 - r76; let r130 = 0.5 * r70 - r72; let r132 = r68 + 0.7071067811865475 * r66;
+    let r137 = r82 + 0.5 * r81; let r139 = r80 + 0.5 * r79; let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2; let r149 = right_c2 * r2; let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4; let r152 = right_s2 * r2; let r154 = r147 + r148; let r157 = r151 + r152;
+    let r159 = r149 + r150; let r161 = left_c1 * right_s3; let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3; let r164 = right_c3 * r157; let r165 = right_c3 * r159;
     let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
-    let r170 = r161 + 0.7071067811865475 * r162;
-    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
-    let r174 = r172 + 0.5 * (right_s3 * r157);
-    let r176 = 0.7071067811865475 * r163;
-    let r178 = r176 - 0.5 * r164;
-    let r181 = r172 + 0.5 * (right_s3 * r159);
-    let r184 = r176 - 0.5 * r165;
-    let r186 = right_s4 * r167;
-    let r187 = right_c4 * r170;
-    let r188 = right_s4 * r174;
-    let r189 = right_c4 * r178;
-    let r190 = right_s4 * r181;
-    let r191 = right_c4 * r184;
-    let r192 = right_c4 * r167 - right_s4 * r170;
-    let r193 = r186 + r187;
-    let r194 = right_c4 * r174 - right_s4 * r178;
-    let r195 = r188 + r189;
-    let r196 = right_c4 * r181 - right_s4 * r184;
-    let r197 = r190 + r191;
-    let r204 = r147 - r148;
-    let r206 = r149 - r150;
-    let r208 = r151 - r152;
-    let r210 = right_s6 * r204;
-    let r211 = right_c6 * (right_s5 * r192 + right_c5 * r193);
-    let r212 = right_s6 * r206;
-    let r213 = right_c6 * (right_s5 * r194 + right_c5 * r195);
-    let r214 = right_s6 * r208;
-    let r215 = right_c6 * (right_s5 * r196 + right_c5 * r197);
-    let r216 = 0.07071067811865475 * r163;
-    let r219 = 0.1029 * r190;
-    let r221 = 0.1029 * r191;
-    let r223 = 0.022595 * r214;
-    let r225 = 0.04519 * r215;
-    let r226 = r216 - 0.05 * r165 + r219 + r221 - r223 + r225;
-    let r229 = 0.1029 * r188;
-    let r231 = 0.1029 * r189;
-    let r233 = 0.022595 * r212;
-    let r235 = 0.04519 * r213;
-    let r236 = r216 - 0.05 * r164 + r229 + r231 - r233 + r235;
-    let r240 = 0.1029 * r186;
-    let r241 = 0.1 * r161 + 0.07071067811865475 * r162 + r240;
-    let r242 = 0.1029 * r187;
-    let r244 = 0.03195415544182008 * r210;
-    let r246 = 0.04519 * r211;
-    let r247 = r241 + r242 + r244 + r246;
-    let r256 = 0.5 * r214 - r215;
-    let r259 = r211 + 0.7071067811865475 * r210;
-    let r277 = r92 + (r90 + (r86 + r88));
-    let r281 = r102 + (r100 + (r96 + r98));
-    let r285 = r113 + (r107 + r109 - r111);
-    let r290 = r90 + r92;
-    let r292 = r100 + r102;
-    let r294 = r111 - r113;
-    let r299 = r52 - r54;
-    let r301 = left_c5 * r55 - left_s5 * r57;
+    let r170 = r161 + 0.7071067811865475 * r162; let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157); let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164; let r181 = r172 + 0.5 * (right_s3 * r159); let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167; let r187 = right_c4 * r170; let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178; let r190 = right_s4 * r181; let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170; let r193 = r186 + r187;
+    let r194 = right_c4 * r174 - right_s4 * r178; let r195 = r188 + r189;
+    let r196 = right_c4 * r181 - right_s4 * r184; let r197 = r190 + r191; let r204 = r147 - r148;
+    let r206 = r149 - r150; let r208 = r151 - r152; let r210 = right_s6 * r204;
+    let r211 = right_c6 * (right_s5 * r192 + right_c5 * r193); let r212 = right_s6 * r206;
+    let r213 = right_c6 * (right_s5 * r194 + right_c5 * r195); let r214 = right_s6 * r208;
+    let r215 = right_c6 * (right_s5 * r196 + right_c5 * r197); let r216 = 0.07071067811865475 * r163;
+    let r219 = 0.1029 * r190; let r221 = 0.1029 * r191; let r223 = 0.022595 * r214; let r225 = 0.04519 * r215;
+    let r226 = r216 - 0.05 * r165 + r219 + r221 - r223 + r225; let r229 = 0.1029 * r188;
+    let r231 = 0.1029 * r189; let r233 = 0.022595 * r212; let r235 = 0.04519 * r213;
+    let r236 = r216 - 0.05 * r164 + r229 + r231 - r233 + r235; let r240 = 0.1029 * r186;
+    let r241 = 0.1 * r161 + 0.07071067811865475 * r162 + r240; let r242 = 0.1029 * r187;
+    let r244 = 0.03195415544182008 * r210; let r246 = 0.04519 * r211; let r247 = r241 + r242 + r244 + r246;
+    let r256 = 0.5 * r214 - r215; let r259 = r211 + 0.7071067811865475 * r210;
+    let r277 = r92 + (r90 + (r86 + r88)); let r281 = r102 + (r100 + (r96 + r98));
+    let r285 = r113 + (r107 + r109 - r111); let r290 = r90 + r92; let r292 = r100 + r102;
+    let r294 = r111 - r113; let r299 = r52 - r54; let r301 = left_c5 * r55 - left_s5 * r57;
     let r309 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
     let r313 = r309 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
     let r317 = r313 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
@@ -1484,39 +1256,28 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r373 = 0.7071067811865475 * (r65 * r292) - 0.5 * (r69 * r294);
     let r389 = 0.0 - 0.7071067811865475 * (r52 + r301 - r54);
     let r391 = 0.7071067811865475 * (left_s1 * r301 - left_s1 * r299);
-    let r394 = 0.0 - 0.5 * (r69 * r301 - r73 * r299);
-    let r396 = 0.0 - 0.7071067811865475 * r115;
+    let r394 = 0.0 - 0.5 * (r69 * r301 - r73 * r299); let r396 = 0.0 - 0.7071067811865475 * r115;
     let r397 = 0.7071067811865475 * (left_s1 * r115);
     let r401 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r301);
-    let r405 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115);
-    let r406 = 0.0 - r405;
+    let r405 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115); let r406 = 0.0 - r405;
     let r426 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
     let r430 = r426 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
     let r432 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
-    let r435 = 0.5 * (r69 * r128 - r73 * r130);
-    let r439 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
-    let r440 = 0.0 - r439;
-    let r441 = 0.7071067811865475 * (left_s1 * r132);
+    let r435 = 0.5 * (r69 * r128 - r73 * r130); let r439 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
+    let r440 = 0.0 - r439; let r441 = 0.7071067811865475 * (left_s1 * r132);
     let r446 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
     let r452 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
-    let r456 = 0.7071067811865475 * r77 - r78;
-    let r474 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    let r456 = 0.7071067811865475 * r77 - r78; let r474 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
     let r478 = r474 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
     let r481 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
     let r484 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
     let r488 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
     let r489 = 0.7071067811865475 * (left_s1 * r456);
     let r493 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r456);
-    let r499 = 0.5 * (r69 * r456) - 0.7071067811865475 * (r65 * r139);
-    let r523 = r225 + (r219 + r221 - r223);
-    let r527 = r235 + (r229 + r231 - r233);
-    let r531 = r246 + (r244 + (r240 + r242));
-    let r536 = r223 - r225;
-    let r538 = r233 - r235;
-    let r540 = r244 + r246;
-    let r545 = right_c5 * r194 - right_s5 * r195;
-    let r547 = right_c5 * r196 - right_s5 * r197;
-    let r550 = right_c5 * r192 - right_s5 * r193;
+    let r499 = 0.5 * (r69 * r456) - 0.7071067811865475 * (r65 * r139); let r523 = r225 + (r219 + r221 - r223);
+    let r527 = r235 + (r229 + r231 - r233); let r531 = r246 + (r244 + (r240 + r242)); let r536 = r223 - r225;
+    let r538 = r233 - r235; let r540 = r244 + r246; let r545 = right_c5 * r194 - right_s5 * r195;
+    let r547 = right_c5 * r196 - right_s5 * r197; let r550 = right_c5 * r192 - right_s5 * r193;
     let r556 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
     let r560 = r556 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
     let r564 = r560 - 0.01597707772091004 * r214 + 0.03195415544182008 * r215;
@@ -1532,8 +1293,7 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r607 = 0.5 * (r208 * r540) - 0.7071067811865475 * (r204 * r536);
     let r612 = 0.7071067811865475 * (r204 * r236) + 0.5 * (r206 * r247);
     let r615 = 0.7071067811865475 * (r204 * r527) + 0.5 * (r206 * r531);
-    let r618 = 0.5 * (r206 * r540) - 0.7071067811865475 * (r204 * r538);
-    let r621 = 0.5 * r212 - r213;
+    let r618 = 0.5 * (r206 * r540) - 0.7071067811865475 * (r204 * r538); let r621 = 0.5 * r212 - r213;
     let r640 = 0.35355339059327373 * r214 - 0.7071067811865475 * r215;
     let r644 = r640 + 0.35355339059327373 * r212 - 0.7071067811865475 * r213;
     let r646 = 0.7071067811865475 * (left_s1 * r256 - left_s1 * r621);
@@ -1572,7 +1332,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1583,20 +1343,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1625,6 +1386,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1972,7 +1736,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2041,12 +1809,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2057,6 +1830,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -2452,8 +2228,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

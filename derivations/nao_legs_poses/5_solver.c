@@ -145,6 +145,8 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -166,6 +168,8 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -185,7 +189,7 @@ int nao_legs_poses_nearest(const nao_legs_poses_solution *list, int count, const
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -256,8 +260,9 @@ static Parameters parameters(const double *target)
     const double left_r12 = target[4], left_r13 = target[5], left_r21 = target[6], left_r22 = target[7];
     const double left_r23 = target[8], left_r31 = target[9], left_r32 = target[10], left_r33 = target[11];
     const double right_px = target[12], right_py = target[13], right_pz = target[14], right_r11 = target[15];
-    const double right_r12 = target[16], right_r13 = target[17], right_r21 = target[18], right_r22 = target[19];
-    const double right_r23 = target[20], right_r31 = target[21], right_r32 = target[22], right_r33 = target[23];
+    const double right_r12 = target[16], right_r13 = target[17], right_r21 = target[18];
+    const double right_r22 = target[19], right_r23 = target[20], right_r31 = target[21];
+    const double right_r32 = target[22], right_r33 = target[23];
     const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
     const Parameters result = {left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude};
     return result;
@@ -274,10 +279,10 @@ static void tip(const double *at, double *reached)
     const double left_c6 = at[10], left_s6 = at[11], right_c2 = at[12], right_s2 = at[13], right_c3 = at[14];
     const double right_s3 = at[15], right_c4 = at[16], right_s4 = at[17], right_c5 = at[18], right_s5 = at[19];
     const double right_c6 = at[20], right_s6 = at[21], r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
-    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
-    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
-    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
-    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4;
+    const double r6 = left_c2 * r4, r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3;
+    const double r16 = left_c1 * left_s3, r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12;
+    const double r20 = left_c3 * r14, r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
     const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
     const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
     const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
@@ -301,15 +306,17 @@ static void tip(const double *at, double *reached)
     const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
     const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
     const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
-    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
-    const double r190 = right_s4 * r181, r191 = right_c4 * r184, r192 = right_c4 * r167 - right_s4 * r170;
-    const double r194 = r186 + r187, r196 = right_c4 * r174 - right_s4 * r178, r198 = r188 + r189;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174;
+    const double r189 = right_c4 * r178, r190 = right_s4 * r181, r191 = right_c4 * r184;
+    const double r192 = right_c4 * r167 - right_s4 * r170, r194 = r186 + r187;
+    const double r196 = right_c4 * r174 - right_s4 * r178, r198 = r188 + r189;
     const double r200 = right_c4 * r181 - right_s4 * r184, r202 = r190 + r191, r210 = r147 - r148;
     const double r212 = right_s5 * r192 + right_c5 * r194, r214 = r149 - r150;
     const double r216 = right_s5 * r196 + right_c5 * r198, r218 = r151 - r152;
     const double r220 = right_s5 * r200 + right_c5 * r202, r222 = right_s6 * r210, r223 = right_c6 * r212;
-    const double r224 = right_s6 * r214, r225 = right_c6 * r216, r226 = right_s6 * r218, r227 = right_c6 * r220;
-    const double r228 = 0.07071067811865475 * r163, r234 = r228 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
+    const double r224 = right_s6 * r214, r225 = right_c6 * r216, r226 = right_s6 * r218;
+    const double r227 = right_c6 * r220, r228 = 0.07071067811865475 * r163;
+    const double r234 = r228 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
     const double r244 = r228 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
     const double r253 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
     const double r257 = r253 + 0.1029 * r187 + 0.03195415544182008 * r222;
@@ -403,24 +410,25 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double left_c6 = at[10], left_s6 = at[11], right_c2 = at[12], right_s2 = at[13], right_c3 = at[14];
     const double right_s3 = at[15], right_c4 = at[16], right_s4 = at[17], right_c5 = at[18], right_s5 = at[19];
     const double right_c6 = at[20], right_s6 = at[21], r0 = left_s1 * left_c2, r1 = left_s1 * left_s2;
-    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4, r6 = left_c2 * r4;
-    const double r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3, r16 = left_c1 * left_s3;
-    const double r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12, r20 = left_c3 * r14;
-    const double r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
+    const double r2 = left_c1 + 1.0, r3 = left_c2 * r2, r4 = left_c1 - 1.0, r5 = left_s2 * r4;
+    const double r6 = left_c2 * r4, r7 = left_s2 * r2, r9 = r1 - r0, r12 = r7 - r6, r14 = r5 - r3;
+    const double r16 = left_c1 * left_s3, r17 = left_c3 * r9, r18 = left_s1 * left_s3, r19 = left_c3 * r12;
+    const double r20 = left_c3 * r14, r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
     const double r25 = r16 - 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (left_s1 * left_c3);
     const double r29 = r27 - 0.5 * (left_s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 + 0.5 * r19;
     const double r36 = r27 - 0.5 * (left_s3 * r14), r39 = r31 + 0.5 * r20, r41 = left_s4 * r22;
     const double r42 = left_c4 * r25, r43 = left_s4 * r29, r44 = left_c4 * r33, r45 = left_s4 * r36;
     const double r46 = left_c4 * r39, r47 = left_c4 * r22 - left_s4 * r25, r49 = r41 + r42;
-    const double r51 = left_c4 * r29 - left_s4 * r33, r52 = left_c5 * r51, r53 = r43 + r44, r54 = left_s5 * r53;
-    const double r55 = left_c4 * r36 - left_s4 * r39, r57 = r45 + r46, r65 = r0 + r1, r66 = left_c6 * r65;
-    const double r67 = left_s5 * r47 + left_c5 * r49, r68 = left_s6 * r67, r69 = r3 + r5, r70 = left_c6 * r69;
-    const double r71 = left_s5 * r51 + left_c5 * r53, r72 = left_s6 * r71, r73 = r6 + r7, r74 = left_c6 * r73;
-    const double r75 = left_s5 * r55 + left_c5 * r57, r76 = left_s6 * r75, r77 = left_s6 * r65;
-    const double r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71, r81 = left_s6 * r73;
-    const double r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18, r86 = 0.1029 * r45, r88 = 0.1029 * r46;
-    const double r90 = 0.022595 * r81, r92 = 0.04519 * r82, r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
-    const double r96 = 0.1029 * r43, r98 = 0.1029 * r44, r100 = 0.022595 * r79, r102 = 0.04519 * r80;
+    const double r51 = left_c4 * r29 - left_s4 * r33, r52 = left_c5 * r51, r53 = r43 + r44;
+    const double r54 = left_s5 * r53, r55 = left_c4 * r36 - left_s4 * r39, r57 = r45 + r46, r65 = r0 + r1;
+    const double r66 = left_c6 * r65, r67 = left_s5 * r47 + left_c5 * r49, r68 = left_s6 * r67, r69 = r3 + r5;
+    const double r70 = left_c6 * r69, r71 = left_s5 * r51 + left_c5 * r53, r72 = left_s6 * r71, r73 = r6 + r7;
+    const double r74 = left_c6 * r73, r75 = left_s5 * r55 + left_c5 * r57, r76 = left_s6 * r75;
+    const double r77 = left_s6 * r65, r78 = left_c6 * r67, r79 = left_s6 * r69, r80 = left_c6 * r71;
+    const double r81 = left_s6 * r73, r82 = left_c6 * r75, r83 = 0.07071067811865475 * r18, r86 = 0.1029 * r45;
+    const double r88 = 0.1029 * r46, r90 = 0.022595 * r81, r92 = 0.04519 * r82;
+    const double r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92, r96 = 0.1029 * r43, r98 = 0.1029 * r44;
+    const double r100 = 0.022595 * r79, r102 = 0.04519 * r80;
     const double r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102, r107 = 0.1029 * r41, r109 = 0.1029 * r42;
     const double r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109, r111 = 0.03195415544182008 * r77;
     const double r113 = 0.04519 * r78, r114 = r110 - r111 + r113, r115 = left_c5 * r47 - left_s5 * r49;
@@ -434,15 +442,16 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r170 = r161 + 0.7071067811865475 * r162, r172 = 0.7071067811865475 * (left_s1 * right_c3);
     const double r174 = r172 + 0.5 * (right_s3 * r157), r176 = 0.7071067811865475 * r163;
     const double r178 = r176 - 0.5 * r164, r181 = r172 + 0.5 * (right_s3 * r159), r184 = r176 - 0.5 * r165;
-    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174, r189 = right_c4 * r178;
-    const double r190 = right_s4 * r181, r191 = right_c4 * r184, r192 = right_c4 * r167 - right_s4 * r170;
-    const double r194 = r186 + r187, r196 = right_c4 * r174 - right_s4 * r178, r197 = right_c5 * r196;
-    const double r198 = r188 + r189, r199 = right_s5 * r198, r200 = right_c4 * r181 - right_s4 * r184;
-    const double r202 = r190 + r191, r210 = r147 - r148, r211 = right_c6 * r210;
-    const double r212 = right_s5 * r192 + right_c5 * r194, r213 = right_s6 * r212, r214 = r149 - r150;
-    const double r215 = right_c6 * r214, r216 = right_s5 * r196 + right_c5 * r198, r217 = right_s6 * r216;
-    const double r218 = r151 - r152, r219 = right_c6 * r218, r220 = right_s5 * r200 + right_c5 * r202;
-    const double r221 = right_s6 * r220, r222 = right_s6 * r210, r223 = right_c6 * r212, r224 = right_s6 * r214;
+    const double r186 = right_s4 * r167, r187 = right_c4 * r170, r188 = right_s4 * r174;
+    const double r189 = right_c4 * r178, r190 = right_s4 * r181, r191 = right_c4 * r184;
+    const double r192 = right_c4 * r167 - right_s4 * r170, r194 = r186 + r187;
+    const double r196 = right_c4 * r174 - right_s4 * r178, r197 = right_c5 * r196, r198 = r188 + r189;
+    const double r199 = right_s5 * r198, r200 = right_c4 * r181 - right_s4 * r184, r202 = r190 + r191;
+    const double r210 = r147 - r148, r211 = right_c6 * r210, r212 = right_s5 * r192 + right_c5 * r194;
+    const double r213 = right_s6 * r212, r214 = r149 - r150, r215 = right_c6 * r214;
+    const double r216 = right_s5 * r196 + right_c5 * r198, r217 = right_s6 * r216, r218 = r151 - r152;
+    const double r219 = right_c6 * r218, r220 = right_s5 * r200 + right_c5 * r202, r221 = right_s6 * r220;
+    const double r222 = right_s6 * r210, r223 = right_c6 * r212, r224 = right_s6 * r214;
     const double r225 = right_c6 * r216, r226 = right_s6 * r218, r227 = right_c6 * r220;
     const double r228 = 0.07071067811865475 * r163, r231 = 0.1029 * r190, r233 = 0.1029 * r191;
     const double r235 = 0.022595 * r226, r237 = 0.04519 * r227;
@@ -860,7 +869,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -879,6 +889,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -906,11 +919,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -942,7 +963,7 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_POSES_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[11][3];
@@ -1046,7 +1067,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1340,6 +1365,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1365,6 +1391,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1483,13 +1512,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 10, at[20], at[21]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1525,7 +1552,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1624,7 +1651,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
 INLINE static void block_10(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r4 = p->right_r32 * known->right_c6, r5 = p->right_r33 * known->right_s6;
-    const double r6 = p->right_r22 * known->right_c6 - p->right_r23 * known->right_s6, r9 = 0.5 * (r4 + r6 - r5);
+    const double r6 = p->right_r22 * known->right_c6 - p->right_r23 * known->right_s6;
+    const double r9 = 0.5 * (r4 + r6 - r5);
     const double r11 = p->right_r12 * known->right_c6 - p->right_r13 * known->right_s6;
     const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
     const double r19 = r9 + known->left_c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->left_c1 * (r6 - r9) - r18;
@@ -1910,7 +1938,8 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 /* Block 6: HipPitch. */
 INLINE static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = known->left_c5 * known->left_s6, r5 = 0.1029 * (known->left_c5 * known->left_c6) + 0.04519;
+    const double r0 = known->left_c5 * known->left_s6;
+    const double r5 = 0.1029 * (known->left_c5 * known->left_c6) + 0.04519;
     const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s5);
     const double r17 = p->left_r13 * r5 + (r14 + 0.1029 * (p->left_r12 * r0));
     const double r20 = p->left_pz - 0.1029 * (p->left_r31 * known->left_s5);
@@ -1981,7 +2010,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104, left_s5 = r96 * r104;
+    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
+    const double left_s5 = r96 * r104;
     Known next = *known;
     next.branch = 2 * known->branch;
     next.last = 2 * known->last;

@@ -321,6 +321,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -346,6 +348,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -365,7 +369,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -423,30 +427,13 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let left_px = target[0];
-    let left_py = target[1];
-    let left_pz = target[2];
-    let left_r11 = target[3];
-    let left_r12 = target[4];
-    let left_r13 = target[5];
-    let left_r21 = target[6];
-    let left_r22 = target[7];
-    let left_r23 = target[8];
-    let left_r31 = target[9];
-    let left_r32 = target[10];
-    let left_r33 = target[11];
-    let right_px = target[12];
-    let right_py = target[13];
-    let right_pz = target[14];
-    let right_r11 = target[15];
-    let right_r12 = target[16];
-    let right_r13 = target[17];
-    let right_r21 = target[18];
-    let right_r22 = target[19];
-    let right_r23 = target[20];
-    let right_r31 = target[21];
-    let right_r32 = target[22];
-    let right_r33 = target[23];
+    let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
+    let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
+    let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10]; let left_r33 = target[11];
+    let right_px = target[12]; let right_py = target[13]; let right_pz = target[14];
+    let right_r11 = target[15]; let right_r12 = target[16]; let right_r13 = target[17];
+    let right_r21 = target[18]; let right_r22 = target[19]; let right_r23 = target[20];
+    let right_r31 = target[21]; let right_r32 = target[22]; let right_r33 = target[23];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(left_px)), f64::abs(left_py)), f64::abs(left_pz)), f64::abs(left_r11)), f64::abs(left_r12)), f64::abs(left_r13)), f64::abs(left_r21)), f64::abs(left_r22)), f64::abs(left_r23)), f64::abs(left_r31)), f64::abs(left_r32)), f64::abs(left_r33)), f64::abs(right_px)), f64::abs(right_py)), f64::abs(right_pz)), f64::abs(right_r11)), f64::abs(right_r12)), f64::abs(right_r13)), f64::abs(right_r21)), f64::abs(right_r22)), f64::abs(right_r23)), f64::abs(right_r31)), f64::abs(right_r32)), f64::abs(right_r33));
     Parameters { left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude }
 }
@@ -479,8 +466,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: HipYawPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r15 = 0.085 * p.left_r21 + 0.05 * p.left_r31 - p.left_py * p.left_r31;
+    let before = answers.candidates; let r15 = 0.085 * p.left_r21 + 0.05 * p.left_r31 - p.left_py * p.left_r31;
     let r19 = 0.04519 * p.left_r12 - (p.left_pz * p.left_r21 + r15);
     let r21 = 0.7071067811865475 * (p.left_px * p.left_r21);
     let r23 = 0.7071067811865475 * (p.left_py * p.left_r11);
@@ -498,14 +484,8 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r51 = 0.7071067811865475 * (p.right_px * p.right_r31);
     let r54 = r50 - r51 + 0.03195415544182008 * p.right_r22;
     let r58 = 2.82842712474619 * p.magnitude + 1.3060120827159294;
-    let r59 = f64::abs(2.0 * p.magnitude + 1.39599);
-    let r60 = f64::abs(r58);
-    let r61 = r19 * r54;
-    let r62 = r32 * r41;
-    let r63 = 0.0 - r62;
-    let r64 = r61 + r62;
-    let r65 = r59 * r60;
-    let r66 = r65 + r65;
+    let r59 = f64::abs(2.0 * p.magnitude + 1.39599); let r60 = f64::abs(r58); let r61 = r19 * r54;
+    let r62 = r32 * r41; let r63 = 0.0 - r62; let r64 = r61 + r62; let r65 = r59 * r60; let r66 = r65 + r65;
     let r67 = 0.001 * r66;
     let shared = &Shared1 { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
     chart_1_1(p, shared, answers);
@@ -526,8 +506,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     if !is_away(shared.r63 - shared.r61, 16.0 * shared.r66) {
         return;
     }
-    let left_c1 = 0.0;
-    let left_s1 = 0.0;
+    let left_c1 = 0.0; let left_s1 = 0.0;
     let next = Known { branch: 0, last: 1, close: false, left_c1, left_s1, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -535,17 +514,14 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Chart 2 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r68 = shared.r19 * shared.r19;
-    let r69 = shared.r32 * shared.r32;
-    let r70 = r68 + r69;
+    let r68 = shared.r19 * shared.r19; let r69 = shared.r32 * shared.r32; let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r84 = 1.0 / r70;
-        let left_c1 = left_w1 * shared.r32 * r84;
+        let r84 = 1.0 / r70; let left_c1 = left_w1 * shared.r32 * r84;
         let left_s1 = left_w1 * shared.r19 * r84;
         let next = Known { branch: 1 + i0, last: 3, close: roots0.close, left_c1, left_s1, ..NOTHING_KNOWN };
         again_2(p, &next, answers);
@@ -570,17 +546,14 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 /// Chart 4 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_1_4(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r68 = shared.r41 * shared.r41;
-    let r69 = shared.r54 * shared.r54;
-    let r70 = r68 + r69;
+    let r68 = shared.r41 * shared.r41; let r69 = shared.r54 * shared.r54; let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
         return;
     }
     let roots0 = square_roots(0.0 - r68 - r69, f64::max(r73, 0.0).sqrt());
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r85 = 1.0 / r70;
-        let left_c1 = 0.0 - left_w1 * shared.r54 * r85;
+        let r85 = 1.0 / r70; let left_c1 = 0.0 - left_w1 * shared.r54 * r85;
         let left_s1 = left_w1 * shared.r41 * r85;
         let next = Known { branch: 4 + i0, last: 6, close: roots0.close, left_c1, left_s1, ..NOTHING_KNOWN };
         again_2(p, &next, answers);
@@ -611,8 +584,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.left_px * p.left_px;
     let r19 = r17 - p.left_py * p.left_py - p.left_pz * p.left_pz;
     let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
-    let r28 = 0.0088212739 - r27;
+    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared2 { r28 };
     chart_2_1(p, known, shared, answers);
 }
@@ -633,8 +605,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
-        let left_c4 = r34;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let left_c4 = r34;
         let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         block_3(p, &next, answers);
@@ -644,24 +615,16 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnkleRoll.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r15 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
+    let before = answers.candidates; let r15 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
     let r17 = p.left_pz * p.left_r32 - (r15 - p.left_py * p.left_r22);
     let r21 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
-    let r23 = r21 - p.left_py * p.left_r23 - p.left_pz * p.left_r33;
-    let r24 = r23 - 0.04519;
+    let r23 = r21 - p.left_py * p.left_r23 - p.left_pz * p.left_r33; let r24 = r23 - 0.04519;
     let r25 = 0.7071067811865475 * (known.left_s1 * (p.left_r22 + p.left_r32));
     let r26 = r25 - p.left_r12 * known.left_c1;
     let r27 = 0.7071067811865475 * (known.left_s1 * (p.left_r23 + p.left_r33));
-    let r28 = p.left_r13 * known.left_c1 - r27;
-    let r29 = 3.0 * p.magnitude;
-    let r32 = f64::abs(r29 + 0.235);
-    let r33 = f64::abs(r29 + 0.75599);
-    let r34 = r17 * r28;
-    let r35 = r24 * r26;
-    let r36 = r34 - r35;
-    let r39 = 3.0 * r32 + 3.0 * r33;
-    let r40 = 0.001 * r39;
+    let r28 = p.left_r13 * known.left_c1 - r27; let r29 = 3.0 * p.magnitude; let r32 = f64::abs(r29 + 0.235);
+    let r33 = f64::abs(r29 + 0.75599); let r34 = r17 * r28; let r35 = r24 * r26; let r36 = r34 - r35;
+    let r39 = 3.0 * r32 + 3.0 * r33; let r40 = 0.001 * r39;
     let shared = &Shared3 { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -681,8 +644,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(shared.r35 - shared.r34, 16.0 * shared.r39) {
         return;
     }
-    let left_c6 = 0.0;
-    let left_s6 = 0.0;
+    let left_c6 = 0.0; let left_s6 = 0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c6, left_s6, ..*known };
     block_4(p, &next, answers);
 }
@@ -690,17 +652,14 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Chart 2 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r41 = shared.r17 * shared.r17;
-    let r42 = shared.r24 * shared.r24;
-    let r43 = r41 + r42;
+    let r41 = shared.r17 * shared.r17; let r42 = shared.r24 * shared.r24; let r43 = r41 + r42;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 16.0 * r46)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 16.0 * r46))) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, f64::max(r46, 0.0).sqrt());
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r53 = 1.0 / r43;
-        let left_c6 = 0.0 - left_w6 * shared.r24 * r53;
+        let r53 = 1.0 / r43; let left_c6 = 0.0 - left_w6 * shared.r24 * r53;
         let left_s6 = left_w6 * shared.r17 * r53;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c6, left_s6, ..*known };
         again_4(p, &next, answers);
@@ -725,16 +684,13 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Chart 4 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r41 = shared.r26 * shared.r26;
-    let r42 = shared.r28 * shared.r28;
-    let r43 = r41 + r42;
+    let r41 = shared.r26 * shared.r26; let r42 = shared.r28 * shared.r28; let r43 = r41 + r42;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 288.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r41 - r42, 4.242640687119285);
     for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r48 = 1.0 / r43;
-        let left_c6 = 0.0 - left_w6 * shared.r28 * r48;
+        let r48 = 1.0 / r43; let left_c6 = 0.0 - left_w6 * shared.r28 * r48;
         let left_s6 = left_w6 * shared.r26 * r48;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c6, left_s6, ..*known };
         again_4(p, &next, answers);
@@ -758,34 +714,26 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: AnklePitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.left_r22 * known.left_s6;
-    let r3 = p.left_r23 * known.left_c6;
-    let r4 = p.left_r32 * known.left_s6;
-    let r5 = p.left_r33 * known.left_c6;
+    let before = answers.candidates; let r2 = p.left_r22 * known.left_s6; let r3 = p.left_r23 * known.left_c6;
+    let r4 = p.left_r32 * known.left_s6; let r5 = p.left_r33 * known.left_c6;
     let r8 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
     let r9 = p.left_r12 * known.left_s6 + p.left_r13 * known.left_c6;
     let r14 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
     let r20 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
     let r29 = 0.009300102 * known.left_c6 + 0.2058 * (p.left_px * r9);
     let r33 = r29 + 0.2058 * (p.left_py * (r2 + r3)) + 0.2058 * (p.left_pz * (r4 + r5));
-    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4;
-    let r41 = r39 + 0.017493 * r5;
+    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4; let r41 = r39 + 0.017493 * r5;
     let r44 = 0.2058 * (p.left_px * p.left_r11) + 0.2058 * (p.left_py * p.left_r21);
     let r48 = r44 + 0.2058 * (p.left_pz * p.left_r31) - 0.01029 * p.left_r21;
-    let r50 = r48 + 0.017493 * p.left_r31;
-    let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
+    let r50 = r48 + 0.017493 * p.left_r31; let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
     let r58 = r56 - p.left_py * p.left_py - p.left_pz * p.left_pz;
     let r62 = r58 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33;
-    let r67 = r66 + 0.0123555461;
-    let r68 = 0.02058 * known.left_s4;
-    let r69 = 0.0 - r68;
+    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.left_s4; let r69 = 0.0 - r68;
     let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
     let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
-    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
-    let r85 = f64::abs(r81 + 3.1572666541);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared4 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -812,8 +760,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
     let r99 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
-    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt();
-    let left_c5 = r99 * r104;
+    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt(); let left_c5 = r99 * r104;
     let left_s5 = r96 * r104;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c5, left_s5, ..*known };
     block_5(p, &next, answers);
@@ -837,14 +784,11 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.left_r32 * known.left_c6;
-    let r5 = p.left_r33 * known.left_s6;
-    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6;
-    let r9 = 0.5 * (r5 + (r6 - r4));
+    let r4 = p.left_r32 * known.left_c6; let r5 = p.left_r33 * known.left_s6;
+    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6; let r9 = 0.5 * (r5 + (r6 - r4));
     let r11 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
     let r18 = 0.7071067811865475 * (known.left_s1 * r11);
-    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5)));
-    let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
+    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5))); let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
     let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
 }
@@ -862,10 +806,8 @@ struct Shared5 { r19: f64, r21: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
-    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
-    let left_c2 = shared.r21 * r26;
-    let left_s2 = shared.r19 * r26;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let left_c2 = shared.r21 * r26; let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -873,23 +815,19 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: HipPitch.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.left_c5 * known.left_s6;
-    let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
+    let r0 = known.left_c5 * known.left_s6; let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
     let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s5);
     let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
     let r20 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s5);
     let r23 = p.left_r33 * r5 + (r20 + 0.1029 * (p.left_r32 * r0));
     let r26 = p.left_py + r23 - 0.1029 * (p.left_r21 * known.left_s5);
     let r29 = p.left_r23 * r5 + (r26 + 0.1029 * (p.left_r22 * r0));
-    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5;
-    let r37 = known.left_s6 * r36;
-    let r38 = known.left_c6 * r36;
-    let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
+    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5; let r37 = known.left_s6 * r36;
+    let r38 = known.left_c6 * r36; let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
     let r50 = p.left_r13 * r38 + (p.left_r11 * r39 + p.left_r12 * r37);
     let r53 = p.left_r33 * r38 + (p.left_r31 * r39 + p.left_r32 * r37);
     let r56 = p.left_r23 * r38 + (p.left_r22 * r37 + (p.left_r21 * r39 + r53));
-    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
-    let r59 = known.left_c1 * r17 - r58;
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared6 { r59, r62 };
     chart_6_1(p, known, shared, answers);
@@ -901,10 +839,8 @@ struct Shared6 { r59: f64, r62: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r63 = 0.1 * shared.r59;
-    let r64 = 0.1 * shared.r62;
-    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt();
-    let left_c3 = r64 * r69;
+    let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
+    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let left_c3 = r64 * r69;
     let left_s3 = 0.0 - r63 * r69;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3, left_s3, ..*known };
     block_7(p, &next, answers);
@@ -919,8 +855,7 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.right_px * p.right_px;
     let r19 = r17 - p.right_py * p.right_py - p.right_pz * p.right_pz;
     let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_r23;
-    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_r33;
-    let r28 = 0.0088212739 - r27;
+    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared7 { r28 };
     chart_7_1(p, known, shared, answers);
 }
@@ -934,8 +869,7 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
-        let right_c4 = r34;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let right_c4 = r34;
         let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c4, right_s4, ..*known };
         block_8(p, &next, answers);
@@ -949,21 +883,13 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r15 = p.right_px * p.right_r12 + (0.05 * p.right_r22 + 0.085 * p.right_r32);
     let r17 = p.right_pz * p.right_r32 + (p.right_py * p.right_r22 + r15);
     let r21 = p.right_px * p.right_r13 + (0.05 * p.right_r23 + 0.085 * p.right_r33);
-    let r23 = p.right_pz * p.right_r33 + (p.right_py * p.right_r23 + r21);
-    let r24 = r23 + 0.04519;
+    let r23 = p.right_pz * p.right_r33 + (p.right_py * p.right_r23 + r21); let r24 = r23 + 0.04519;
     let r25 = 0.7071067811865475 * (known.left_s1 * (p.right_r32 - p.right_r22));
     let r26 = r25 - p.right_r12 * known.left_c1;
     let r27 = 0.7071067811865475 * (known.left_s1 * (p.right_r33 - p.right_r23));
-    let r28 = p.right_r13 * known.left_c1 - r27;
-    let r29 = 3.0 * p.magnitude;
-    let r32 = f64::abs(r29 + 0.235);
-    let r33 = f64::abs(r29 + 0.75599);
-    let r34 = r17 * r28;
-    let r35 = r24 * r26;
-    let r36 = 0.0 - r35;
-    let r37 = r34 + r35;
-    let r40 = 3.0 * r32 + 3.0 * r33;
-    let r41 = 0.001 * r40;
+    let r28 = p.right_r13 * known.left_c1 - r27; let r29 = 3.0 * p.magnitude; let r32 = f64::abs(r29 + 0.235);
+    let r33 = f64::abs(r29 + 0.75599); let r34 = r17 * r28; let r35 = r24 * r26; let r36 = 0.0 - r35;
+    let r37 = r34 + r35; let r40 = 3.0 * r32 + 3.0 * r33; let r41 = 0.001 * r40;
     let shared = &Shared8 { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
     chart_8_1(p, known, shared, answers);
     chart_8_2(p, known, shared, before, answers);
@@ -983,8 +909,7 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     if !is_away(shared.r36 - shared.r34, 16.0 * shared.r40) {
         return;
     }
-    let right_c6 = 0.0;
-    let right_s6 = 0.0;
+    let right_c6 = 0.0; let right_s6 = 0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c6, right_s6, ..*known };
     block_9(p, &next, answers);
 }
@@ -992,17 +917,14 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Chart 2 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
-    let r42 = shared.r17 * shared.r17;
-    let r43 = shared.r24 * shared.r24;
-    let r44 = r42 + r43;
+    let r42 = shared.r17 * shared.r17; let r43 = shared.r24 * shared.r24; let r44 = r42 + r43;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 16.0 * r47)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 16.0 * r47))) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, f64::max(r47, 0.0).sqrt());
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r54 = 1.0 / r44;
-        let right_c6 = right_w6 * shared.r24 * r54;
+        let r54 = 1.0 / r44; let right_c6 = right_w6 * shared.r24 * r54;
         let right_s6 = right_w6 * shared.r17 * r54;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c6, right_s6, ..*known };
         again_9(p, &next, answers);
@@ -1027,16 +949,13 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, before: usize, ans
 /// Chart 4 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
-    let r42 = shared.r26 * shared.r26;
-    let r43 = shared.r28 * shared.r28;
-    let r44 = r42 + r43;
+    let r42 = shared.r26 * shared.r26; let r43 = shared.r28 * shared.r28; let r44 = r42 + r43;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 288.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r42 - r43, 4.242640687119285);
     for (i0, &right_w6) in roots0.as_slice().iter().enumerate() {
-        let r49 = 1.0 / r44;
-        let right_c6 = 0.0 - right_w6 * shared.r28 * r49;
+        let r49 = 1.0 / r44; let right_c6 = 0.0 - right_w6 * shared.r28 * r49;
         let right_s6 = right_w6 * shared.r26 * r49;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c6, right_s6, ..*known };
         again_9(p, &next, answers);
@@ -1060,34 +979,27 @@ fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, before: usize, ans
 /// Block 9: AnklePitch.
 #[inline(always)]
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.right_r22 * known.right_s6;
-    let r3 = p.right_r23 * known.right_c6;
-    let r4 = p.right_r32 * known.right_s6;
-    let r5 = p.right_r33 * known.right_c6;
-    let r8 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
+    let before = answers.candidates; let r2 = p.right_r22 * known.right_s6;
+    let r3 = p.right_r23 * known.right_c6; let r4 = p.right_r32 * known.right_s6;
+    let r5 = p.right_r33 * known.right_c6; let r8 = p.right_px * (p.right_px + 0.04519 * p.right_r13);
     let r9 = p.right_r12 * known.right_s6 + p.right_r13 * known.right_c6;
     let r14 = p.right_py * (p.right_py + 0.04519 * p.right_r23);
     let r20 = p.right_pz * (p.right_pz + 0.04519 * p.right_r33);
     let r29 = 0.009300102 * known.right_c6 + 0.2058 * (p.right_px * r9);
     let r33 = r29 + 0.2058 * (p.right_py * (r2 + r3)) + 0.2058 * (p.right_pz * (r4 + r5));
-    let r39 = r33 + 0.01029 * r2 + 0.01029 * r3 + 0.017493 * r4;
-    let r41 = r39 + 0.017493 * r5;
+    let r39 = r33 + 0.01029 * r2 + 0.01029 * r3 + 0.017493 * r4; let r41 = r39 + 0.017493 * r5;
     let r44 = 0.2058 * (p.right_px * p.right_r11) + 0.2058 * (p.right_py * p.right_r21);
     let r48 = r44 + 0.2058 * (p.right_pz * p.right_r31) + 0.01029 * p.right_r21;
     let r50 = r48 + 0.017493 * p.right_r31;
     let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.right_px * p.right_px;
     let r58 = r56 - p.right_py * p.right_py - p.right_pz * p.right_pz;
     let r62 = r58 + 0.1 * p.right_py + 0.004519 * p.right_r23;
-    let r66 = r62 + 0.17 * p.right_pz + 0.0076823 * p.right_r33;
-    let r67 = r66 + 0.0123555461;
-    let r68 = 0.02058 * known.right_s4;
-    let r69 = 0.0 - r68;
+    let r66 = r62 + 0.17 * p.right_pz + 0.0076823 * p.right_r33; let r67 = r66 + 0.0123555461;
+    let r68 = 0.02058 * known.right_s4; let r69 = 0.0 - r68;
     let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
     let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
-    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
-    let r85 = f64::abs(r81 + 3.1572666541);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared9 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_9_1(p, known, shared, answers);
     chart_9_2(p, known, shared, before, answers);
@@ -1114,8 +1026,7 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     }
     let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
     let r99 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
-    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt();
-    let right_c5 = r99 * r104;
+    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt(); let right_c5 = r99 * r104;
     let right_s5 = r96 * r104;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c5, right_s5, ..*known };
     block_10(p, &next, answers);
@@ -1139,13 +1050,10 @@ fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, ans
 /// Block 10: HipRoll.
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.right_r32 * known.right_c6;
-    let r5 = p.right_r33 * known.right_s6;
-    let r6 = p.right_r22 * known.right_c6 - p.right_r23 * known.right_s6;
-    let r9 = 0.5 * (r4 + r6 - r5);
+    let r4 = p.right_r32 * known.right_c6; let r5 = p.right_r33 * known.right_s6;
+    let r6 = p.right_r22 * known.right_c6 - p.right_r23 * known.right_s6; let r9 = 0.5 * (r4 + r6 - r5);
     let r11 = p.right_r12 * known.right_c6 - p.right_r13 * known.right_s6;
-    let r18 = 0.7071067811865475 * (known.left_s1 * r11);
-    let r19 = r9 + known.left_c1 * (r4 - r5 - r9) + r18;
+    let r18 = 0.7071067811865475 * (known.left_s1 * r11); let r19 = r9 + known.left_c1 * (r4 - r5 - r9) + r18;
     let r21 = r9 + known.left_c1 * (r6 - r9) - r18;
     let shared = &Shared10 { r19, r21 };
     chart_10_1(p, known, shared, answers);
@@ -1164,10 +1072,8 @@ struct Shared10 { r19: f64, r21: f64 }
 /// Chart 1 of block 10: generic.
 #[inline(always)]
 fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
-    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
-    let right_c2 = shared.r21 * r26;
-    let right_s2 = shared.r19 * r26;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let right_c2 = shared.r21 * r26; let right_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c2, right_s2, ..*known };
     block_11(p, &next, answers);
 }
@@ -1175,8 +1081,7 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// Block 11: HipPitch.
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.right_c5 * known.right_s6;
-    let r5 = 0.1029 * (known.right_c5 * known.right_c6) + 0.04519;
+    let r0 = known.right_c5 * known.right_s6; let r5 = 0.1029 * (known.right_c5 * known.right_c6) + 0.04519;
     let r14 = p.right_px - 0.1029 * (p.right_r11 * known.right_s5);
     let r17 = p.right_r13 * r5 + (r14 + 0.1029 * (p.right_r12 * r0));
     let r20 = p.right_pz - 0.1029 * (p.right_r31 * known.right_s5);
@@ -1184,14 +1089,12 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r26 = r23 - p.right_py + 0.1029 * (p.right_r21 * known.right_s5);
     let r29 = r26 - 0.1029 * (p.right_r22 * r0) - p.right_r23 * r5;
     let r36 = known.right_s4 * known.right_c5 + known.right_c4 * known.right_s5;
-    let r37 = known.right_s6 * r36;
-    let r38 = known.right_c6 * r36;
+    let r37 = known.right_s6 * r36; let r38 = known.right_c6 * r36;
     let r39 = known.right_c4 * known.right_c5 - known.right_s4 * known.right_s5;
     let r50 = p.right_r13 * r38 + (p.right_r11 * r39 + p.right_r12 * r37);
     let r53 = p.right_r33 * r38 + (p.right_r31 * r39 + p.right_r32 * r37);
     let r56 = r53 - p.right_r21 * r39 - p.right_r22 * r37 - p.right_r23 * r38;
-    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035));
-    let r59 = known.left_c1 * r17 - r58;
+    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared11 { r59, r62 };
     chart_11_1(p, known, shared, answers);
@@ -1203,10 +1106,8 @@ struct Shared11 { r59: f64, r62: f64 }
 /// Chart 1 of block 11: generic.
 #[inline(always)]
 fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r63 = 0.1 * shared.r59;
-    let r64 = 0.1 * shared.r62;
-    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt();
-    let right_c3 = r64 * r69;
+    let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
+    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let right_c3 = r64 * r69;
     let right_s3 = 0.0 - r63 * r69;
     let at = [
         known.left_c1, known.left_s1, known.left_c2, known.left_s2, known.left_c3, known.left_s3,
@@ -1228,107 +1129,44 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
         right_c6, right_s6,
     ] = *at;
-    let r0 = left_s1 * left_c2;
-    let r1 = left_s1 * left_s2;
-    let r2 = left_c1 + 1.0;
-    let r3 = left_c2 * r2;
-    let r4 = left_c1 - 1.0;
-    let r5 = left_s2 * r4;
-    let r6 = left_c2 * r4;
-    let r7 = left_s2 * r2;
-    let r9 = r1 - r0;
-    let r12 = r7 - r6;
-    let r14 = r5 - r3;
-    let r16 = left_c1 * left_s3;
-    let r17 = left_c3 * r9;
-    let r18 = left_s1 * left_s3;
-    let r19 = left_c3 * r12;
-    let r20 = left_c3 * r14;
+    let r0 = left_s1 * left_c2; let r1 = left_s1 * left_s2; let r2 = left_c1 + 1.0; let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0; let r5 = left_s2 * r4; let r6 = left_c2 * r4; let r7 = left_s2 * r2;
+    let r9 = r1 - r0; let r12 = r7 - r6; let r14 = r5 - r3; let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9; let r18 = left_s1 * left_s3; let r19 = left_c3 * r12; let r20 = left_c3 * r14;
     let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
-    let r25 = r16 - 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
-    let r29 = r27 - 0.5 * (left_s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 + 0.5 * r19;
-    let r36 = r27 - 0.5 * (left_s3 * r14);
-    let r39 = r31 + 0.5 * r20;
-    let r41 = left_s4 * r22;
-    let r42 = left_c4 * r25;
-    let r43 = left_s4 * r29;
-    let r44 = left_c4 * r33;
-    let r45 = left_s4 * r36;
-    let r46 = left_c4 * r39;
-    let r47 = left_c4 * r22 - left_s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = left_c4 * r29 - left_s4 * r33;
-    let r53 = r43 + r44;
-    let r55 = left_c4 * r36 - left_s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 + r1;
-    let r67 = left_s5 * r47 + left_c5 * r49;
-    let r69 = r3 + r5;
-    let r71 = left_s5 * r51 + left_c5 * r53;
-    let r73 = r6 + r7;
-    let r75 = left_s5 * r55 + left_c5 * r57;
-    let r77 = left_s6 * r65;
-    let r78 = left_c6 * r67;
-    let r79 = left_s6 * r69;
-    let r80 = left_c6 * r71;
-    let r81 = left_s6 * r73;
-    let r82 = left_c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
+    let r25 = r16 - 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14); let r39 = r31 + 0.5 * r20; let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25; let r43 = left_s4 * r29; let r44 = left_c4 * r33; let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39; let r47 = left_c4 * r22 - left_s4 * r25; let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33; let r53 = r43 + r44; let r55 = left_c4 * r36 - left_s4 * r39;
+    let r57 = r45 + r46; let r65 = r0 + r1; let r67 = left_s5 * r47 + left_c5 * r49; let r69 = r3 + r5;
+    let r71 = left_s5 * r51 + left_c5 * r53; let r73 = r6 + r7; let r75 = left_s5 * r55 + left_c5 * r57;
+    let r77 = left_s6 * r65; let r78 = left_c6 * r67; let r79 = left_s6 * r69; let r80 = left_c6 * r71;
+    let r81 = left_s6 * r73; let r82 = left_c6 * r75; let r83 = 0.07071067811865475 * r18;
     let r89 = r83 + 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
     let r99 = r83 + 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
     let r108 = 0.1 * r16 - 0.07071067811865475 * r17 + 0.1029 * r41;
     let r112 = r108 + 0.1029 * r42 - 0.03195415544182008 * r77;
-    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65);
-    let r147 = left_s1 * right_c2;
-    let r148 = left_s1 * right_s2;
-    let r149 = right_c2 * r2;
-    let r150 = right_s2 * r4;
-    let r151 = right_c2 * r4;
-    let r152 = right_s2 * r2;
-    let r154 = r147 + r148;
-    let r157 = r151 + r152;
-    let r159 = r149 + r150;
-    let r161 = left_c1 * right_s3;
-    let r162 = right_c3 * r154;
-    let r163 = left_s1 * right_s3;
-    let r164 = right_c3 * r157;
-    let r165 = right_c3 * r159;
+    let r132 = left_s6 * r67 + 0.7071067811865475 * (left_c6 * r65); let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2; let r149 = right_c2 * r2; let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4; let r152 = right_s2 * r2; let r154 = r147 + r148; let r157 = r151 + r152;
+    let r159 = r149 + r150; let r161 = left_c1 * right_s3; let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3; let r164 = right_c3 * r157; let r165 = right_c3 * r159;
     let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
-    let r170 = r161 + 0.7071067811865475 * r162;
-    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
-    let r174 = r172 + 0.5 * (right_s3 * r157);
-    let r176 = 0.7071067811865475 * r163;
-    let r178 = r176 - 0.5 * r164;
-    let r181 = r172 + 0.5 * (right_s3 * r159);
-    let r184 = r176 - 0.5 * r165;
-    let r186 = right_s4 * r167;
-    let r187 = right_c4 * r170;
-    let r188 = right_s4 * r174;
-    let r189 = right_c4 * r178;
-    let r190 = right_s4 * r181;
-    let r191 = right_c4 * r184;
-    let r192 = right_c4 * r167 - right_s4 * r170;
-    let r194 = r186 + r187;
-    let r196 = right_c4 * r174 - right_s4 * r178;
-    let r198 = r188 + r189;
-    let r200 = right_c4 * r181 - right_s4 * r184;
-    let r202 = r190 + r191;
-    let r210 = r147 - r148;
-    let r212 = right_s5 * r192 + right_c5 * r194;
-    let r214 = r149 - r150;
-    let r216 = right_s5 * r196 + right_c5 * r198;
-    let r218 = r151 - r152;
-    let r220 = right_s5 * r200 + right_c5 * r202;
-    let r222 = right_s6 * r210;
-    let r223 = right_c6 * r212;
-    let r224 = right_s6 * r214;
-    let r225 = right_c6 * r216;
-    let r226 = right_s6 * r218;
-    let r227 = right_c6 * r220;
-    let r228 = 0.07071067811865475 * r163;
+    let r170 = r161 + 0.7071067811865475 * r162; let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157); let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164; let r181 = r172 + 0.5 * (right_s3 * r159); let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167; let r187 = right_c4 * r170; let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178; let r190 = right_s4 * r181; let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170; let r194 = r186 + r187;
+    let r196 = right_c4 * r174 - right_s4 * r178; let r198 = r188 + r189;
+    let r200 = right_c4 * r181 - right_s4 * r184; let r202 = r190 + r191; let r210 = r147 - r148;
+    let r212 = right_s5 * r192 + right_c5 * r194; let r214 = r149 - r150;
+    let r216 = right_s5 * r196 + right_c5 * r198; let r218 = r151 - r152;
+    let r220 = right_s5 * r200 + right_c5 * r202; let r222 = right_s6 * r210; let r223 = right_c6 * r212;
+    let r224 = right_s6 * r214; let r225 = right_c6 * r216; let r226 = right_s6 * r218;
+    let r227 = right_c6 * r220; let r228 = 0.07071067811865475 * r163;
     let r234 = r228 - 0.05 * r165 + 0.1029 * r190 + 0.1029 * r191;
     let r244 = r228 - 0.05 * r164 + 0.1029 * r188 + 0.1029 * r189;
     let r253 = 0.1 * r161 + 0.07071067811865475 * r162 + 0.1029 * r186;
@@ -1420,170 +1258,63 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
         right_c6, right_s6,
     ] = *at;
-    let r0 = left_s1 * left_c2;
-    let r1 = left_s1 * left_s2;
-    let r2 = left_c1 + 1.0;
-    let r3 = left_c2 * r2;
-    let r4 = left_c1 - 1.0;
-    let r5 = left_s2 * r4;
-    let r6 = left_c2 * r4;
-    let r7 = left_s2 * r2;
-    let r9 = r1 - r0;
-    let r12 = r7 - r6;
-    let r14 = r5 - r3;
-    let r16 = left_c1 * left_s3;
-    let r17 = left_c3 * r9;
-    let r18 = left_s1 * left_s3;
-    let r19 = left_c3 * r12;
-    let r20 = left_c3 * r14;
+    let r0 = left_s1 * left_c2; let r1 = left_s1 * left_s2; let r2 = left_c1 + 1.0; let r3 = left_c2 * r2;
+    let r4 = left_c1 - 1.0; let r5 = left_s2 * r4; let r6 = left_c2 * r4; let r7 = left_s2 * r2;
+    let r9 = r1 - r0; let r12 = r7 - r6; let r14 = r5 - r3; let r16 = left_c1 * left_s3;
+    let r17 = left_c3 * r9; let r18 = left_s1 * left_s3; let r19 = left_c3 * r12; let r20 = left_c3 * r14;
     let r22 = left_c1 * left_c3 + 0.7071067811865475 * (left_s3 * r9);
-    let r25 = r16 - 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (left_s1 * left_c3);
-    let r29 = r27 - 0.5 * (left_s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 + 0.5 * r19;
-    let r36 = r27 - 0.5 * (left_s3 * r14);
-    let r39 = r31 + 0.5 * r20;
-    let r41 = left_s4 * r22;
-    let r42 = left_c4 * r25;
-    let r43 = left_s4 * r29;
-    let r44 = left_c4 * r33;
-    let r45 = left_s4 * r36;
-    let r46 = left_c4 * r39;
-    let r47 = left_c4 * r22 - left_s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = left_c4 * r29 - left_s4 * r33;
-    let r52 = left_c5 * r51;
-    let r53 = r43 + r44;
-    let r54 = left_s5 * r53;
-    let r55 = left_c4 * r36 - left_s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 + r1;
-    let r66 = left_c6 * r65;
-    let r67 = left_s5 * r47 + left_c5 * r49;
-    let r68 = left_s6 * r67;
-    let r69 = r3 + r5;
-    let r70 = left_c6 * r69;
-    let r71 = left_s5 * r51 + left_c5 * r53;
-    let r72 = left_s6 * r71;
-    let r73 = r6 + r7;
-    let r74 = left_c6 * r73;
-    let r75 = left_s5 * r55 + left_c5 * r57;
-    let r76 = left_s6 * r75;
-    let r77 = left_s6 * r65;
-    let r78 = left_c6 * r67;
-    let r79 = left_s6 * r69;
-    let r80 = left_c6 * r71;
-    let r81 = left_s6 * r73;
-    let r82 = left_c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
-    let r86 = 0.1029 * r45;
-    let r88 = 0.1029 * r46;
-    let r90 = 0.022595 * r81;
-    let r92 = 0.04519 * r82;
-    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92;
-    let r96 = 0.1029 * r43;
-    let r98 = 0.1029 * r44;
-    let r100 = 0.022595 * r79;
-    let r102 = 0.04519 * r80;
-    let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
-    let r107 = 0.1029 * r41;
-    let r109 = 0.1029 * r42;
-    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109;
-    let r111 = 0.03195415544182008 * r77;
-    let r113 = 0.04519 * r78;
-    let r114 = r110 - r111 + r113;
-    let r115 = left_c5 * r47 - left_s5 * r49;
-    let r128 = 0.5 * r74 - r76;
-    let r130 = 0.5 * r70 - r72;
-    let r132 = r68 + 0.7071067811865475 * r66;
-    let r137 = r82 + 0.5 * r81;
-    let r139 = r80 + 0.5 * r79;
-    let r147 = left_s1 * right_c2;
-    let r148 = left_s1 * right_s2;
-    let r149 = right_c2 * r2;
-    let r150 = right_s2 * r4;
-    let r151 = right_c2 * r4;
-    let r152 = right_s2 * r2;
-    let r154 = r147 + r148;
-    let r157 = r151 + r152;
-    let r159 = r149 + r150;
-    let r161 = left_c1 * right_s3;
-    let r162 = right_c3 * r154;
-    let r163 = left_s1 * right_s3;
-    let r164 = right_c3 * r157;
-    let r165 = right_c3 * r159;
+    let r25 = r16 - 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (left_s1 * left_c3);
+    let r29 = r27 - 0.5 * (left_s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 + 0.5 * r19;
+    let r36 = r27 - 0.5 * (left_s3 * r14); let r39 = r31 + 0.5 * r20; let r41 = left_s4 * r22;
+    let r42 = left_c4 * r25; let r43 = left_s4 * r29; let r44 = left_c4 * r33; let r45 = left_s4 * r36;
+    let r46 = left_c4 * r39; let r47 = left_c4 * r22 - left_s4 * r25; let r49 = r41 + r42;
+    let r51 = left_c4 * r29 - left_s4 * r33; let r52 = left_c5 * r51; let r53 = r43 + r44;
+    let r54 = left_s5 * r53; let r55 = left_c4 * r36 - left_s4 * r39; let r57 = r45 + r46; let r65 = r0 + r1;
+    let r66 = left_c6 * r65; let r67 = left_s5 * r47 + left_c5 * r49; let r68 = left_s6 * r67;
+    let r69 = r3 + r5; let r70 = left_c6 * r69; let r71 = left_s5 * r51 + left_c5 * r53;
+    let r72 = left_s6 * r71; let r73 = r6 + r7; let r74 = left_c6 * r73;
+    let r75 = left_s5 * r55 + left_c5 * r57; let r76 = left_s6 * r75; let r77 = left_s6 * r65;
+    let r78 = left_c6 * r67; let r79 = left_s6 * r69; let r80 = left_c6 * r71; let r81 = left_s6 * r73;
+    let r82 = left_c6 * r75; let r83 = 0.07071067811865475 * r18; let r86 = 0.1029 * r45;
+    let r88 = 0.1029 * r46; let r90 = 0.022595 * r81; let r92 = 0.04519 * r82;
+    let r93 = r83 + 0.05 * r20 + r86 + r88 + r90 + r92; let r96 = 0.1029 * r43; let r98 = 0.1029 * r44;
+    let r100 = 0.022595 * r79; let r102 = 0.04519 * r80; let r103 = r83 + 0.05 * r19 + r96 + r98 + r100 + r102;
+    let r107 = 0.1029 * r41; let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 - 0.07071067811865475 * r17 + r107 + r109; let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78; let r114 = r110 - r111 + r113; let r115 = left_c5 * r47 - left_s5 * r49;
+    let r128 = 0.5 * r74 - r76; let r130 = 0.5 * r70 - r72; let r132 = r68 + 0.7071067811865475 * r66;
+    let r137 = r82 + 0.5 * r81; let r139 = r80 + 0.5 * r79; let r147 = left_s1 * right_c2;
+    let r148 = left_s1 * right_s2; let r149 = right_c2 * r2; let r150 = right_s2 * r4;
+    let r151 = right_c2 * r4; let r152 = right_s2 * r2; let r154 = r147 + r148; let r157 = r151 + r152;
+    let r159 = r149 + r150; let r161 = left_c1 * right_s3; let r162 = right_c3 * r154;
+    let r163 = left_s1 * right_s3; let r164 = right_c3 * r157; let r165 = right_c3 * r159;
     let r167 = left_c1 * right_c3 - 0.7071067811865475 * (right_s3 * r154);
-    let r170 = r161 + 0.7071067811865475 * r162;
-    let r172 = 0.7071067811865475 * (left_s1 * right_c3);
-    let r174 = r172 + 0.5 * (right_s3 * r157);
-    let r176 = 0.7071067811865475 * r163;
-    let r178 = r176 - 0.5 * r164;
-    let r181 = r172 + 0.5 * (right_s3 * r159);
-    let r184 = r176 - 0.5 * r165;
-    let r186 = right_s4 * r167;
-    let r187 = right_c4 * r170;
-    let r188 = right_s4 * r174;
-    let r189 = right_c4 * r178;
-    let r190 = right_s4 * r181;
-    let r191 = right_c4 * r184;
-    let r192 = right_c4 * r167 - right_s4 * r170;
-    let r194 = r186 + r187;
-    let r196 = right_c4 * r174 - right_s4 * r178;
-    let r197 = right_c5 * r196;
-    let r198 = r188 + r189;
-    let r199 = right_s5 * r198;
-    let r200 = right_c4 * r181 - right_s4 * r184;
-    let r202 = r190 + r191;
-    let r210 = r147 - r148;
-    let r211 = right_c6 * r210;
-    let r212 = right_s5 * r192 + right_c5 * r194;
-    let r213 = right_s6 * r212;
-    let r214 = r149 - r150;
-    let r215 = right_c6 * r214;
-    let r216 = right_s5 * r196 + right_c5 * r198;
-    let r217 = right_s6 * r216;
-    let r218 = r151 - r152;
-    let r219 = right_c6 * r218;
-    let r220 = right_s5 * r200 + right_c5 * r202;
-    let r221 = right_s6 * r220;
-    let r222 = right_s6 * r210;
-    let r223 = right_c6 * r212;
-    let r224 = right_s6 * r214;
-    let r225 = right_c6 * r216;
-    let r226 = right_s6 * r218;
-    let r227 = right_c6 * r220;
-    let r228 = 0.07071067811865475 * r163;
-    let r231 = 0.1029 * r190;
-    let r233 = 0.1029 * r191;
-    let r235 = 0.022595 * r226;
-    let r237 = 0.04519 * r227;
-    let r238 = r228 - 0.05 * r165 + r231 + r233 - r235 + r237;
-    let r241 = 0.1029 * r188;
-    let r243 = 0.1029 * r189;
-    let r245 = 0.022595 * r224;
-    let r247 = 0.04519 * r225;
-    let r248 = r228 - 0.05 * r164 + r241 + r243 - r245 + r247;
-    let r252 = 0.1029 * r186;
-    let r253 = 0.1 * r161 + 0.07071067811865475 * r162 + r252;
-    let r254 = 0.1029 * r187;
-    let r256 = 0.03195415544182008 * r222;
-    let r258 = 0.04519 * r223;
-    let r259 = r253 + r254 + r256 + r258;
-    let r260 = r197 - r199;
-    let r261 = right_c5 * r192 - right_s5 * r194;
-    let r274 = r221 + 0.5 * r219;
-    let r276 = r217 + 0.5 * r215;
-    let r284 = 0.5 * r226 - r227;
-    let r287 = r223 + 0.7071067811865475 * r222;
-    let r307 = r92 + (r90 + (r86 + r88));
-    let r311 = r102 + (r100 + (r96 + r98));
-    let r315 = r113 + (r107 + r109 - r111);
-    let r320 = r90 + r92;
-    let r322 = r100 + r102;
-    let r324 = r111 - r113;
-    let r329 = r52 - r54;
-    let r331 = left_c5 * r55 - left_s5 * r57;
+    let r170 = r161 + 0.7071067811865475 * r162; let r172 = 0.7071067811865475 * (left_s1 * right_c3);
+    let r174 = r172 + 0.5 * (right_s3 * r157); let r176 = 0.7071067811865475 * r163;
+    let r178 = r176 - 0.5 * r164; let r181 = r172 + 0.5 * (right_s3 * r159); let r184 = r176 - 0.5 * r165;
+    let r186 = right_s4 * r167; let r187 = right_c4 * r170; let r188 = right_s4 * r174;
+    let r189 = right_c4 * r178; let r190 = right_s4 * r181; let r191 = right_c4 * r184;
+    let r192 = right_c4 * r167 - right_s4 * r170; let r194 = r186 + r187;
+    let r196 = right_c4 * r174 - right_s4 * r178; let r197 = right_c5 * r196; let r198 = r188 + r189;
+    let r199 = right_s5 * r198; let r200 = right_c4 * r181 - right_s4 * r184; let r202 = r190 + r191;
+    let r210 = r147 - r148; let r211 = right_c6 * r210; let r212 = right_s5 * r192 + right_c5 * r194;
+    let r213 = right_s6 * r212; let r214 = r149 - r150; let r215 = right_c6 * r214;
+    let r216 = right_s5 * r196 + right_c5 * r198; let r217 = right_s6 * r216; let r218 = r151 - r152;
+    let r219 = right_c6 * r218; let r220 = right_s5 * r200 + right_c5 * r202; let r221 = right_s6 * r220;
+    let r222 = right_s6 * r210; let r223 = right_c6 * r212; let r224 = right_s6 * r214;
+    let r225 = right_c6 * r216; let r226 = right_s6 * r218; let r227 = right_c6 * r220;
+    let r228 = 0.07071067811865475 * r163; let r231 = 0.1029 * r190; let r233 = 0.1029 * r191;
+    let r235 = 0.022595 * r226; let r237 = 0.04519 * r227;
+    let r238 = r228 - 0.05 * r165 + r231 + r233 - r235 + r237; let r241 = 0.1029 * r188;
+    let r243 = 0.1029 * r189; let r245 = 0.022595 * r224; let r247 = 0.04519 * r225;
+    let r248 = r228 - 0.05 * r164 + r241 + r243 - r245 + r247; let r252 = 0.1029 * r186;
+    let r253 = 0.1 * r161 + 0.07071067811865475 * r162 + r252; let r254 = 0.1029 * r187;
+    let r256 = 0.03195415544182008 * r222; let r258 = 0.04519 * r223; let r259 = r253 + r254 + r256 + r258;
+    let r260 = r197 - r199; let r261 = right_c5 * r192 - right_s5 * r194; let r274 = r221 + 0.5 * r219;
+    let r276 = r217 + 0.5 * r215; let r284 = 0.5 * r226 - r227; let r287 = r223 + 0.7071067811865475 * r222;
+    let r307 = r92 + (r90 + (r86 + r88)); let r311 = r102 + (r100 + (r96 + r98));
+    let r315 = r113 + (r107 + r109 - r111); let r320 = r90 + r92; let r322 = r100 + r102;
+    let r324 = r111 - r113; let r329 = r52 - r54; let r331 = left_c5 * r55 - left_s5 * r57;
     let r339 = 0.09999999999999998 * r18 + 0.035355339059327376 * r20;
     let r343 = r339 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
     let r347 = r343 + 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
@@ -1602,37 +1333,27 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r403 = 0.7071067811865475 * (r65 * r322) - 0.5 * (r69 * r324);
     let r419 = 0.0 - 0.7071067811865475 * (r52 + r331 - r54);
     let r421 = 0.7071067811865475 * (left_s1 * r331 - left_s1 * r329);
-    let r424 = 0.0 - 0.5 * (r69 * r331 - r73 * r329);
-    let r426 = 0.0 - 0.7071067811865475 * r115;
+    let r424 = 0.0 - 0.5 * (r69 * r331 - r73 * r329); let r426 = 0.0 - 0.7071067811865475 * r115;
     let r427 = 0.7071067811865475 * (left_s1 * r115);
     let r431 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r331);
-    let r435 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115);
-    let r436 = 0.0 - r435;
+    let r435 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115); let r436 = 0.0 - r435;
     let r456 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
     let r460 = r456 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
     let r462 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
-    let r465 = 0.5 * (r69 * r128 - r73 * r130);
-    let r469 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
-    let r470 = 0.0 - r469;
-    let r471 = 0.7071067811865475 * (left_s1 * r132);
+    let r465 = 0.5 * (r69 * r128 - r73 * r130); let r469 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68;
+    let r470 = 0.0 - r469; let r471 = 0.7071067811865475 * (left_s1 * r132);
     let r476 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
     let r482 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
-    let r486 = 0.7071067811865475 * r77 - r78;
-    let r504 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
+    let r486 = 0.7071067811865475 * r77 - r78; let r504 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
     let r508 = r504 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
     let r511 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
     let r514 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
     let r518 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
     let r519 = 0.7071067811865475 * (left_s1 * r486);
     let r523 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r486);
-    let r529 = 0.5 * (r69 * r486) - 0.7071067811865475 * (r65 * r139);
-    let r546 = r237 + (r231 + r233 - r235);
-    let r550 = r247 + (r241 + r243 - r245);
-    let r554 = r258 + (r256 + (r252 + r254));
-    let r559 = r235 - r237;
-    let r561 = r245 - r247;
-    let r563 = r256 + r258;
-    let r569 = right_c5 * r200 - right_s5 * r202;
+    let r529 = 0.5 * (r69 * r486) - 0.7071067811865475 * (r65 * r139); let r546 = r237 + (r231 + r233 - r235);
+    let r550 = r247 + (r241 + r243 - r245); let r554 = r258 + (r256 + (r252 + r254)); let r559 = r235 - r237;
+    let r561 = r245 - r247; let r563 = r256 + r258; let r569 = right_c5 * r200 - right_s5 * r202;
     let r577 = 0.09999999999999998 * r163 - 0.035355339059327376 * r165;
     let r581 = r577 + 0.07276128778409574 * r190 + 0.07276128778409574 * r191;
     let r585 = r581 - 0.01597707772091004 * r226 + 0.03195415544182008 * r227;
@@ -1651,24 +1372,18 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r639 = 0.5 * (r214 * r563) - 0.7071067811865475 * (r210 * r561);
     let r655 = 0.0 - 0.7071067811865475 * (r197 + r569 - r199);
     let r657 = 0.7071067811865475 * (left_s1 * r569 - left_s1 * r260);
-    let r661 = 0.0 - 0.5 * (r214 * r569 - r218 * r260);
-    let r662 = 0.7071067811865475 * r261;
+    let r661 = 0.0 - 0.5 * (r214 * r569 - r218 * r260); let r662 = 0.7071067811865475 * r261;
     let r663 = 0.7071067811865475 * (left_s1 * r261);
-    let r667 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569);
-    let r668 = 0.0 - r667;
-    let r673 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261);
-    let r674 = 0.0 - r673;
+    let r667 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569); let r668 = 0.0 - r667;
+    let r673 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261); let r674 = 0.0 - r673;
     let r677 = 0.7071067811865475 * r211 - r213;
     let r695 = 0.35355339059327373 * r219 + 0.7071067811865475 * r221;
     let r699 = r695 + 0.35355339059327373 * r215 + 0.7071067811865475 * r217;
     let r702 = 0.7071067811865475 * (left_s1 * r274 - left_s1 * r276);
-    let r706 = 0.0 - 0.5 * (r214 * r274 - r218 * r276);
-    let r708 = 0.4999999999999999 * r211;
-    let r709 = 0.7071067811865475 * r213;
-    let r712 = 0.7071067811865475 * (left_s1 * r677);
+    let r706 = 0.0 - 0.5 * (r214 * r274 - r218 * r276); let r708 = 0.4999999999999999 * r211;
+    let r709 = 0.7071067811865475 * r213; let r712 = 0.7071067811865475 * (left_s1 * r677);
     let r716 = 0.5 * (r218 * r677) - 0.7071067811865475 * (r210 * r274);
-    let r721 = 0.5 * (r214 * r677) - 0.7071067811865475 * (r210 * r276);
-    let r724 = 0.5 * r224 - r225;
+    let r721 = 0.5 * (r214 * r677) - 0.7071067811865475 * (r210 * r276); let r724 = 0.5 * r224 - r225;
     let r743 = 0.35355339059327373 * r226 - 0.7071067811865475 * r227;
     let r747 = r743 + 0.35355339059327373 * r224 - 0.7071067811865475 * r225;
     let r749 = 0.7071067811865475 * (left_s1 * r284 - left_s1 * r724);
@@ -1713,7 +1428,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1724,20 +1439,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1766,6 +1482,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -2093,7 +1812,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2162,12 +1885,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2178,6 +1906,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -2573,8 +2304,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

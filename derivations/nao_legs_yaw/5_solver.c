@@ -148,6 +148,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -169,6 +171,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -188,7 +192,7 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -393,7 +397,8 @@ static double value_and_slope(const Polynomial *p, double x, double *slope)
 static double sign(const Polynomial *p, double x)
 {
     double size;
-    const double value = value_and_size(p, x, 0.0, &size), noise = ROUNDING * (double)p->degree * size;
+    const double value = value_and_size(p, x, 0.0, &size);
+    const double noise = ROUNDING * (double)p->degree * size;
     return value == 0.0 || (isfinite(noise) && fabs(value) <= noise) ? 0.0 : copysign(1.0, value);
 }
 
@@ -463,7 +468,8 @@ static Roots roots_between(const Polynomial *p, const Roots *critical, double bo
     double low = -bound, low_sign = sign(p, low);
     bool touched = false;
     for (size_t i = 0; i <= critical->count; i++) {
-        const double high = i < critical->count ? critical->values[i] : bound, high_sign = sign(p, high);
+        const double high = i < critical->count ? critical->values[i] : bound;
+        const double high_sign = sign(p, high);
         const bool crosses = low_sign * high_sign < 0.0;
         if (crosses) {
             push(&roots, root_between(p, low, high));
@@ -524,7 +530,8 @@ static int approximate_roots(const double *monic, double scale, double *roots)
     const double e = monic[0], d = monic[1], c = monic[2], b = monic[3];
     /* With y = x + b / 4 it is y^4 + p y^2 + q y + r. */
     const double quarter = 0.25 * b, square = b * b, p = c - 0.375 * square;
-    const double q = d - 0.5 * b * (c - 0.25 * square), r = e - quarter * (d - quarter * (c - 0.1875 * square));
+    const double q = d - 0.5 * b * (c - 0.25 * square);
+    const double r = e - quarter * (d - quarter * (c - 0.1875 * square));
     /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
     const double z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale), h = sqrt(z);
     const double mean = 0.5 * (p + z), half = 0.5 * q / h, f = mean - half, g = mean + half;
@@ -629,10 +636,10 @@ static Parameters parameters(const double *target)
     const double left_r12 = target[4], left_r13 = target[5], left_r21 = target[6], left_r22 = target[7];
     const double left_r23 = target[8], left_r31 = target[9], left_r32 = target[10], left_r33 = target[11];
     const double left_c2 = cos(target[12]), left_s2 = sin(target[12]), left_c3 = cos(target[13]);
-    const double left_s3 = sin(target[13]), right_px = target[14], right_py = target[15], right_pz = target[16];
-    const double right_r11 = target[17], right_r12 = target[18], right_r13 = target[19], right_r21 = target[20];
-    const double right_r22 = target[21], right_r23 = target[22], right_r31 = target[23], right_r32 = target[24];
-    const double right_r33 = target[25];
+    const double left_s3 = sin(target[13]), right_px = target[14], right_py = target[15];
+    const double right_pz = target[16], right_r11 = target[17], right_r12 = target[18], right_r13 = target[19];
+    const double right_r21 = target[20], right_r22 = target[21], right_r23 = target[22];
+    const double right_r31 = target[23], right_r32 = target[24], right_r33 = target[25];
     const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(left_c2)), fabs(left_s2)), fabs(left_c3)), fabs(left_s3)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
     const Parameters result = {left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude};
     return result;
@@ -657,9 +664,10 @@ static void tip(const double *at, double *reached)
     const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
     const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
     const double r48 = 0.7071067811865475 * (left_s4 * r4), r49 = 0.5 * (r19 * r32), r51 = 0.5 * (r21 * r34);
-    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32), r57 = r48 - r54 + r56;
-    const double r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32), r62 = 0.5 * (r26 * r34);
-    const double r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34), r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
+    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32);
+    const double r57 = r48 - r54 + r56, r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32);
+    const double r62 = 0.5 * (r26 * r34), r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34);
+    const double r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
     const double r70 = 0.7071067811865475 * (left_s2_ * left_s4), r71 = 0.5 * (r12 * r32);
     const double r73 = 0.5 * (r17 * r34), r74 = r70 - r71 - r73, r76 = 0.5 * (r12 * r34);
     const double r78 = 0.5 * (r17 * r32), r79 = r70 - r76 - r78, r87 = 0.7071067811865475 * (left_s4 * r19);
@@ -670,11 +678,12 @@ static void tip(const double *at, double *reached)
     const double r103 = 0.7071067811865475 * (left_s4 * r17), r104 = r28 + r101 + r103;
     const double r106 = left_s5 * r74 - left_c5 * r79, r108 = left_s6 * r90, r109 = left_c6 * r92;
     const double r110 = left_s6 * r97, r111 = left_c6 * r99, r112 = left_s6 * r104, r113 = left_c6 * r106;
-    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109, r118 = left_c6 * r97 + left_s6 * r99;
-    const double r120 = r110 - r111, r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113;
-    const double r126 = left_s7 * r114, r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120;
-    const double r130 = left_s7 * r122, r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116;
-    const double r134 = r126 + r127, r136 = left_c7 * r118 - left_s7 * r120, r138 = r128 + r129;
+    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109;
+    const double r118 = left_c6 * r97 + left_s6 * r99, r120 = r110 - r111;
+    const double r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113, r126 = left_s7 * r114;
+    const double r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120, r130 = left_s7 * r122;
+    const double r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116, r134 = r126 + r127;
+    const double r136 = left_c7 * r118 - left_s7 * r120, r138 = r128 + r129;
     const double r140 = left_c7 * r122 - left_s7 * r124, r142 = r130 + r131;
     const double r150 = left_c5 * r52 + left_s5 * r57, r152 = left_s8 * r132 + left_c8 * r134;
     const double r154 = left_c5 * r63 + left_s5 * r68, r156 = left_s8 * r136 + left_c8 * r138;
@@ -689,23 +698,24 @@ static void tip(const double *at, double *reached)
     const double r205 = 0.085 * r13, r207 = 0.085 * r14;
     const double r214 = r204 + r205 + r207 + 0.1 * r108 - 0.1 * r109 + 0.1029 * r126;
     const double r220 = r214 + 0.1029 * r127 - 0.04519 * r162 + 0.04519 * r163, r245 = r48 + r49 + r51;
-    const double r248 = r48 + r54 + r56, r251 = r59 - r60 - r62, r254 = r59 - r65 - r67, r257 = r70 + r71 - r73;
-    const double r260 = r70 + r76 - r78, r269 = r18 - r87 - r89, r271 = right_s5 * r245 + right_c5 * r248;
-    const double r274 = r23 + r94 + r96, r276 = right_s5 * r251 + right_c5 * r254, r279 = r28 - r101 + r103;
+    const double r248 = r48 + r54 + r56, r251 = r59 - r60 - r62, r254 = r59 - r65 - r67;
+    const double r257 = r70 + r71 - r73, r260 = r70 + r76 - r78, r269 = r18 - r87 - r89;
+    const double r271 = right_s5 * r245 + right_c5 * r248, r274 = r23 + r94 + r96;
+    const double r276 = right_s5 * r251 + right_c5 * r254, r279 = r28 - r101 + r103;
     const double r281 = right_s5 * r257 + right_c5 * r260, r283 = right_s6 * r269, r284 = right_c6 * r271;
-    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279, r288 = right_c6 * r281;
-    const double r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
+    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279;
+    const double r288 = right_c6 * r281, r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
     const double r293 = right_c6 * r274 - right_s6 * r276, r295 = r285 + r286;
     const double r297 = right_c6 * r279 - right_s6 * r281, r299 = r287 + r288, r301 = right_s7 * r289;
-    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295, r305 = right_s7 * r297;
-    const double r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291, r309 = r301 + r302;
-    const double r311 = right_c7 * r293 - right_s7 * r295, r313 = r303 + r304;
+    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295;
+    const double r305 = right_s7 * r297, r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291;
+    const double r309 = r301 + r302, r311 = right_c7 * r293 - right_s7 * r295, r313 = r303 + r304;
     const double r315 = right_c7 * r297 - right_s7 * r299, r317 = r305 + r306;
     const double r325 = right_c5 * r245 - right_s5 * r248, r327 = right_s8 * r307 + right_c8 * r309;
     const double r329 = right_c5 * r251 - right_s5 * r254, r331 = right_s8 * r311 + right_c8 * r313;
     const double r333 = right_c5 * r257 - right_s5 * r260, r335 = right_s8 * r315 + right_c8 * r317;
-    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329, r340 = right_c9 * r331;
-    const double r341 = right_s9 * r333, r342 = right_c9 * r335;
+    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329;
+    const double r340 = right_c9 * r331, r341 = right_s9 * r333, r342 = right_c9 * r335;
     const double r349 = r168 + r169 - 0.1 * r287 - 0.1 * r288 - 0.1029 * r305;
     const double r362 = r185 - r186 + r188 + 0.1 * r285 + 0.1 * r286 + 0.1029 * r303;
     const double r368 = r362 + 0.1029 * r304 + 0.04519 * r339 + 0.04519 * r340;
@@ -815,9 +825,10 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r19 = r8 - r9, r21 = r13 + r14, r23 = left_c4 * r5, r24 = r10 + r11, r26 = r15 - r16;
     const double r28 = left_s2_ * left_c4, r32 = left_c4 + 1.0, r34 = left_c4 - 1.0;
     const double r48 = 0.7071067811865475 * (left_s4 * r4), r49 = 0.5 * (r19 * r32), r51 = 0.5 * (r21 * r34);
-    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32), r57 = r48 - r54 + r56;
-    const double r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32), r62 = 0.5 * (r26 * r34);
-    const double r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34), r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
+    const double r52 = r48 - r49 + r51, r54 = 0.5 * (r19 * r34), r56 = 0.5 * (r21 * r32);
+    const double r57 = r48 - r54 + r56, r59 = 0.7071067811865475 * (left_s4 * r5), r60 = 0.5 * (r24 * r32);
+    const double r62 = 0.5 * (r26 * r34), r63 = r59 + r60 - r62, r65 = 0.5 * (r24 * r34);
+    const double r67 = 0.5 * (r26 * r32), r68 = r59 + r65 - r67;
     const double r70 = 0.7071067811865475 * (left_s2_ * left_s4), r71 = 0.5 * (r12 * r32);
     const double r73 = 0.5 * (r17 * r34), r74 = r70 - r71 - r73, r76 = 0.5 * (r12 * r34);
     const double r78 = 0.5 * (r17 * r32), r79 = r70 - r76 - r78, r87 = 0.7071067811865475 * (left_s4 * r19);
@@ -828,52 +839,52 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r103 = 0.7071067811865475 * (left_s4 * r17), r104 = r28 + r101 + r103;
     const double r106 = left_s5 * r74 - left_c5 * r79, r108 = left_s6 * r90, r109 = left_c6 * r92;
     const double r110 = left_s6 * r97, r111 = left_c6 * r99, r112 = left_s6 * r104, r113 = left_c6 * r106;
-    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109, r118 = left_c6 * r97 + left_s6 * r99;
-    const double r120 = r110 - r111, r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113;
-    const double r126 = left_s7 * r114, r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120;
-    const double r130 = left_s7 * r122, r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116;
-    const double r134 = r126 + r127, r136 = left_c7 * r118 - left_s7 * r120, r137 = left_c8 * r136;
-    const double r138 = r128 + r129, r139 = left_s8 * r138, r140 = left_c7 * r122 - left_s7 * r124;
-    const double r142 = r130 + r131, r150 = left_c5 * r52 + left_s5 * r57;
-    const double r152 = left_s8 * r132 + left_c8 * r134, r154 = left_c5 * r63 + left_s5 * r68;
-    const double r156 = left_s8 * r136 + left_c8 * r138, r158 = left_c5 * r74 + left_s5 * r79;
-    const double r160 = left_s8 * r140 + left_c8 * r142, r162 = left_s9 * r150, r163 = left_c9 * r152;
-    const double r164 = left_s9 * r154, r165 = left_c9 * r156, r166 = left_s9 * r158, r167 = left_c9 * r160;
-    const double r168 = 0.05 * r12, r169 = 0.085 * r17, r171 = 0.1 * r112, r173 = 0.1 * r113;
-    const double r175 = 0.1029 * r130, r177 = 0.1029 * r131, r179 = 0.04519 * r166;
-    const double r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179, r181 = 0.04519 * r167;
-    const double r182 = r180 + r181, r185 = 0.05 * r10 + 0.05 * r11, r186 = 0.085 * r15, r188 = 0.085 * r16;
-    const double r190 = 0.1 * r110, r192 = 0.1 * r111, r194 = 0.1029 * r128, r196 = 0.1029 * r129;
-    const double r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196, r198 = 0.04519 * r164;
-    const double r199 = r197 + r198, r200 = 0.04519 * r165, r201 = r199 - r200, r204 = 0.05 * r8 - 0.05 * r9;
-    const double r205 = 0.085 * r13, r207 = 0.085 * r14, r209 = 0.1 * r108, r211 = 0.1 * r109;
-    const double r213 = 0.1029 * r126, r215 = 0.1029 * r127;
+    const double r114 = left_c6 * r90 + left_s6 * r92, r116 = r108 - r109;
+    const double r118 = left_c6 * r97 + left_s6 * r99, r120 = r110 - r111;
+    const double r122 = left_c6 * r104 + left_s6 * r106, r124 = r112 - r113, r126 = left_s7 * r114;
+    const double r127 = left_c7 * r116, r128 = left_s7 * r118, r129 = left_c7 * r120, r130 = left_s7 * r122;
+    const double r131 = left_c7 * r124, r132 = left_c7 * r114 - left_s7 * r116, r134 = r126 + r127;
+    const double r136 = left_c7 * r118 - left_s7 * r120, r137 = left_c8 * r136, r138 = r128 + r129;
+    const double r139 = left_s8 * r138, r140 = left_c7 * r122 - left_s7 * r124, r142 = r130 + r131;
+    const double r150 = left_c5 * r52 + left_s5 * r57, r152 = left_s8 * r132 + left_c8 * r134;
+    const double r154 = left_c5 * r63 + left_s5 * r68, r156 = left_s8 * r136 + left_c8 * r138;
+    const double r158 = left_c5 * r74 + left_s5 * r79, r160 = left_s8 * r140 + left_c8 * r142;
+    const double r162 = left_s9 * r150, r163 = left_c9 * r152, r164 = left_s9 * r154, r165 = left_c9 * r156;
+    const double r166 = left_s9 * r158, r167 = left_c9 * r160, r168 = 0.05 * r12, r169 = 0.085 * r17;
+    const double r171 = 0.1 * r112, r173 = 0.1 * r113, r175 = 0.1029 * r130, r177 = 0.1029 * r131;
+    const double r179 = 0.04519 * r166, r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179;
+    const double r181 = 0.04519 * r167, r182 = r180 + r181, r185 = 0.05 * r10 + 0.05 * r11, r186 = 0.085 * r15;
+    const double r188 = 0.085 * r16, r190 = 0.1 * r110, r192 = 0.1 * r111, r194 = 0.1029 * r128;
+    const double r196 = 0.1029 * r129, r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196;
+    const double r198 = 0.04519 * r164, r199 = r197 + r198, r200 = 0.04519 * r165, r201 = r199 - r200;
+    const double r204 = 0.05 * r8 - 0.05 * r9, r205 = 0.085 * r13, r207 = 0.085 * r14, r209 = 0.1 * r108;
+    const double r211 = 0.1 * r109, r213 = 0.1029 * r126, r215 = 0.1029 * r127;
     const double r216 = r204 + r205 + r207 + r209 - r211 + r213 + r215, r217 = 0.04519 * r162;
     const double r219 = 0.04519 * r163, r220 = r216 - r217 + r219, r221 = r166 - r167, r222 = r137 - r139;
     const double r223 = left_c8 * r132 - left_s8 * r134, r232 = left_c9 * r158 + left_s9 * r160;
     const double r233 = left_c9 * r154 + left_s9 * r156, r234 = left_c9 * r150 + left_s9 * r152;
-    const double r245 = r48 + r49 + r51, r248 = r48 + r54 + r56, r251 = r59 - r60 - r62, r254 = r59 - r65 - r67;
-    const double r257 = r70 + r71 - r73, r260 = r70 + r76 - r78, r269 = r18 - r87 - r89;
-    const double r271 = right_s5 * r245 + right_c5 * r248, r274 = r23 + r94 + r96;
+    const double r245 = r48 + r49 + r51, r248 = r48 + r54 + r56, r251 = r59 - r60 - r62;
+    const double r254 = r59 - r65 - r67, r257 = r70 + r71 - r73, r260 = r70 + r76 - r78;
+    const double r269 = r18 - r87 - r89, r271 = right_s5 * r245 + right_c5 * r248, r274 = r23 + r94 + r96;
     const double r276 = right_s5 * r251 + right_c5 * r254, r279 = r28 - r101 + r103;
     const double r281 = right_s5 * r257 + right_c5 * r260, r283 = right_s6 * r269, r284 = right_c6 * r271;
-    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279, r288 = right_c6 * r281;
-    const double r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
+    const double r285 = right_s6 * r274, r286 = right_c6 * r276, r287 = right_s6 * r279;
+    const double r288 = right_c6 * r281, r289 = right_c6 * r269 - right_s6 * r271, r291 = r283 + r284;
     const double r293 = right_c6 * r274 - right_s6 * r276, r295 = r285 + r286;
     const double r297 = right_c6 * r279 - right_s6 * r281, r299 = r287 + r288, r301 = right_s7 * r289;
-    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295, r305 = right_s7 * r297;
-    const double r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291, r309 = r301 + r302;
-    const double r311 = right_c7 * r293 - right_s7 * r295, r312 = right_c8 * r311, r313 = r303 + r304;
-    const double r314 = right_s8 * r313, r315 = right_c7 * r297 - right_s7 * r299, r317 = r305 + r306;
-    const double r325 = right_c5 * r245 - right_s5 * r248, r326 = right_c9 * r325;
+    const double r302 = right_c7 * r291, r303 = right_s7 * r293, r304 = right_c7 * r295;
+    const double r305 = right_s7 * r297, r306 = right_c7 * r299, r307 = right_c7 * r289 - right_s7 * r291;
+    const double r309 = r301 + r302, r311 = right_c7 * r293 - right_s7 * r295, r312 = right_c8 * r311;
+    const double r313 = r303 + r304, r314 = right_s8 * r313, r315 = right_c7 * r297 - right_s7 * r299;
+    const double r317 = r305 + r306, r325 = right_c5 * r245 - right_s5 * r248, r326 = right_c9 * r325;
     const double r327 = right_s8 * r307 + right_c8 * r309, r328 = right_s9 * r327;
     const double r329 = right_c5 * r251 - right_s5 * r254, r331 = right_s8 * r311 + right_c8 * r313;
     const double r333 = right_c5 * r257 - right_s5 * r260, r335 = right_s8 * r315 + right_c8 * r317;
-    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329, r340 = right_c9 * r331;
-    const double r341 = right_s9 * r333, r342 = right_c9 * r335, r344 = 0.1 * r287, r346 = 0.1 * r288;
-    const double r348 = 0.1029 * r305, r350 = 0.1029 * r306, r352 = 0.04519 * r341;
-    const double r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352, r354 = 0.04519 * r342, r357 = 0.1 * r285;
-    const double r359 = 0.1 * r286, r361 = 0.1029 * r303, r363 = 0.1029 * r304;
+    const double r337 = right_s9 * r325, r338 = right_c9 * r327, r339 = right_s9 * r329;
+    const double r340 = right_c9 * r331, r341 = right_s9 * r333, r342 = right_c9 * r335, r344 = 0.1 * r287;
+    const double r346 = 0.1 * r288, r348 = 0.1029 * r305, r350 = 0.1029 * r306, r352 = 0.04519 * r341;
+    const double r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352, r354 = 0.04519 * r342;
+    const double r357 = 0.1 * r285, r359 = 0.1 * r286, r361 = 0.1029 * r303, r363 = 0.1029 * r304;
     const double r364 = r185 - r186 + r188 + r357 + r359 + r361 + r363, r365 = 0.04519 * r339;
     const double r367 = 0.04519 * r340, r368 = r364 + r365 + r367, r371 = 0.1 * r283, r373 = 0.1 * r284;
     const double r375 = 0.1029 * r301, r377 = 0.1029 * r302;
@@ -885,12 +896,13 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r440 = r200 + (r196 + (r194 + (r190 - r192)) - r198);
     const double r446 = r219 + (r215 + (r213 + (r209 - r211)) - r217), r449 = r14 + (r13 + r19);
     const double r467 = r181 + (r175 + r177 - r179), r471 = r200 + (r194 + r196 - r198);
-    const double r475 = r219 + (r213 + r215 - r217), r481 = r164 - r165, r483 = r162 - r163, r486 = r150 * r481;
-    const double r487 = r154 * r483, r489 = left_c8 * r140 - left_s8 * r142, r493 = r481 * r223;
-    const double r494 = r483 * r222, r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440);
-    const double r502 = r154 * r221 - r158 * r481, r505 = r221 * r222 - r481 * r489;
-    const double r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449), r515 = r158 * r483 - r150 * r221;
-    const double r518 = r483 * r489 - r221 * r223, r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
+    const double r475 = r219 + (r213 + r215 - r217), r481 = r164 - r165, r483 = r162 - r163;
+    const double r486 = r150 * r481, r487 = r154 * r483, r489 = left_c8 * r140 - left_s8 * r142;
+    const double r493 = r481 * r223, r494 = r483 * r222;
+    const double r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440), r502 = r154 * r221 - r158 * r481;
+    const double r505 = r221 * r222 - r481 * r489, r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449);
+    const double r515 = r158 * r483 - r150 * r221, r518 = r483 * r489 - r221 * r223;
+    const double r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
     const double r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222), r567 = r158 * r222 - r154 * r489;
     const double r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489), r573 = r150 * r489 - r158 * r223;
     const double r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223), r581 = r150 * r222 - r154 * r223;
@@ -899,20 +911,22 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234), r639 = r150 * r233 - r154 * r234;
     const double r665 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
     const double r669 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
-    const double r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483), r677 = r487 - r486, r683 = r353 - r354;
-    const double r695 = r16 + (r24 - r15), r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346))));
-    const double r702 = r12 + r17, r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
+    const double r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483), r677 = r487 - r486;
+    const double r683 = r353 - r354, r695 = r16 + (r24 - r15);
+    const double r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346)))), r702 = r12 + r17;
+    const double r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
     const double r713 = r381 + (r379 + (r377 + (r375 + (r371 + r373)))), r716 = r19 - r13 - r14;
     const double r734 = r354 + (r352 + (r348 + r350)), r738 = r367 + (r365 + (r361 + r363));
     const double r742 = r381 + (r379 + (r375 + r377)), r751 = r325 * r384, r752 = r329 * r385;
     const double r753 = r383 * r386, r754 = right_c8 * r315 - right_s8 * r317, r755 = r384 * r754;
-    const double r756 = r385 * r754, r757 = r383 * r387, r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707);
-    const double r768 = r329 * r383 - r333 * r384, r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716);
-    const double r781 = r333 * r385 - r325 * r383, r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713);
-    const double r796 = r384 * r387 - r385 * r386, r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386);
-    const double r834 = r329 * r754 - r333 * r386, r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754);
-    const double r840 = r333 * r387 - r325 * r754, r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387);
-    const double r848 = r329 * r387 - r325 * r386, r851 = right_c9 * r329 - right_s9 * r331, r853 = r326 - r328;
+    const double r756 = r385 * r754, r757 = r383 * r387;
+    const double r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707), r768 = r329 * r383 - r333 * r384;
+    const double r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716), r781 = r333 * r385 - r325 * r383;
+    const double r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713), r796 = r384 * r387 - r385 * r386;
+    const double r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386), r834 = r329 * r754 - r333 * r386;
+    const double r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754), r840 = r333 * r387 - r325 * r754;
+    const double r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387), r848 = r329 * r387 - r325 * r386;
+    const double r851 = right_c9 * r329 - right_s9 * r331, r853 = r326 - r328;
     const double r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851), r889 = r333 * r851 - r329 * r397;
     const double r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397), r896 = r325 * r397 - r333 * r853;
     const double r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853), r903 = r325 * r851 - r329 * r853;
@@ -1256,7 +1270,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -1275,6 +1290,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -1302,11 +1320,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -1338,7 +1364,7 @@ typedef struct {
     Solution *out;
     double relative[NAO_LEGS_YAW_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[14][3];
@@ -1445,7 +1471,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1739,6 +1769,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1764,6 +1795,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1888,13 +1922,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 13, at[26], at[27]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1930,7 +1962,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -2376,7 +2408,8 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
 /* Block 9: HipPitch. */
 INLINE static void block_9(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r0 = known->left_c8 * known->left_s9, r5 = 0.1029 * (known->left_c8 * known->left_c9) + 0.04519;
+    const double r0 = known->left_c8 * known->left_s9;
+    const double r5 = 0.1029 * (known->left_c8 * known->left_c9) + 0.04519;
     const double r14 = p->left_px - 0.1029 * (p->left_r11 * known->left_s8);
     const double r17 = p->left_r13 * r5 + (r14 + 0.1029 * (p->left_r12 * r0));
     const double r20 = p->left_py - 0.1029 * (p->left_r21 * known->left_s8);
@@ -2645,16 +2678,19 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const size_t before = answers->candidates;
     const double r14 = p->left_r12 * known->left_c1 + p->left_r22 * known->left_s1;
     const double r16 = p->left_r13 * known->left_c1 + p->left_r23 * known->left_s1;
-    const double r24 = p->left_r22 * known->left_c1 - p->left_r12 * known->left_s1, r25 = known->left_c3_ * r24;
-    const double r26 = p->left_r23 * known->left_c1 - p->left_r13 * known->left_s1, r27 = known->left_c3_ * r26;
-    const double r28 = p->left_r32 * known->left_c2_ + known->left_s2_ * r14, r29 = known->left_s3_ * r28;
-    const double r30 = p->left_r33 * known->left_c2_ + known->left_s2_ * r16, r31 = known->left_s3_ * r30;
-    const double r32 = known->left_c3_ * r28, r33 = known->left_c3_ * r30, r34 = known->left_s3_ * r24;
-    const double r35 = known->left_s3_ * r26, r36 = known->left_c2_ * r14 - p->left_r32 * known->left_s2_;
+    const double r24 = p->left_r22 * known->left_c1 - p->left_r12 * known->left_s1;
+    const double r25 = known->left_c3_ * r24;
+    const double r26 = p->left_r23 * known->left_c1 - p->left_r13 * known->left_s1;
+    const double r27 = known->left_c3_ * r26, r28 = p->left_r32 * known->left_c2_ + known->left_s2_ * r14;
+    const double r29 = known->left_s3_ * r28, r30 = p->left_r33 * known->left_c2_ + known->left_s2_ * r16;
+    const double r31 = known->left_s3_ * r30, r32 = known->left_c3_ * r28, r33 = known->left_c3_ * r30;
+    const double r34 = known->left_s3_ * r24, r35 = known->left_s3_ * r26;
+    const double r36 = known->left_c2_ * r14 - p->left_r32 * known->left_s2_;
     const double r38 = known->left_c2_ * r16 - p->left_r33 * known->left_s2_;
     const double r54 = 0.05 * r25 + 0.05 * r29 - 0.085 * r32 + 0.085 * r34;
     const double r56 = r54 - p->left_px * p->left_r12 - p->left_py * p->left_r22;
-    const double r57 = p->left_pz * p->left_r32 - r56, r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
+    const double r57 = p->left_pz * p->left_r32 - r56;
+    const double r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
     const double r66 = r64 - p->left_px * p->left_r13 - p->left_py * p->left_r23;
     const double r68 = r66 - p->left_pz * p->left_r33 - 0.04519;
     const double r69 = 0.7071067811865475 * (known->left_s4 * (r29 + (r25 + (r32 - r34))));
@@ -3091,7 +3127,8 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r342 = 0.4 * shared->r207, r348 = 0.82 * shared->r192;
         const double r349 = 0.368 * shared->r175 - 0.552 * shared->r184 - r348, r350 = 0.24 * shared->r200;
         const double r352 = 0.3 * shared->r207, r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
-        const double r356 = 0.18 * shared->r192, r361 = left_w1 * (r350 + (r356 - 0.192 * shared->r184) - r352);
+        const double r356 = 0.18 * shared->r192;
+        const double r361 = left_w1 * (r350 + (r356 - 0.192 * shared->r184) - r352);
         const double r364 = 0.68 * shared->r200, r367 = r361 + (r342 + (r338 + 0.832 * shared->r184 - r364));
         const double r370 = left_w1 * (shared->r175 * r354 + shared->r184 * r367);
         const double r374 = 0.464 * shared->r184 - 1.176 * shared->r175 - r338;
@@ -3149,12 +3186,13 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 {
     const size_t before = answers->candidates;
     const double r9 = p->left_r31 * known->left_c2_, r10 = p->left_r11 * known->left_s2_;
-    const double r11 = p->left_r21 * known->left_s2_, r12 = p->left_py * p->left_r31 - p->left_pz * p->left_r21;
-    const double r14 = r12 + 0.04519 * p->left_r12, r16 = p->left_pz * p->left_r11 - p->left_px * p->left_r31;
-    const double r18 = r16 + 0.04519 * p->left_r22, r20 = p->left_px * p->left_r21 - p->left_py * p->left_r11;
-    const double r22 = r20 + 0.04519 * p->left_r32, r24 = known->left_c2_ * r22, r25 = known->left_s2_ * r14;
-    const double r26 = known->left_s2_ * r18, r56 = p->right_r31 * known->left_c2_;
-    const double r57 = p->right_r11 * known->left_s2_, r58 = p->right_r21 * known->left_s2_;
+    const double r11 = p->left_r21 * known->left_s2_;
+    const double r12 = p->left_py * p->left_r31 - p->left_pz * p->left_r21, r14 = r12 + 0.04519 * p->left_r12;
+    const double r16 = p->left_pz * p->left_r11 - p->left_px * p->left_r31, r18 = r16 + 0.04519 * p->left_r22;
+    const double r20 = p->left_px * p->left_r21 - p->left_py * p->left_r11, r22 = r20 + 0.04519 * p->left_r32;
+    const double r24 = known->left_c2_ * r22, r25 = known->left_s2_ * r14, r26 = known->left_s2_ * r18;
+    const double r56 = p->right_r31 * known->left_c2_, r57 = p->right_r11 * known->left_s2_;
+    const double r58 = p->right_r21 * known->left_s2_;
     const double r59 = p->right_py * p->right_r31 - p->right_pz * p->right_r21;
     const double r61 = r59 + 0.04519 * p->right_r12;
     const double r63 = p->right_pz * p->right_r11 - p->right_px * p->right_r31;

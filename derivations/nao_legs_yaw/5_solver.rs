@@ -324,6 +324,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -349,6 +351,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -368,7 +372,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -427,33 +431,14 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let left_px = target[0];
-    let left_py = target[1];
-    let left_pz = target[2];
-    let left_r11 = target[3];
-    let left_r12 = target[4];
-    let left_r13 = target[5];
-    let left_r21 = target[6];
-    let left_r22 = target[7];
-    let left_r23 = target[8];
-    let left_r31 = target[9];
-    let left_r32 = target[10];
-    let left_r33 = target[11];
-    let left_c2 = target[12].cos();
-    let left_s2 = target[12].sin();
-    let left_c3 = target[13].cos();
-    let left_s3 = target[13].sin();
-    let right_px = target[14];
-    let right_py = target[15];
-    let right_pz = target[16];
-    let right_r11 = target[17];
-    let right_r12 = target[18];
-    let right_r13 = target[19];
-    let right_r21 = target[20];
-    let right_r22 = target[21];
-    let right_r23 = target[22];
-    let right_r31 = target[23];
-    let right_r32 = target[24];
+    let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
+    let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
+    let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10]; let left_r33 = target[11];
+    let left_c2 = target[12].cos(); let left_s2 = target[12].sin(); let left_c3 = target[13].cos();
+    let left_s3 = target[13].sin(); let right_px = target[14]; let right_py = target[15];
+    let right_pz = target[16]; let right_r11 = target[17]; let right_r12 = target[18];
+    let right_r13 = target[19]; let right_r21 = target[20]; let right_r22 = target[21];
+    let right_r23 = target[22]; let right_r31 = target[23]; let right_r32 = target[24];
     let right_r33 = target[25];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(left_px)), f64::abs(left_py)), f64::abs(left_pz)), f64::abs(left_r11)), f64::abs(left_r12)), f64::abs(left_r13)), f64::abs(left_r21)), f64::abs(left_r22)), f64::abs(left_r23)), f64::abs(left_r31)), f64::abs(left_r32)), f64::abs(left_r33)), f64::abs(left_c2)), f64::abs(left_s2)), f64::abs(left_c3)), f64::abs(left_s3)), f64::abs(right_px)), f64::abs(right_py)), f64::abs(right_pz)), f64::abs(right_r11)), f64::abs(right_r12)), f64::abs(right_r13)), f64::abs(right_r21)), f64::abs(right_r22)), f64::abs(right_r23)), f64::abs(right_r31)), f64::abs(right_r32)), f64::abs(right_r33));
     Parameters { left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude }
@@ -506,8 +491,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Chart 1 of block 1: given.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let left_c2_ = p.left_c2;
-    let left_s2_ = p.left_s2;
+    let left_c2_ = p.left_c2; let left_s2_ = p.left_s2;
     let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -521,8 +505,7 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// Chart 1 of block 2: given.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let left_c3_ = p.left_c3;
-    let left_s3_ = p.left_s3;
+    let left_c3_ = p.left_c3; let left_s3_ = p.left_s3;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, ..*known };
     block_3(p, &next, answers);
 }
@@ -530,91 +513,55 @@ fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// Block 3: TorsoYaw.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r9 = p.left_r31 * known.left_c2_;
-    let r10 = p.left_r11 * known.left_s2_;
-    let r11 = p.left_r21 * known.left_s2_;
-    let r12 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r14 = r12 + 0.04519 * p.left_r12;
-    let r16 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r18 = r16 + 0.04519 * p.left_r22;
-    let r20 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
-    let r22 = r20 + 0.04519 * p.left_r32;
-    let r24 = known.left_c2_ * r22;
-    let r25 = known.left_s2_ * r14;
-    let r26 = known.left_s2_ * r18;
-    let r56 = p.right_r31 * known.left_c2_;
-    let r57 = p.right_r11 * known.left_s2_;
-    let r58 = p.right_r21 * known.left_s2_;
-    let r59 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r61 = r59 + 0.04519 * p.right_r12;
-    let r63 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r65 = r63 + 0.04519 * p.right_r22;
-    let r67 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r69 = r67 + 0.04519 * p.right_r32;
-    let r71 = known.left_c2_ * r69;
-    let r72 = known.left_s2_ * r61;
+    let before = answers.candidates; let r9 = p.left_r31 * known.left_c2_;
+    let r10 = p.left_r11 * known.left_s2_; let r11 = p.left_r21 * known.left_s2_;
+    let r12 = p.left_py * p.left_r31 - p.left_pz * p.left_r21; let r14 = r12 + 0.04519 * p.left_r12;
+    let r16 = p.left_pz * p.left_r11 - p.left_px * p.left_r31; let r18 = r16 + 0.04519 * p.left_r22;
+    let r20 = p.left_px * p.left_r21 - p.left_py * p.left_r11; let r22 = r20 + 0.04519 * p.left_r32;
+    let r24 = known.left_c2_ * r22; let r25 = known.left_s2_ * r14; let r26 = known.left_s2_ * r18;
+    let r56 = p.right_r31 * known.left_c2_; let r57 = p.right_r11 * known.left_s2_;
+    let r58 = p.right_r21 * known.left_s2_; let r59 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
+    let r61 = r59 + 0.04519 * p.right_r12; let r63 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
+    let r65 = r63 + 0.04519 * p.right_r22; let r67 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
+    let r69 = r67 + 0.04519 * p.right_r32; let r71 = known.left_c2_ * r69; let r72 = known.left_s2_ * r61;
     let r73 = known.left_s2_ * r65;
     let r96 = 0.085 * (p.left_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r10);
     let r100 = r96 + 0.05 * (known.left_c3_ * r10) - 0.05 * (p.left_r21 * known.left_s3_);
     let r102 = known.left_c2_ * r14 - r100;
     let r104 = known.left_c3_ * r25 + 0.135 * (p.left_r11 * known.left_c2_);
-    let r106 = known.left_c3_ * r18 + (r104 - known.left_s3_ * r18);
-    let r107 = known.left_s3_ * r25 + r106;
+    let r106 = known.left_c3_ * r18 + (r104 - known.left_s3_ * r18); let r107 = known.left_s3_ * r25 + r106;
     let r111 = 0.085 * (known.left_s3_ * r9) + 0.05 * (known.left_c3_ * r9);
     let r112 = known.left_s2_ * r22 + r111;
     let r116 = 0.085 * (p.left_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r11);
     let r120 = r116 - 0.05 * (known.left_c3_ * r11) - 0.05 * (p.left_r11 * known.left_s3_);
     let r121 = known.left_c2_ * r18 + r120;
     let r123 = known.left_c3_ * r26 + 0.135 * (p.left_r21 * known.left_c2_);
-    let r125 = known.left_s3_ * r14 + r123 - known.left_c3_ * r14;
-    let r126 = known.left_s3_ * r26 + r125;
+    let r125 = known.left_s3_ * r14 + r123 - known.left_c3_ * r14; let r126 = known.left_s3_ * r26 + r125;
     let r129 = 0.135 * (p.left_r31 * known.left_s2_) - known.left_c3_ * r24;
     let r130 = r129 - known.left_s3_ * r24;
     let r133 = 0.085 * (p.right_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r57);
     let r137 = r133 - 0.05 * (known.left_c3_ * r57) + 0.05 * (p.right_r21 * known.left_s3_);
     let r139 = known.left_c2_ * r61 - r137;
     let r141 = 0.135 * (p.right_r11 * known.left_c2_) - known.left_c3_ * r72;
-    let r143 = known.left_c3_ * r65 + (known.left_s3_ * r65 + r141);
-    let r144 = known.left_s3_ * r72 + r143;
+    let r143 = known.left_c3_ * r65 + (known.left_s3_ * r65 + r141); let r144 = known.left_s3_ * r72 + r143;
     let r147 = 0.085 * (known.left_s3_ * r56) - 0.05 * (known.left_c3_ * r56);
     let r148 = known.left_s2_ * r69 + r147;
     let r152 = 0.085 * (p.right_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r58);
     let r156 = r152 + 0.05 * (known.left_c3_ * r58) + 0.05 * (p.right_r11 * known.left_s3_);
     let r157 = known.left_c2_ * r65 + r156;
     let r159 = 0.135 * (p.right_r21 * known.left_c2_) - known.left_c3_ * r73;
-    let r161 = r159 - known.left_s3_ * r61 - known.left_c3_ * r61;
-    let r162 = known.left_s3_ * r73 + r161;
+    let r161 = r159 - known.left_s3_ * r61 - known.left_c3_ * r61; let r162 = known.left_s3_ * r73 + r161;
     let r164 = known.left_c3_ * r71 + 0.135 * (p.right_r31 * known.left_s2_);
-    let r166 = known.left_s3_ * r71 - r164;
-    let r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162;
-    let r176 = r107 * r139;
-    let r178 = r102 * r144;
-    let r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
-    let r190 = 0.0 - r112 * r144 - r130 * r139 - r107 * r148;
-    let r192 = r190 + r102 * r166;
-    let r198 = 0.0 - r112 * r162 - r126 * r148 - r130 * r157;
-    let r200 = r198 + r121 * r166;
-    let r207 = r176 + r178 + r130 * r148 - r112 * r166;
-    let r209 = 18.0 * p.magnitude + 10.53891;
-    let r211 = 24.0 * p.magnitude + 12.29688;
-    let r212 = 6.0 * p.magnitude;
-    let r213 = r212 + 2.83797;
-    let r214 = r212 + 4.86297;
-    let r216 = 16.0 * p.magnitude + 6.98292;
-    let r218 = 4.0 * p.magnitude + 2.65698;
-    let r219 = f64::abs(r102);
-    let r220 = f64::abs(r107);
-    let r221 = f64::abs(r112);
-    let r222 = f64::abs(r121);
-    let r223 = f64::abs(r126);
-    let r224 = f64::abs(r130);
-    let r225 = f64::abs(r139);
-    let r226 = f64::abs(r144);
-    let r227 = f64::abs(r148);
-    let r228 = f64::abs(r157);
-    let r229 = f64::abs(r162);
-    let r230 = f64::abs(r166);
+    let r166 = known.left_s3_ * r71 - r164; let r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162;
+    let r176 = r107 * r139; let r178 = r102 * r144; let r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
+    let r190 = 0.0 - r112 * r144 - r130 * r139 - r107 * r148; let r192 = r190 + r102 * r166;
+    let r198 = 0.0 - r112 * r162 - r126 * r148 - r130 * r157; let r200 = r198 + r121 * r166;
+    let r207 = r176 + r178 + r130 * r148 - r112 * r166; let r209 = 18.0 * p.magnitude + 10.53891;
+    let r211 = 24.0 * p.magnitude + 12.29688; let r212 = 6.0 * p.magnitude; let r213 = r212 + 2.83797;
+    let r214 = r212 + 4.86297; let r216 = 16.0 * p.magnitude + 6.98292; let r218 = 4.0 * p.magnitude + 2.65698;
+    let r219 = f64::abs(r102); let r220 = f64::abs(r107); let r221 = f64::abs(r112); let r222 = f64::abs(r121);
+    let r223 = f64::abs(r126); let r224 = f64::abs(r130); let r225 = f64::abs(r139); let r226 = f64::abs(r144);
+    let r227 = f64::abs(r148); let r228 = f64::abs(r157); let r229 = f64::abs(r162); let r230 = f64::abs(r166);
     let r237 = r216 * r225 + r209 * r223 + r214 * r226 + r211 * r222;
     let r243 = r237 + r211 * r228 + r214 * r220 + r209 * r229;
     let r252 = r211 * r225 + r209 * r220 + r209 * r226 + r211 * r219;
@@ -623,12 +570,9 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r273 = r267 + r211 * r227 + r213 * r220 + r209 * r230;
     let r282 = r216 * r227 + r213 * r223 + r218 * r228 + r214 * r224;
     let r288 = r282 + r213 * r229 + r216 * r221 + r214 * r230;
-    let r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230;
-    let r299 = f64::abs(r243 + r216 * r219);
-    let r300 = f64::abs(r258 + r216 * r222);
-    let r301 = f64::abs(r273 + r218 * r219);
-    let r302 = f64::abs(r288 + r218 * r222);
-    let r303 = f64::abs(r296 + r218 * r221);
+    let r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230; let r299 = f64::abs(r243 + r216 * r219);
+    let r300 = f64::abs(r258 + r216 * r222); let r301 = f64::abs(r273 + r218 * r219);
+    let r302 = f64::abs(r288 + r218 * r222); let r303 = f64::abs(r296 + r218 * r221);
     let shared = &Shared3 { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
     match greatest(&[claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared)]) {
         0 => chart_3_1(p, known, shared, answers),
@@ -648,9 +592,7 @@ struct Shared3 { r175: f64, r184: f64, r192: f64, r200: f64, r207: f64, r299: f6
 /// Chart 1 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r175;
-    let r308 = 2.0 * shared.r200;
-    let r315 = shared.r192 - shared.r207;
+    let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r200; let r315 = shared.r192 - shared.r207;
     let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
         return;
@@ -660,19 +602,15 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         r306 - r308, r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r321 = 0.5 * shared.r192;
-        let r322 = 0.5 * shared.r207;
+        let r321 = 0.5 * shared.r192; let r322 = 0.5 * shared.r207;
         let r326 = left_w1 * (r321 - r322) + (shared.r175 - shared.r200);
         let r331 = left_w1 * r326 - (r322 + (r321 + 2.0 * shared.r184));
         let r336 = left_w1 * (r322 - r321) + (shared.r200 - shared.r175);
         let r339 = left_w1 * (shared.r184 * r331 + shared.r175 * r336);
         let r345 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
-        let r347 = (r339 + shared.r175 * (r321 + r322)) / r345;
-        let r352 = 1.0 - (0.0 - left_w1 * r347);
-        let r356 = f64::max(r352 * r352 + r347 * r347, 0.0).sqrt();
-        let r357 = 1.0 / r356;
-        let left_c1 = r352 * r357;
-        let left_s1 = 0.0 - r347 * r357;
+        let r347 = (r339 + shared.r175 * (r321 + r322)) / r345; let r352 = 1.0 - (0.0 - left_w1 * r347);
+        let r356 = f64::max(r352 * r352 + r347 * r347, 0.0).sqrt(); let r357 = 1.0 / r356;
+        let left_c1 = r352 * r357; let left_s1 = 0.0 - r347 * r357;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -680,16 +618,14 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 1 of block 3; -1 where it does not run.
 fn claim_3_1(shared: &Shared3) -> f64 {
-    let r315 = shared.r192 - shared.r207;
-    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    let r315 = shared.r192 - shared.r207; let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
 }
 
 /// Chart 2 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r175;
-    let r308 = 2.0 * shared.r192;
+    let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r192;
     let r315 = shared.r207 + (shared.r184 - shared.r200);
     let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
@@ -700,21 +636,14 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         2.0 * shared.r207 - 2.0 * shared.r184, r306 - r308, r315,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r321 = 0.5 * shared.r184;
-        let r322 = 0.5 * shared.r200;
-        let r324 = 0.5 * shared.r207;
-        let r325 = r321 - r322 + r324;
-        let r329 = shared.r175 * (left_w1 * r325 + (shared.r175 - shared.r192));
-        let r334 = r324 + (r322 - r321);
-        let r337 = shared.r175 * r334 - shared.r184 * shared.r192;
+        let r321 = 0.5 * shared.r184; let r322 = 0.5 * shared.r200; let r324 = 0.5 * shared.r207;
+        let r325 = r321 - r322 + r324; let r329 = shared.r175 * (left_w1 * r325 + (shared.r175 - shared.r192));
+        let r334 = r324 + (r322 - r321); let r337 = shared.r175 * r334 - shared.r184 * shared.r192;
         let r339 = left_w1 * (left_w1 * (r329 + shared.r184 * r325) + r337);
         let r341 = shared.r175 * shared.r175;
         let r347 = (r339 + (shared.r184 * r334 - r341)) / (r341 + shared.r184 * shared.r184);
-        let r350 = left_w1 * (1.0 - r347);
-        let r355 = f64::max(r350 * r350 + r347 * r347, 0.0).sqrt();
-        let r356 = 1.0 / r355;
-        let left_c1 = 0.0 - r350 * r356;
-        let left_s1 = 0.0 - r347 * r356;
+        let r350 = left_w1 * (1.0 - r347); let r355 = f64::max(r350 * r350 + r347 * r347, 0.0).sqrt();
+        let r356 = 1.0 / r355; let left_c1 = 0.0 - r350 * r356; let left_s1 = 0.0 - r347 * r356;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -730,9 +659,7 @@ fn claim_3_2(shared: &Shared3) -> f64 {
 /// Chart 3 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r305 = 2.0 * shared.r175;
-    let r306 = 2.0 * shared.r200;
-    let r313 = shared.r192 + shared.r207;
+    let r305 = 2.0 * shared.r175; let r306 = 2.0 * shared.r200; let r313 = shared.r192 + shared.r207;
     let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r313, 1000000000000.0 * (shared.r303 + r316)) {
         return;
@@ -742,19 +669,13 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         r313,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r319 = 0.5 * shared.r192;
-        let r320 = 0.5 * shared.r207;
-        let r323 = shared.r175 + shared.r200;
+        let r319 = 0.5 * shared.r192; let r320 = 0.5 * shared.r207; let r323 = shared.r175 + shared.r200;
         let r329 = left_w1 * (left_w1 * (r319 + r320) - r323) + (r320 + (2.0 * shared.r184 - r319));
         let r335 = shared.r175 * (r323 + left_w1 * (0.0 - r319 - r320));
         let r340 = left_w1 * (shared.r184 * r329 + r335) + shared.r175 * (r319 - r320);
-        let r343 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
-        let r345 = r340 / r343;
-        let r350 = left_w1 * r345 - 1.0;
-        let r354 = f64::max(r350 * r350 + r345 * r345, 0.0).sqrt();
-        let r355 = 1.0 / r354;
-        let left_c1 = r350 * r355;
-        let left_s1 = 0.0 - r345 * r355;
+        let r343 = shared.r175 * shared.r175 + shared.r184 * shared.r184; let r345 = r340 / r343;
+        let r350 = left_w1 * r345 - 1.0; let r354 = f64::max(r350 * r350 + r345 * r345, 0.0).sqrt();
+        let r355 = 1.0 / r354; let left_c1 = r350 * r355; let left_s1 = 0.0 - r345 * r355;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -762,16 +683,14 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 
 /// The pivot of chart 3 of block 3; -1 where it does not run.
 fn claim_3_3(shared: &Shared3) -> f64 {
-    let r313 = shared.r192 + shared.r207;
-    let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
+    let r313 = shared.r192 + shared.r207; let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r313, 1000000000000.0 * (shared.r303 + r316)) { f64::abs(r313) } else { -1.0 }
 }
 
 /// Chart 4 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r192;
-    let r307 = 2.0 * shared.r175;
+    let r306 = 2.0 * shared.r192; let r307 = 2.0 * shared.r175;
     let r314 = shared.r207 + (shared.r184 + shared.r200);
     let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r314, 1000000000000.0 * (shared.r303 + r317)) {
@@ -782,22 +701,14 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         r306 + r307, r314,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r320 = 0.5 * shared.r184;
-        let r322 = 0.5 * shared.r200;
-        let r324 = 0.5 * shared.r207;
-        let r328 = left_w1 * (0.0 - r320 - r322 - r324) - (shared.r175 + shared.r192);
-        let r330 = r320 + r322;
-        let r333 = shared.r175 * r328 - shared.r184 * (r324 + r330);
-        let r335 = r330 - r324;
-        let r338 = shared.r175 * r335 - shared.r184 * shared.r192;
-        let r342 = shared.r175 * shared.r175;
+        let r320 = 0.5 * shared.r184; let r322 = 0.5 * shared.r200; let r324 = 0.5 * shared.r207;
+        let r328 = left_w1 * (0.0 - r320 - r322 - r324) - (shared.r175 + shared.r192); let r330 = r320 + r322;
+        let r333 = shared.r175 * r328 - shared.r184 * (r324 + r330); let r335 = r330 - r324;
+        let r338 = shared.r175 * r335 - shared.r184 * shared.r192; let r342 = shared.r175 * shared.r175;
         let r344 = left_w1 * (left_w1 * r333 + r338) + (shared.r184 * r335 + r342);
-        let r348 = r344 / (r342 + shared.r184 * shared.r184);
-        let r351 = left_w1 * (0.0 - r348 - 1.0);
-        let r356 = f64::max(r351 * r351 + r348 * r348, 0.0).sqrt();
-        let r357 = 1.0 / r356;
-        let left_c1 = 0.0 - r351 * r357;
-        let left_s1 = 0.0 - r348 * r357;
+        let r348 = r344 / (r342 + shared.r184 * shared.r184); let r351 = left_w1 * (0.0 - r348 - 1.0);
+        let r356 = f64::max(r351 * r351 + r348 * r348, 0.0).sqrt(); let r357 = 1.0 / r356;
+        let left_c1 = 0.0 - r351 * r357; let left_s1 = 0.0 - r348 * r357;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -813,16 +724,11 @@ fn claim_3_4(shared: &Shared3) -> f64 {
 /// Chart 5 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r305 = shared.r175 + 1.3333333333333333 * shared.r184;
-    let r306 = 1.25 * shared.r192;
-    let r308 = 1.6666666666666667 * shared.r200;
-    let r310 = 2.0833333333333335 * shared.r207;
-    let r312 = 4.0 * shared.r184;
-    let r313 = 1.1666666666666667 * shared.r175;
-    let r315 = 3.3333333333333335 * shared.r192;
-    let r317 = 2.5 * shared.r200;
-    let r321 = 0.3333333333333333 * shared.r184 - 6.0 * shared.r175;
-    let r329 = r310 + (r305 - r306 - r308);
+    let r305 = shared.r175 + 1.3333333333333333 * shared.r184; let r306 = 1.25 * shared.r192;
+    let r308 = 1.6666666666666667 * shared.r200; let r310 = 2.0833333333333335 * shared.r207;
+    let r312 = 4.0 * shared.r184; let r313 = 1.1666666666666667 * shared.r175;
+    let r315 = 3.3333333333333335 * shared.r192; let r317 = 2.5 * shared.r200;
+    let r321 = 0.3333333333333333 * shared.r184 - 6.0 * shared.r175; let r329 = r310 + (r305 - r306 - r308);
     let r332 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r329, 1000000000000.0 * (shared.r303 + r332)) {
         return;
@@ -832,19 +738,12 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         r317 + (r313 - r312 - r315), r329,
     ], 1.0);
     for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r338 = 0.24 * shared.r192;
-        let r339 = 0.192 * shared.r175 + 0.112 * shared.r184 - r338;
-        let r340 = 0.32 * shared.r200;
-        let r342 = 0.4 * shared.r207;
-        let r348 = 0.82 * shared.r192;
-        let r349 = 0.368 * shared.r175 - 0.552 * shared.r184 - r348;
-        let r350 = 0.24 * shared.r200;
-        let r352 = 0.3 * shared.r207;
-        let r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
-        let r356 = 0.18 * shared.r192;
-        let r361 = left_w1 * (r350 + (r356 - 0.192 * shared.r184) - r352);
-        let r364 = 0.68 * shared.r200;
-        let r367 = r361 + (r342 + (r338 + 0.832 * shared.r184 - r364));
+        let r338 = 0.24 * shared.r192; let r339 = 0.192 * shared.r175 + 0.112 * shared.r184 - r338;
+        let r340 = 0.32 * shared.r200; let r342 = 0.4 * shared.r207; let r348 = 0.82 * shared.r192;
+        let r349 = 0.368 * shared.r175 - 0.552 * shared.r184 - r348; let r350 = 0.24 * shared.r200;
+        let r352 = 0.3 * shared.r207; let r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
+        let r356 = 0.18 * shared.r192; let r361 = left_w1 * (r350 + (r356 - 0.192 * shared.r184) - r352);
+        let r364 = 0.68 * shared.r200; let r367 = r361 + (r342 + (r338 + 0.832 * shared.r184 - r364));
         let r370 = left_w1 * (shared.r175 * r354 + shared.r184 * r367);
         let r374 = 0.464 * shared.r184 - 1.176 * shared.r175 - r338;
         let r382 = shared.r184 * (r350 - 0.624 * shared.r184 - r348 - r352);
@@ -852,13 +751,9 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
         let r389 = r356 + (0.384 * shared.r184 - 0.656 * shared.r175);
         let r397 = shared.r184 * (r342 + (r340 + (r338 - 0.544 * shared.r184)));
         let r399 = left_w1 * r384 + (shared.r175 * (r352 + (r350 + r389)) + r397);
-        let r402 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
-        let r404 = r399 / r402;
-        let r409 = 0.6 - left_w1 * (0.8 - r404);
-        let r413 = f64::max(r409 * r409 + r404 * r404, 0.0).sqrt();
-        let r414 = 1.0 / r413;
-        let left_c1 = r409 * r414;
-        let left_s1 = 0.0 - r404 * r414;
+        let r402 = shared.r175 * shared.r175 + shared.r184 * shared.r184; let r404 = r399 / r402;
+        let r409 = 0.6 - left_w1 * (0.8 - r404); let r413 = f64::max(r409 * r409 + r404 * r404, 0.0).sqrt();
+        let r414 = 1.0 / r413; let left_c1 = r409 * r414; let left_s1 = 0.0 - r404 * r414;
         let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
         block_4(p, &next, answers);
     }
@@ -888,31 +783,22 @@ fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 
 /// Block 4: HipYawPitch.
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r10 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r12 = r10 + 0.04519 * p.left_r12;
-    let r14 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r16 = r14 + 0.04519 * p.left_r22;
-    let r20 = p.left_r11 * known.left_c1 + p.left_r21 * known.left_s1;
+    let before = answers.candidates; let r10 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
+    let r12 = r10 + 0.04519 * p.left_r12; let r14 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
+    let r16 = r14 + 0.04519 * p.left_r22; let r20 = p.left_r11 * known.left_c1 + p.left_r21 * known.left_s1;
     let r25 = known.left_c1 * r12 + known.left_s1 * r16;
-    let r27 = p.left_px * p.left_r21 - p.left_py * p.left_r11;
-    let r29 = r27 + 0.04519 * p.left_r32;
+    let r27 = p.left_px * p.left_r21 - p.left_py * p.left_r11; let r29 = r27 + 0.04519 * p.left_r32;
     let r33 = p.left_r21 * known.left_c1 - p.left_r11 * known.left_s1;
     let r35 = p.left_r31 * known.left_c2_ + known.left_s2_ * r20;
-    let r39 = known.left_c1 * r16 - known.left_s1 * r12;
-    let r41 = known.left_c2_ * r29 + known.left_s2_ * r25;
-    let r55 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r57 = r55 + 0.04519 * p.right_r12;
-    let r59 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r61 = r59 + 0.04519 * p.right_r22;
+    let r39 = known.left_c1 * r16 - known.left_s1 * r12; let r41 = known.left_c2_ * r29 + known.left_s2_ * r25;
+    let r55 = p.right_py * p.right_r31 - p.right_pz * p.right_r21; let r57 = r55 + 0.04519 * p.right_r12;
+    let r59 = p.right_pz * p.right_r11 - p.right_px * p.right_r31; let r61 = r59 + 0.04519 * p.right_r22;
     let r65 = p.right_r11 * known.left_c1 + p.right_r21 * known.left_s1;
     let r70 = known.left_c1 * r57 + known.left_s1 * r61;
-    let r72 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r74 = r72 + 0.04519 * p.right_r32;
+    let r72 = p.right_px * p.right_r21 - p.right_py * p.right_r11; let r74 = r72 + 0.04519 * p.right_r32;
     let r78 = p.right_r21 * known.left_c1 - p.right_r11 * known.left_s1;
     let r80 = p.right_r31 * known.left_c2_ + known.left_s2_ * r65;
-    let r84 = known.left_c1 * r61 - known.left_s1 * r57;
-    let r86 = known.left_c2_ * r74 + known.left_s2_ * r70;
+    let r84 = known.left_c1 * r61 - known.left_s1 * r57; let r86 = known.left_c2_ * r74 + known.left_s2_ * r70;
     let r92 = 0.085 * (known.left_c3_ * r33) + 0.085 * (known.left_s3_ * r35);
     let r96 = r92 + 0.05 * (known.left_c3_ * r35) - 0.05 * (known.left_s3_ * r33);
     let r98 = known.left_s2_ * r29 + (r96 - known.left_c2_ * r25);
@@ -932,13 +818,8 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r130 = r128 + 0.7071067811865475 * (known.left_c3_ * r84);
     let r132 = r130 + 0.7071067811865475 * (known.left_s3_ * r86);
     let r136 = 31.112698372208087 * p.magnitude + 15.51164589539743;
-    let r137 = f64::abs(30.0 * p.magnitude + 18.23985);
-    let r138 = f64::abs(r136);
-    let r139 = r98 * r132;
-    let r141 = r110 * r120;
-    let r142 = 0.0 - r139 - r141;
-    let r143 = r137 * r138;
-    let r144 = r143 + r143;
+    let r137 = f64::abs(30.0 * p.magnitude + 18.23985); let r138 = f64::abs(r136); let r139 = r98 * r132;
+    let r141 = r110 * r120; let r142 = 0.0 - r139 - r141; let r143 = r137 * r138; let r144 = r143 + r143;
     let r145 = 0.001 * r144;
     let shared = &Shared4 { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
     chart_4_1(p, known, shared, answers);
@@ -966,8 +847,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     if !is_away(shared.r139 + shared.r141, 16.0 * shared.r144) {
         return;
     }
-    let left_c4 = 0.0;
-    let left_s4 = 0.0;
+    let left_c4 = 0.0; let left_s4 = 0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c4, left_s4, ..*known };
     block_5(p, &next, answers);
 }
@@ -975,17 +855,14 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Chart 2 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r146 = shared.r98 * shared.r98;
-    let r147 = shared.r110 * shared.r110;
-    let r148 = r146 + r147;
+    let r146 = shared.r98 * shared.r98; let r147 = shared.r110 * shared.r110; let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r163 = 1.0 / r148;
-        let left_c4 = left_w4 * shared.r110 * r163;
+        let r163 = 1.0 / r148; let left_c4 = left_w4 * shared.r110 * r163;
         let left_s4 = 0.0 - left_w4 * shared.r98 * r163;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
@@ -1010,17 +887,14 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Chart 4 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r146 = shared.r120 * shared.r120;
-    let r147 = shared.r132 * shared.r132;
-    let r148 = r146 + r147;
+    let r146 = shared.r120 * shared.r120; let r147 = shared.r132 * shared.r132; let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
         return;
     }
     let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r164 = 1.0 / r148;
-        let left_c4 = 0.0 - left_w4 * shared.r132 * r164;
+        let r164 = 1.0 / r148; let left_c4 = 0.0 - left_w4 * shared.r132 * r164;
         let left_s4 = 0.0 - left_w4 * shared.r120 * r164;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
         again_5(p, &next, answers);
@@ -1045,12 +919,10 @@ fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: KneePitch.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.left_px + 0.04519 * p.left_r13;
-    let r4 = p.left_py + 0.04519 * p.left_r23;
+    let r1 = p.left_px + 0.04519 * p.left_r13; let r4 = p.left_py + 0.04519 * p.left_r23;
     let r7 = p.left_pz + 0.04519 * p.left_r33;
     let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
-    let r19 = known.left_c1 * r4 - known.left_s1 * r1;
-    let r21 = known.left_c2_ * r7 + r18;
+    let r19 = known.left_c1 * r4 - known.left_s1 * r1; let r21 = known.left_c2_ * r7 + r18;
     let r27 = 2.0 * (p.left_px * r1) + 2.0 * (p.left_py * r4);
     let r30 = r27 + 2.0 * (p.left_pz * r7) - p.left_px * p.left_px;
     let r32 = r30 - p.left_py * p.left_py - p.left_pz * p.left_pz;
@@ -1077,8 +949,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
-        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41);
-        let left_c7 = r47;
+        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41); let left_c7 = r47;
         let left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, ..*known };
         block_6(p, &next, answers);
@@ -1088,41 +959,26 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: AnkleRoll.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
+    let before = answers.candidates; let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
     let r16 = p.left_r13 * known.left_c1 + p.left_r23 * known.left_s1;
-    let r24 = p.left_r22 * known.left_c1 - p.left_r12 * known.left_s1;
-    let r25 = known.left_c3_ * r24;
-    let r26 = p.left_r23 * known.left_c1 - p.left_r13 * known.left_s1;
-    let r27 = known.left_c3_ * r26;
-    let r28 = p.left_r32 * known.left_c2_ + known.left_s2_ * r14;
-    let r29 = known.left_s3_ * r28;
-    let r30 = p.left_r33 * known.left_c2_ + known.left_s2_ * r16;
-    let r31 = known.left_s3_ * r30;
-    let r32 = known.left_c3_ * r28;
-    let r33 = known.left_c3_ * r30;
-    let r34 = known.left_s3_ * r24;
-    let r35 = known.left_s3_ * r26;
-    let r36 = known.left_c2_ * r14 - p.left_r32 * known.left_s2_;
+    let r24 = p.left_r22 * known.left_c1 - p.left_r12 * known.left_s1; let r25 = known.left_c3_ * r24;
+    let r26 = p.left_r23 * known.left_c1 - p.left_r13 * known.left_s1; let r27 = known.left_c3_ * r26;
+    let r28 = p.left_r32 * known.left_c2_ + known.left_s2_ * r14; let r29 = known.left_s3_ * r28;
+    let r30 = p.left_r33 * known.left_c2_ + known.left_s2_ * r16; let r31 = known.left_s3_ * r30;
+    let r32 = known.left_c3_ * r28; let r33 = known.left_c3_ * r30; let r34 = known.left_s3_ * r24;
+    let r35 = known.left_s3_ * r26; let r36 = known.left_c2_ * r14 - p.left_r32 * known.left_s2_;
     let r38 = known.left_c2_ * r16 - p.left_r33 * known.left_s2_;
     let r54 = 0.05 * r25 + 0.05 * r29 - 0.085 * r32 + 0.085 * r34;
-    let r56 = r54 - p.left_px * p.left_r12 - p.left_py * p.left_r22;
-    let r57 = p.left_pz * p.left_r32 - r56;
+    let r56 = r54 - p.left_px * p.left_r12 - p.left_py * p.left_r22; let r57 = p.left_pz * p.left_r32 - r56;
     let r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
     let r66 = r64 - p.left_px * p.left_r13 - p.left_py * p.left_r23;
     let r68 = r66 - p.left_pz * p.left_r33 - 0.04519;
     let r69 = 0.7071067811865475 * (known.left_s4 * (r29 + (r25 + (r32 - r34))));
     let r70 = r69 - known.left_c4 * r36;
     let r71 = 0.7071067811865475 * (known.left_s4 * (r31 + (r27 + (r33 - r35))));
-    let r72 = known.left_c4 * r38 - r71;
-    let r73 = 3.0 * p.magnitude;
-    let r76 = f64::abs(r73 + 1.585);
-    let r77 = f64::abs(r73 + 2.10599);
-    let r78 = r57 * r72;
-    let r79 = r68 * r70;
-    let r80 = r78 - r79;
-    let r83 = 37.0 * r76 + 37.0 * r77;
-    let r84 = 0.001 * r83;
+    let r72 = known.left_c4 * r38 - r71; let r73 = 3.0 * p.magnitude; let r76 = f64::abs(r73 + 1.585);
+    let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = r78 - r79;
+    let r83 = 37.0 * r76 + 37.0 * r77; let r84 = 0.001 * r83;
     let shared = &Shared6 { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
     chart_6_1(p, known, shared, answers);
     chart_6_2(p, known, shared, before, answers);
@@ -1142,8 +998,7 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     if !is_away(shared.r79 - shared.r78, 16.0 * shared.r83) {
         return;
     }
-    let left_c9 = 0.0;
-    let left_s9 = 0.0;
+    let left_c9 = 0.0; let left_s9 = 0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c9, left_s9, ..*known };
     block_7(p, &next, answers);
 }
@@ -1151,17 +1006,14 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 /// Chart 2 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r85 = shared.r57 * shared.r57;
-    let r86 = shared.r68 * shared.r68;
-    let r87 = r85 + r86;
+    let r85 = shared.r57 * shared.r57; let r86 = shared.r68 * shared.r68; let r87 = r85 + r86;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 16.0 * r90)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 16.0 * r90))) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r97 = 1.0 / r87;
-        let left_c9 = 0.0 - left_w9 * shared.r68 * r97;
+        let r97 = 1.0 / r87; let left_c9 = 0.0 - left_w9 * shared.r68 * r97;
         let left_s9 = left_w9 * shared.r57 * r97;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
@@ -1186,16 +1038,13 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, ans
 /// Chart 4 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r85 = shared.r70 * shared.r70;
-    let r86 = shared.r72 * shared.r72;
-    let r87 = r85 + r86;
+    let r85 = shared.r70 * shared.r70; let r86 = shared.r72 * shared.r72; let r87 = r85 + r86;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 43808.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
     for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r92 = 1.0 / r87;
-        let left_c9 = 0.0 - left_w9 * shared.r72 * r92;
+        let r92 = 1.0 / r87; let left_c9 = 0.0 - left_w9 * shared.r72 * r92;
         let left_s9 = left_w9 * shared.r70 * r92;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
         again_7(p, &next, answers);
@@ -1219,10 +1068,8 @@ fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, before: usize, ans
 /// Block 7: AnklePitch.
 #[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = known.left_c7 * known.left_s9;
-    let r1 = known.left_s7 * known.left_s9;
-    let r2 = known.left_c7 * known.left_c9;
+    let before = answers.candidates; let r0 = known.left_c7 * known.left_s9;
+    let r1 = known.left_s7 * known.left_s9; let r2 = known.left_c7 * known.left_c9;
     let r3 = known.left_s7 * known.left_c9;
     let r23 = p.left_r11 * known.left_s7 - p.left_r12 * r0 - p.left_r13 * r2;
     let r26 = p.left_r13 * r3 + (p.left_r11 * known.left_c7 + p.left_r12 * r1);
@@ -1232,20 +1079,15 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r38 = p.left_r33 * r3 + (p.left_r31 * known.left_c7 + p.left_r32 * r1);
     let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
     let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
-    let r54 = known.left_c1 * r29 - known.left_s1 * r23;
-    let r56 = known.left_c1 * r32 - known.left_s1 * r26;
-    let r58 = known.left_c2_ * r35 + r52;
-    let r60 = known.left_c2_ * r38 + r53;
+    let r54 = known.left_c1 * r29 - known.left_s1 * r23; let r56 = known.left_c1 * r32 - known.left_s1 * r26;
+    let r58 = known.left_c2_ * r35 + r52; let r60 = known.left_c2_ * r38 + r53;
     let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
     let r72 = r68 - 0.085 * (known.left_c3_ * r58) + 0.085 * (known.left_s3_ * r54);
-    let r76 = r72 + 0.04519 * r2 - p.left_px * r23 - p.left_py * r29;
-    let r77 = p.left_pz * r35 - r76;
+    let r76 = r72 + 0.04519 * r2 - p.left_px * r23 - p.left_py * r29; let r77 = p.left_pz * r35 - r76;
     let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
     let r84 = r80 - 0.085 * (known.left_c3_ * r60) + 0.085 * (known.left_s3_ * r56);
-    let r88 = r84 - 0.04519 * r3 - p.left_px * r26 - p.left_py * r32;
-    let r89 = r88 - p.left_pz * r38;
-    let r91 = 0.1029 * known.left_c7 + 0.1;
-    let r92 = 0.1029 * known.left_s7;
+    let r88 = r84 - 0.04519 * r3 - p.left_px * r26 - p.left_py * r32; let r89 = r88 - p.left_pz * r38;
+    let r91 = 0.1029 * known.left_c7 + 0.1; let r92 = 0.1029 * known.left_s7;
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared7 { r77, r89, r91, r92, r95 };
     chart_7_1(p, known, shared, answers);
@@ -1266,17 +1108,14 @@ struct Shared7 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
-    let r99 = shared.r95 * shared.r95;
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
     }
     let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
     let r108 = shared.r89 * shared.r92 - (0.0 - shared.r77 * shared.r91);
-    let r112 = f64::max(r108 * r108 + r104 * r104, 0.0).sqrt();
-    let r113 = 1.0 / r112;
-    let left_c8 = r108 * r113;
-    let left_s8 = r104 * r113;
+    let r112 = f64::max(r108 * r108 + r104 * r104, 0.0).sqrt(); let r113 = 1.0 / r112;
+    let left_c8 = r108 * r113; let left_s8 = r104 * r113;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c8, left_s8, ..*known };
     block_8(p, &next, answers);
 }
@@ -1285,8 +1124,7 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
 fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, before: usize, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
-    let r99 = shared.r95 * shared.r95;
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
     }
@@ -1303,18 +1141,13 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = p.left_r22 * known.left_c9 - p.left_r23 * known.left_s9;
     let r12 = known.left_c1 * r6 + known.left_s1 * r8;
     let r14 = p.left_r32 * known.left_c9 - p.left_r33 * known.left_s9;
-    let r18 = known.left_c1 * r8 - known.left_s1 * r6;
-    let r19 = known.left_c3_ * r18;
-    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12;
-    let r21 = known.left_s3_ * r20;
-    let r22 = known.left_c3_ * r20;
-    let r23 = known.left_s3_ * r18;
+    let r18 = known.left_c1 * r8 - known.left_s1 * r6; let r19 = known.left_c3_ * r18;
+    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12; let r21 = known.left_s3_ * r20;
+    let r22 = known.left_c3_ * r20; let r23 = known.left_s3_ * r18;
     let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
     let r40 = 0.5 * r19 + 0.5 * r21 - 0.5 * r22 + 0.5 * r23;
-    let r41 = 0.5 * (known.left_c4 * (r21 + (r19 + (r22 - r23))));
-    let r43 = 0.7071067811865475 * r32;
-    let r44 = r43 - (r40 - r41);
-    let r45 = 0.5 * (known.left_c4 * (r22 + (r19 + r21) - r23));
+    let r41 = 0.5 * (known.left_c4 * (r21 + (r19 + (r22 - r23)))); let r43 = 0.7071067811865475 * r32;
+    let r44 = r43 - (r40 - r41); let r45 = 0.5 * (known.left_c4 * (r22 + (r19 + r21) - r23));
     let r47 = r43 + (r40 + r45);
     let shared = &Shared8 { r44, r47 };
     chart_8_1(p, known, shared, answers);
@@ -1333,10 +1166,8 @@ struct Shared8 { r44: f64, r47: f64 }
 /// Chart 1 of block 8: generic.
 #[inline(always)]
 fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
-    let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
-    let left_c5 = shared.r47 * r52;
-    let left_s5 = shared.r44 * r52;
+    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
+    let left_c5 = shared.r47 * r52; let left_s5 = shared.r44 * r52;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, ..*known };
     block_9(p, &next, answers);
 }
@@ -1344,8 +1175,7 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
 /// Block 9: HipPitch.
 #[inline(always)]
 fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.left_c8 * known.left_s9;
-    let r5 = 0.1029 * (known.left_c8 * known.left_c9) + 0.04519;
+    let r0 = known.left_c8 * known.left_s9; let r5 = 0.1029 * (known.left_c8 * known.left_c9) + 0.04519;
     let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s8);
     let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
     let r20 = p.left_py - 0.1029 * (p.left_r21 * known.left_s8);
@@ -1353,26 +1183,21 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r27 = known.left_c1 * r17 + known.left_s1 * r23;
     let r30 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s8);
     let r33 = p.left_r33 * r5 + (r30 + 0.1029 * (p.left_r32 * r0));
-    let r37 = known.left_c1 * r23 - known.left_s1 * r17;
-    let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
+    let r37 = known.left_c1 * r23 - known.left_s1 * r17; let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
     let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
     let r46 = known.left_c3_ * r37 + (known.left_c3_ * r39 - known.left_s3_ * r37);
     let r49 = known.left_s4 * (known.left_s3_ * r39 + r46 + 0.035);
-    let r54 = known.left_s7 * known.left_c8 + known.left_c7 * known.left_s8;
-    let r55 = known.left_s9 * r54;
-    let r56 = known.left_c9 * r54;
-    let r57 = known.left_c7 * known.left_c8 - known.left_s7 * known.left_s8;
+    let r54 = known.left_s7 * known.left_c8 + known.left_c7 * known.left_s8; let r55 = known.left_s9 * r54;
+    let r56 = known.left_c9 * r54; let r57 = known.left_c7 * known.left_c8 - known.left_s7 * known.left_s8;
     let r68 = p.left_r13 * r56 + (p.left_r11 * r57 + p.left_r12 * r55);
     let r71 = p.left_r23 * r56 + (p.left_r21 * r57 + p.left_r22 * r55);
     let r75 = known.left_c1 * r68 + known.left_s1 * r71;
     let r78 = p.left_r33 * r56 + (p.left_r31 * r57 + p.left_r32 * r55);
-    let r82 = known.left_c1 * r71 - known.left_s1 * r68;
-    let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
+    let r82 = known.left_c1 * r71 - known.left_s1 * r68; let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
     let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
     let r91 = known.left_c3_ * r82 + (known.left_c3_ * r84 - known.left_s3_ * r82);
     let r95 = r44 - 0.7071067811865475 * r49;
-    let r97 = 0.07071067811865475 * (known.left_s4 * (known.left_s3_ * r84 + r91));
-    let r98 = 0.1 * r89 - r97;
+    let r97 = 0.07071067811865475 * (known.left_s4 * (known.left_s3_ * r84 + r91)); let r98 = 0.1 * r89 - r97;
     let shared = &Shared9 { r95, r98 };
     chart_9_1(p, known, shared, answers);
 }
@@ -1383,11 +1208,8 @@ struct Shared9 { r95: f64, r98: f64 }
 /// Chart 1 of block 9: generic.
 #[inline(always)]
 fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r99 = 0.1 * shared.r95;
-    let r100 = 0.1 * shared.r98;
-    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt();
-    let r105 = 1.0 / r104;
-    let left_c6 = r100 * r105;
+    let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
+    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104; let left_c6 = r100 * r105;
     let left_s6 = 0.0 - r99 * r105;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c6, left_s6, ..*known };
     block_10(p, &next, answers);
@@ -1396,12 +1218,10 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
 /// Block 10: KneePitch.
 #[inline(always)]
 fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.right_px + 0.04519 * p.right_r13;
-    let r4 = p.right_py + 0.04519 * p.right_r23;
+    let r1 = p.right_px + 0.04519 * p.right_r13; let r4 = p.right_py + 0.04519 * p.right_r23;
     let r7 = p.right_pz + 0.04519 * p.right_r33;
     let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
-    let r19 = known.left_c1 * r4 - known.left_s1 * r1;
-    let r21 = known.left_c2_ * r7 + r18;
+    let r19 = known.left_c1 * r4 - known.left_s1 * r1; let r21 = known.left_c2_ * r7 + r18;
     let r27 = 2.0 * (p.right_px * r1) + 2.0 * (p.right_py * r4);
     let r30 = r27 + 2.0 * (p.right_pz * r7) - p.right_px * p.right_px;
     let r32 = r30 - p.right_py * p.right_py - p.right_pz * p.right_pz;
@@ -1421,8 +1241,7 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
-        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41);
-        let right_c7 = r47;
+        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41); let right_c7 = r47;
         let right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, ..*known };
         block_11(p, &next, answers);
@@ -1432,42 +1251,26 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 /// Block 11: AnkleRoll.
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
+    let before = answers.candidates; let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
     let r16 = p.right_r13 * known.left_c1 + p.right_r23 * known.left_s1;
-    let r24 = p.right_r22 * known.left_c1 - p.right_r12 * known.left_s1;
-    let r25 = known.left_c3_ * r24;
-    let r26 = p.right_r23 * known.left_c1 - p.right_r13 * known.left_s1;
-    let r27 = known.left_c3_ * r26;
-    let r28 = p.right_r32 * known.left_c2_ + known.left_s2_ * r14;
-    let r29 = known.left_s3_ * r28;
-    let r30 = p.right_r33 * known.left_c2_ + known.left_s2_ * r16;
-    let r31 = known.left_s3_ * r30;
-    let r32 = known.left_c3_ * r28;
-    let r33 = known.left_c3_ * r30;
-    let r34 = known.left_s3_ * r24;
-    let r35 = known.left_s3_ * r26;
-    let r36 = known.left_c2_ * r14 - p.right_r32 * known.left_s2_;
+    let r24 = p.right_r22 * known.left_c1 - p.right_r12 * known.left_s1; let r25 = known.left_c3_ * r24;
+    let r26 = p.right_r23 * known.left_c1 - p.right_r13 * known.left_s1; let r27 = known.left_c3_ * r26;
+    let r28 = p.right_r32 * known.left_c2_ + known.left_s2_ * r14; let r29 = known.left_s3_ * r28;
+    let r30 = p.right_r33 * known.left_c2_ + known.left_s2_ * r16; let r31 = known.left_s3_ * r30;
+    let r32 = known.left_c3_ * r28; let r33 = known.left_c3_ * r30; let r34 = known.left_s3_ * r24;
+    let r35 = known.left_s3_ * r26; let r36 = known.left_c2_ * r14 - p.right_r32 * known.left_s2_;
     let r38 = known.left_c2_ * r16 - p.right_r33 * known.left_s2_;
     let r54 = 0.05 * r25 + 0.05 * r29 + 0.085 * r32 - 0.085 * r34;
     let r56 = p.right_py * p.right_r22 + (p.right_px * p.right_r12 + r54);
-    let r57 = p.right_pz * p.right_r32 + r56;
-    let r64 = 0.05 * r27 + 0.05 * r31 + 0.085 * r33 - 0.085 * r35;
+    let r57 = p.right_pz * p.right_r32 + r56; let r64 = 0.05 * r27 + 0.05 * r31 + 0.085 * r33 - 0.085 * r35;
     let r66 = p.right_py * p.right_r23 + (p.right_px * p.right_r13 + r64);
     let r68 = p.right_pz * p.right_r33 + r66 + 0.04519;
     let r69 = 0.7071067811865475 * (known.left_s4 * (r32 - r34 - r25 - r29));
     let r70 = r69 - known.left_c4 * r36;
     let r71 = 0.7071067811865475 * (known.left_s4 * (r33 - r35 - r27 - r31));
-    let r72 = known.left_c4 * r38 - r71;
-    let r73 = 3.0 * p.magnitude;
-    let r76 = f64::abs(r73 + 1.585);
-    let r77 = f64::abs(r73 + 2.10599);
-    let r78 = r57 * r72;
-    let r79 = r68 * r70;
-    let r80 = 0.0 - r79;
-    let r81 = r78 + r79;
-    let r84 = 37.0 * r76 + 37.0 * r77;
-    let r85 = 0.001 * r84;
+    let r72 = known.left_c4 * r38 - r71; let r73 = 3.0 * p.magnitude; let r76 = f64::abs(r73 + 1.585);
+    let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = 0.0 - r79;
+    let r81 = r78 + r79; let r84 = 37.0 * r76 + 37.0 * r77; let r85 = 0.001 * r84;
     let shared = &Shared11 { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
     chart_11_1(p, known, shared, answers);
     chart_11_2(p, known, shared, before, answers);
@@ -1487,8 +1290,7 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     if !is_away(shared.r80 - shared.r78, 16.0 * shared.r84) {
         return;
     }
-    let right_c9 = 0.0;
-    let right_s9 = 0.0;
+    let right_c9 = 0.0; let right_s9 = 0.0;
     let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c9, right_s9, ..*known };
     block_12(p, &next, answers);
 }
@@ -1496,17 +1298,14 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
 /// Chart 2 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r86 = shared.r57 * shared.r57;
-    let r87 = shared.r68 * shared.r68;
-    let r88 = r86 + r87;
+    let r86 = shared.r57 * shared.r57; let r87 = shared.r68 * shared.r68; let r88 = r86 + r87;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 16.0 * r91)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 16.0 * r91))) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r98 = 1.0 / r88;
-        let right_c9 = right_w9 * shared.r68 * r98;
+        let r98 = 1.0 / r88; let right_c9 = right_w9 * shared.r68 * r98;
         let right_s9 = right_w9 * shared.r57 * r98;
         let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
@@ -1531,16 +1330,13 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
 /// Chart 4 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
 fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r86 = shared.r70 * shared.r70;
-    let r87 = shared.r72 * shared.r72;
-    let r88 = r86 + r87;
+    let r86 = shared.r70 * shared.r70; let r87 = shared.r72 * shared.r72; let r88 = r86 + r87;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 43808.0))) {
         return;
     }
     let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
     for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r93 = 1.0 / r88;
-        let right_c9 = 0.0 - right_w9 * shared.r72 * r93;
+        let r93 = 1.0 / r88; let right_c9 = 0.0 - right_w9 * shared.r72 * r93;
         let right_s9 = right_w9 * shared.r70 * r93;
         let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
         again_12(p, &next, answers);
@@ -1564,39 +1360,25 @@ fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
 /// Block 12: AnklePitch.
 #[inline(always)]
 fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = known.right_c7 * known.right_s9;
-    let r1 = known.right_s7 * known.right_s9;
-    let r2 = known.right_c7 * known.right_c9;
-    let r3 = known.right_s7 * known.right_c9;
-    let r22 = p.right_r11 * known.right_s7 - p.right_r12 * r0;
-    let r23 = r22 - p.right_r13 * r2;
-    let r25 = p.right_r11 * known.right_c7 + p.right_r12 * r1;
-    let r26 = p.right_r13 * r3 + r25;
-    let r28 = p.right_r21 * known.right_s7 - p.right_r22 * r0;
-    let r29 = r28 - p.right_r23 * r2;
-    let r31 = p.right_r21 * known.right_c7 + p.right_r22 * r1;
-    let r32 = p.right_r23 * r3 + r31;
-    let r34 = p.right_r31 * known.right_s7 - p.right_r32 * r0;
-    let r35 = r34 - p.right_r33 * r2;
-    let r37 = p.right_r31 * known.right_c7 + p.right_r32 * r1;
-    let r38 = p.right_r33 * r3 + r37;
-    let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
+    let before = answers.candidates; let r0 = known.right_c7 * known.right_s9;
+    let r1 = known.right_s7 * known.right_s9; let r2 = known.right_c7 * known.right_c9;
+    let r3 = known.right_s7 * known.right_c9; let r22 = p.right_r11 * known.right_s7 - p.right_r12 * r0;
+    let r23 = r22 - p.right_r13 * r2; let r25 = p.right_r11 * known.right_c7 + p.right_r12 * r1;
+    let r26 = p.right_r13 * r3 + r25; let r28 = p.right_r21 * known.right_s7 - p.right_r22 * r0;
+    let r29 = r28 - p.right_r23 * r2; let r31 = p.right_r21 * known.right_c7 + p.right_r22 * r1;
+    let r32 = p.right_r23 * r3 + r31; let r34 = p.right_r31 * known.right_s7 - p.right_r32 * r0;
+    let r35 = r34 - p.right_r33 * r2; let r37 = p.right_r31 * known.right_c7 + p.right_r32 * r1;
+    let r38 = p.right_r33 * r3 + r37; let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
     let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
-    let r54 = known.left_c1 * r29 - known.left_s1 * r23;
-    let r56 = known.left_c1 * r32 - known.left_s1 * r26;
-    let r58 = known.left_c2_ * r35 + r52;
-    let r60 = known.left_c2_ * r38 + r53;
+    let r54 = known.left_c1 * r29 - known.left_s1 * r23; let r56 = known.left_c1 * r32 - known.left_s1 * r26;
+    let r58 = known.left_c2_ * r35 + r52; let r60 = known.left_c2_ * r38 + r53;
     let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
     let r72 = r68 + 0.085 * (known.left_c3_ * r58) - 0.085 * (known.left_s3_ * r54);
-    let r76 = p.right_py * r29 + (p.right_px * r23 + (r72 - 0.04519 * r2));
-    let r77 = p.right_pz * r35 + r76;
+    let r76 = p.right_py * r29 + (p.right_px * r23 + (r72 - 0.04519 * r2)); let r77 = p.right_pz * r35 + r76;
     let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
     let r84 = r80 + 0.085 * (known.left_c3_ * r60) - 0.085 * (known.left_s3_ * r56);
-    let r88 = p.right_py * r32 + (p.right_px * r26 + (r84 + 0.04519 * r3));
-    let r89 = p.right_pz * r38 + r88;
-    let r91 = 0.1029 * known.right_c7 + 0.1;
-    let r92 = 0.1029 * known.right_s7;
+    let r88 = p.right_py * r32 + (p.right_px * r26 + (r84 + 0.04519 * r3)); let r89 = p.right_pz * r38 + r88;
+    let r91 = 0.1029 * known.right_c7 + 0.1; let r92 = 0.1029 * known.right_s7;
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared12 { r77, r89, r91, r92, r95 };
     chart_12_1(p, known, shared, answers);
@@ -1617,17 +1399,14 @@ struct Shared12 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
-    let r99 = shared.r95 * shared.r95;
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
     }
     let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);
     let r108 = shared.r77 * shared.r91 - shared.r89 * shared.r92;
-    let r112 = f64::max(r108 * r108 + r105 * r105, 0.0).sqrt();
-    let r113 = 1.0 / r112;
-    let right_c8 = r108 * r113;
-    let right_s8 = r105 * r113;
+    let r112 = f64::max(r108 * r108 + r105 * r105, 0.0).sqrt(); let r113 = 1.0 / r112;
+    let right_c8 = r108 * r113; let right_s8 = r105 * r113;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c8, right_s8, ..*known };
     block_13(p, &next, answers);
 }
@@ -1636,8 +1415,7 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
 fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, before: usize, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89;
-    let r99 = shared.r95 * shared.r95;
+    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
     }
@@ -1654,18 +1432,13 @@ fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = p.right_r22 * known.right_c9 - p.right_r23 * known.right_s9;
     let r12 = known.left_c1 * r6 + known.left_s1 * r8;
     let r14 = p.right_r32 * known.right_c9 - p.right_r33 * known.right_s9;
-    let r18 = known.left_c1 * r8 - known.left_s1 * r6;
-    let r19 = known.left_c3_ * r18;
-    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12;
-    let r21 = known.left_s3_ * r20;
-    let r22 = known.left_c3_ * r20;
-    let r23 = known.left_s3_ * r18;
+    let r18 = known.left_c1 * r8 - known.left_s1 * r6; let r19 = known.left_c3_ * r18;
+    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12; let r21 = known.left_s3_ * r20;
+    let r22 = known.left_c3_ * r20; let r23 = known.left_s3_ * r18;
     let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
     let r40 = 0.5 * r19 + 0.5 * r21 + 0.5 * r22 - 0.5 * r23;
-    let r41 = 0.5 * (known.left_c4 * (r22 - r23 - r19 - r21));
-    let r43 = 0.7071067811865475 * r32;
-    let r44 = r40 + r41 + r43;
-    let r45 = 0.5 * (known.left_c4 * (r23 + (r19 + r21 - r22)));
+    let r41 = 0.5 * (known.left_c4 * (r22 - r23 - r19 - r21)); let r43 = 0.7071067811865475 * r32;
+    let r44 = r40 + r41 + r43; let r45 = 0.5 * (known.left_c4 * (r23 + (r19 + r21 - r22)));
     let r47 = r40 + r45 - r43;
     let shared = &Shared13 { r44, r47 };
     chart_13_1(p, known, shared, answers);
@@ -1684,10 +1457,8 @@ struct Shared13 { r44: f64, r47: f64 }
 /// Chart 1 of block 13: generic.
 #[inline(always)]
 fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
-    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44;
-    let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
-    let right_c5 = shared.r47 * r52;
-    let right_s5 = shared.r44 * r52;
+    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
+    let right_c5 = shared.r47 * r52; let right_s5 = shared.r44 * r52;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, ..*known };
     block_14(p, &next, answers);
 }
@@ -1695,8 +1466,7 @@ fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut An
 /// Block 14: HipPitch.
 #[inline(always)]
 fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.right_c8 * known.right_s9;
-    let r5 = 0.1029 * (known.right_c8 * known.right_c9) + 0.04519;
+    let r0 = known.right_c8 * known.right_s9; let r5 = 0.1029 * (known.right_c8 * known.right_c9) + 0.04519;
     let r14 = p.right_px - 0.1029 * (p.right_r11 * known.right_s8);
     let r17 = p.right_r13 * r5 + (r14 + 0.1029 * (p.right_r12 * r0));
     let r20 = p.right_py - 0.1029 * (p.right_r21 * known.right_s8);
@@ -1704,26 +1474,22 @@ fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r27 = known.left_c1 * r17 + known.left_s1 * r23;
     let r30 = p.right_pz - 0.1029 * (p.right_r31 * known.right_s8);
     let r33 = p.right_r33 * r5 + (r30 + 0.1029 * (p.right_r32 * r0));
-    let r37 = known.left_c1 * r23 - known.left_s1 * r17;
-    let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
+    let r37 = known.left_c1 * r23 - known.left_s1 * r17; let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
     let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
     let r46 = known.left_c3_ * r39 - known.left_s3_ * r37 - known.left_c3_ * r37;
     let r49 = known.left_s4 * (r46 - known.left_s3_ * r39 + 0.035);
     let r54 = known.right_s7 * known.right_c8 + known.right_c7 * known.right_s8;
-    let r55 = known.right_s9 * r54;
-    let r56 = known.right_c9 * r54;
+    let r55 = known.right_s9 * r54; let r56 = known.right_c9 * r54;
     let r57 = known.right_c7 * known.right_c8 - known.right_s7 * known.right_s8;
     let r68 = p.right_r13 * r56 + (p.right_r11 * r57 + p.right_r12 * r55);
     let r71 = p.right_r23 * r56 + (p.right_r21 * r57 + p.right_r22 * r55);
     let r75 = known.left_c1 * r68 + known.left_s1 * r71;
     let r78 = p.right_r33 * r56 + (p.right_r31 * r57 + p.right_r32 * r55);
-    let r82 = known.left_c1 * r71 - known.left_s1 * r68;
-    let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
+    let r82 = known.left_c1 * r71 - known.left_s1 * r68; let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
     let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
     let r91 = known.left_c3_ * r84 - known.left_s3_ * r82 - known.left_c3_ * r82;
     let r95 = r44 - 0.7071067811865475 * r49;
-    let r97 = 0.07071067811865475 * (known.left_s4 * (r91 - known.left_s3_ * r84));
-    let r98 = 0.1 * r89 - r97;
+    let r97 = 0.07071067811865475 * (known.left_s4 * (r91 - known.left_s3_ * r84)); let r98 = 0.1 * r89 - r97;
     let shared = &Shared14 { r95, r98 };
     chart_14_1(p, known, shared, answers);
 }
@@ -1734,12 +1500,9 @@ struct Shared14 { r95: f64, r98: f64 }
 /// Chart 1 of block 14: generic.
 #[inline(always)]
 fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
-    let r99 = 0.1 * shared.r95;
-    let r100 = 0.1 * shared.r98;
-    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt();
-    let r105 = 1.0 / r104;
-    let right_c6 = r100 * r105;
-    let right_s6 = 0.0 - r99 * r105;
+    let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
+    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104;
+    let right_c6 = r100 * r105; let right_s6 = 0.0 - r99 * r105;
     let at = [
         known.left_c1, known.left_s1, known.left_c2_, known.left_s2_, known.left_c3_, known.left_s3_,
         known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
@@ -1772,160 +1535,65 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
         left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
         right_c6, right_s6, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9,
     ] = *at;
-    let r4 = left_c1 * left_c2_;
-    let r5 = left_s1 * left_c2_;
-    let r6 = left_c1 * left_s2_;
-    let r7 = left_s1 * left_s2_;
-    let r8 = left_s1 * left_c3_;
-    let r9 = left_s3_ * r6;
-    let r10 = left_c1 * left_c3_;
-    let r11 = left_s3_ * r7;
-    let r12 = left_c2_ * left_s3_;
-    let r13 = left_s1 * left_s3_;
-    let r14 = left_c3_ * r6;
-    let r15 = left_c1 * left_s3_;
-    let r16 = left_c3_ * r7;
-    let r17 = left_c2_ * left_c3_;
-    let r18 = left_c4 * r4;
-    let r19 = r8 - r9;
-    let r21 = r13 + r14;
-    let r23 = left_c4 * r5;
-    let r24 = r10 + r11;
-    let r26 = r15 - r16;
-    let r28 = left_s2_ * left_c4;
-    let r32 = left_c4 + 1.0;
-    let r34 = left_c4 - 1.0;
-    let r48 = 0.7071067811865475 * (left_s4 * r4);
-    let r49 = 0.5 * (r19 * r32);
-    let r51 = 0.5 * (r21 * r34);
-    let r52 = r48 - r49 + r51;
-    let r54 = 0.5 * (r19 * r34);
-    let r56 = 0.5 * (r21 * r32);
-    let r57 = r48 - r54 + r56;
-    let r59 = 0.7071067811865475 * (left_s4 * r5);
-    let r60 = 0.5 * (r24 * r32);
-    let r62 = 0.5 * (r26 * r34);
-    let r63 = r59 + r60 - r62;
-    let r65 = 0.5 * (r24 * r34);
-    let r67 = 0.5 * (r26 * r32);
-    let r68 = r59 + r65 - r67;
-    let r70 = 0.7071067811865475 * (left_s2_ * left_s4);
-    let r71 = 0.5 * (r12 * r32);
-    let r73 = 0.5 * (r17 * r34);
-    let r74 = r70 - r71 - r73;
-    let r76 = 0.5 * (r12 * r34);
-    let r78 = 0.5 * (r17 * r32);
-    let r79 = r70 - r76 - r78;
-    let r87 = 0.7071067811865475 * (left_s4 * r19);
-    let r89 = 0.7071067811865475 * (left_s4 * r21);
-    let r90 = r18 + r87 - r89;
-    let r92 = left_s5 * r52 - left_c5 * r57;
-    let r94 = 0.7071067811865475 * (left_s4 * r24);
-    let r96 = 0.7071067811865475 * (left_s4 * r26);
-    let r97 = r23 - r94 + r96;
-    let r99 = left_s5 * r63 - left_c5 * r68;
-    let r101 = 0.7071067811865475 * (left_s4 * r12);
-    let r103 = 0.7071067811865475 * (left_s4 * r17);
-    let r104 = r28 + r101 + r103;
-    let r106 = left_s5 * r74 - left_c5 * r79;
-    let r108 = left_s6 * r90;
-    let r109 = left_c6 * r92;
-    let r110 = left_s6 * r97;
-    let r111 = left_c6 * r99;
-    let r112 = left_s6 * r104;
-    let r113 = left_c6 * r106;
-    let r114 = left_c6 * r90 + left_s6 * r92;
-    let r116 = r108 - r109;
-    let r118 = left_c6 * r97 + left_s6 * r99;
-    let r120 = r110 - r111;
-    let r122 = left_c6 * r104 + left_s6 * r106;
-    let r124 = r112 - r113;
-    let r126 = left_s7 * r114;
-    let r127 = left_c7 * r116;
-    let r128 = left_s7 * r118;
-    let r129 = left_c7 * r120;
-    let r130 = left_s7 * r122;
-    let r131 = left_c7 * r124;
-    let r132 = left_c7 * r114 - left_s7 * r116;
-    let r134 = r126 + r127;
-    let r136 = left_c7 * r118 - left_s7 * r120;
-    let r138 = r128 + r129;
-    let r140 = left_c7 * r122 - left_s7 * r124;
-    let r142 = r130 + r131;
-    let r150 = left_c5 * r52 + left_s5 * r57;
-    let r152 = left_s8 * r132 + left_c8 * r134;
-    let r154 = left_c5 * r63 + left_s5 * r68;
-    let r156 = left_s8 * r136 + left_c8 * r138;
-    let r158 = left_c5 * r74 + left_s5 * r79;
-    let r160 = left_s8 * r140 + left_c8 * r142;
-    let r162 = left_s9 * r150;
-    let r163 = left_c9 * r152;
-    let r164 = left_s9 * r154;
-    let r165 = left_c9 * r156;
-    let r166 = left_s9 * r158;
-    let r167 = left_c9 * r160;
-    let r168 = 0.05 * r12;
-    let r169 = 0.085 * r17;
+    let r4 = left_c1 * left_c2_; let r5 = left_s1 * left_c2_; let r6 = left_c1 * left_s2_;
+    let r7 = left_s1 * left_s2_; let r8 = left_s1 * left_c3_; let r9 = left_s3_ * r6;
+    let r10 = left_c1 * left_c3_; let r11 = left_s3_ * r7; let r12 = left_c2_ * left_s3_;
+    let r13 = left_s1 * left_s3_; let r14 = left_c3_ * r6; let r15 = left_c1 * left_s3_;
+    let r16 = left_c3_ * r7; let r17 = left_c2_ * left_c3_; let r18 = left_c4 * r4; let r19 = r8 - r9;
+    let r21 = r13 + r14; let r23 = left_c4 * r5; let r24 = r10 + r11; let r26 = r15 - r16;
+    let r28 = left_s2_ * left_c4; let r32 = left_c4 + 1.0; let r34 = left_c4 - 1.0;
+    let r48 = 0.7071067811865475 * (left_s4 * r4); let r49 = 0.5 * (r19 * r32); let r51 = 0.5 * (r21 * r34);
+    let r52 = r48 - r49 + r51; let r54 = 0.5 * (r19 * r34); let r56 = 0.5 * (r21 * r32);
+    let r57 = r48 - r54 + r56; let r59 = 0.7071067811865475 * (left_s4 * r5); let r60 = 0.5 * (r24 * r32);
+    let r62 = 0.5 * (r26 * r34); let r63 = r59 + r60 - r62; let r65 = 0.5 * (r24 * r34);
+    let r67 = 0.5 * (r26 * r32); let r68 = r59 + r65 - r67;
+    let r70 = 0.7071067811865475 * (left_s2_ * left_s4); let r71 = 0.5 * (r12 * r32);
+    let r73 = 0.5 * (r17 * r34); let r74 = r70 - r71 - r73; let r76 = 0.5 * (r12 * r34);
+    let r78 = 0.5 * (r17 * r32); let r79 = r70 - r76 - r78; let r87 = 0.7071067811865475 * (left_s4 * r19);
+    let r89 = 0.7071067811865475 * (left_s4 * r21); let r90 = r18 + r87 - r89;
+    let r92 = left_s5 * r52 - left_c5 * r57; let r94 = 0.7071067811865475 * (left_s4 * r24);
+    let r96 = 0.7071067811865475 * (left_s4 * r26); let r97 = r23 - r94 + r96;
+    let r99 = left_s5 * r63 - left_c5 * r68; let r101 = 0.7071067811865475 * (left_s4 * r12);
+    let r103 = 0.7071067811865475 * (left_s4 * r17); let r104 = r28 + r101 + r103;
+    let r106 = left_s5 * r74 - left_c5 * r79; let r108 = left_s6 * r90; let r109 = left_c6 * r92;
+    let r110 = left_s6 * r97; let r111 = left_c6 * r99; let r112 = left_s6 * r104; let r113 = left_c6 * r106;
+    let r114 = left_c6 * r90 + left_s6 * r92; let r116 = r108 - r109; let r118 = left_c6 * r97 + left_s6 * r99;
+    let r120 = r110 - r111; let r122 = left_c6 * r104 + left_s6 * r106; let r124 = r112 - r113;
+    let r126 = left_s7 * r114; let r127 = left_c7 * r116; let r128 = left_s7 * r118; let r129 = left_c7 * r120;
+    let r130 = left_s7 * r122; let r131 = left_c7 * r124; let r132 = left_c7 * r114 - left_s7 * r116;
+    let r134 = r126 + r127; let r136 = left_c7 * r118 - left_s7 * r120; let r138 = r128 + r129;
+    let r140 = left_c7 * r122 - left_s7 * r124; let r142 = r130 + r131;
+    let r150 = left_c5 * r52 + left_s5 * r57; let r152 = left_s8 * r132 + left_c8 * r134;
+    let r154 = left_c5 * r63 + left_s5 * r68; let r156 = left_s8 * r136 + left_c8 * r138;
+    let r158 = left_c5 * r74 + left_s5 * r79; let r160 = left_s8 * r140 + left_c8 * r142;
+    let r162 = left_s9 * r150; let r163 = left_c9 * r152; let r164 = left_s9 * r154; let r165 = left_c9 * r156;
+    let r166 = left_s9 * r158; let r167 = left_c9 * r160; let r168 = 0.05 * r12; let r169 = 0.085 * r17;
     let r176 = r168 - r169 + 0.1 * r112 - 0.1 * r113 + 0.1029 * r130;
-    let r182 = r176 + 0.1029 * r131 - 0.04519 * r166 + 0.04519 * r167;
-    let r185 = 0.05 * r10 + 0.05 * r11;
-    let r186 = 0.085 * r15;
-    let r188 = 0.085 * r16;
+    let r182 = r176 + 0.1029 * r131 - 0.04519 * r166 + 0.04519 * r167; let r185 = 0.05 * r10 + 0.05 * r11;
+    let r186 = 0.085 * r15; let r188 = 0.085 * r16;
     let r195 = r185 + r186 - r188 - 0.1 * r110 + 0.1 * r111 - 0.1029 * r128;
-    let r201 = r195 - 0.1029 * r129 + 0.04519 * r164 - 0.04519 * r165;
-    let r204 = 0.05 * r8 - 0.05 * r9;
-    let r205 = 0.085 * r13;
-    let r207 = 0.085 * r14;
+    let r201 = r195 - 0.1029 * r129 + 0.04519 * r164 - 0.04519 * r165; let r204 = 0.05 * r8 - 0.05 * r9;
+    let r205 = 0.085 * r13; let r207 = 0.085 * r14;
     let r214 = r204 + r205 + r207 + 0.1 * r108 - 0.1 * r109 + 0.1029 * r126;
-    let r220 = r214 + 0.1029 * r127 - 0.04519 * r162 + 0.04519 * r163;
-    let r245 = r48 + r49 + r51;
-    let r248 = r48 + r54 + r56;
-    let r251 = r59 - r60 - r62;
-    let r254 = r59 - r65 - r67;
-    let r257 = r70 + r71 - r73;
-    let r260 = r70 + r76 - r78;
-    let r269 = r18 - r87 - r89;
-    let r271 = right_s5 * r245 + right_c5 * r248;
-    let r274 = r23 + r94 + r96;
-    let r276 = right_s5 * r251 + right_c5 * r254;
-    let r279 = r28 - r101 + r103;
-    let r281 = right_s5 * r257 + right_c5 * r260;
-    let r283 = right_s6 * r269;
-    let r284 = right_c6 * r271;
-    let r285 = right_s6 * r274;
-    let r286 = right_c6 * r276;
-    let r287 = right_s6 * r279;
-    let r288 = right_c6 * r281;
-    let r289 = right_c6 * r269 - right_s6 * r271;
-    let r291 = r283 + r284;
-    let r293 = right_c6 * r274 - right_s6 * r276;
-    let r295 = r285 + r286;
-    let r297 = right_c6 * r279 - right_s6 * r281;
-    let r299 = r287 + r288;
-    let r301 = right_s7 * r289;
-    let r302 = right_c7 * r291;
-    let r303 = right_s7 * r293;
-    let r304 = right_c7 * r295;
-    let r305 = right_s7 * r297;
-    let r306 = right_c7 * r299;
-    let r307 = right_c7 * r289 - right_s7 * r291;
-    let r309 = r301 + r302;
-    let r311 = right_c7 * r293 - right_s7 * r295;
-    let r313 = r303 + r304;
-    let r315 = right_c7 * r297 - right_s7 * r299;
-    let r317 = r305 + r306;
-    let r325 = right_c5 * r245 - right_s5 * r248;
-    let r327 = right_s8 * r307 + right_c8 * r309;
-    let r329 = right_c5 * r251 - right_s5 * r254;
-    let r331 = right_s8 * r311 + right_c8 * r313;
-    let r333 = right_c5 * r257 - right_s5 * r260;
-    let r335 = right_s8 * r315 + right_c8 * r317;
-    let r337 = right_s9 * r325;
-    let r338 = right_c9 * r327;
-    let r339 = right_s9 * r329;
-    let r340 = right_c9 * r331;
-    let r341 = right_s9 * r333;
-    let r342 = right_c9 * r335;
+    let r220 = r214 + 0.1029 * r127 - 0.04519 * r162 + 0.04519 * r163; let r245 = r48 + r49 + r51;
+    let r248 = r48 + r54 + r56; let r251 = r59 - r60 - r62; let r254 = r59 - r65 - r67;
+    let r257 = r70 + r71 - r73; let r260 = r70 + r76 - r78; let r269 = r18 - r87 - r89;
+    let r271 = right_s5 * r245 + right_c5 * r248; let r274 = r23 + r94 + r96;
+    let r276 = right_s5 * r251 + right_c5 * r254; let r279 = r28 - r101 + r103;
+    let r281 = right_s5 * r257 + right_c5 * r260; let r283 = right_s6 * r269; let r284 = right_c6 * r271;
+    let r285 = right_s6 * r274; let r286 = right_c6 * r276; let r287 = right_s6 * r279;
+    let r288 = right_c6 * r281; let r289 = right_c6 * r269 - right_s6 * r271; let r291 = r283 + r284;
+    let r293 = right_c6 * r274 - right_s6 * r276; let r295 = r285 + r286;
+    let r297 = right_c6 * r279 - right_s6 * r281; let r299 = r287 + r288; let r301 = right_s7 * r289;
+    let r302 = right_c7 * r291; let r303 = right_s7 * r293; let r304 = right_c7 * r295;
+    let r305 = right_s7 * r297; let r306 = right_c7 * r299; let r307 = right_c7 * r289 - right_s7 * r291;
+    let r309 = r301 + r302; let r311 = right_c7 * r293 - right_s7 * r295; let r313 = r303 + r304;
+    let r315 = right_c7 * r297 - right_s7 * r299; let r317 = r305 + r306;
+    let r325 = right_c5 * r245 - right_s5 * r248; let r327 = right_s8 * r307 + right_c8 * r309;
+    let r329 = right_c5 * r251 - right_s5 * r254; let r331 = right_s8 * r311 + right_c8 * r313;
+    let r333 = right_c5 * r257 - right_s5 * r260; let r335 = right_s8 * r315 + right_c8 * r317;
+    let r337 = right_s9 * r325; let r338 = right_c9 * r327; let r339 = right_s9 * r329;
+    let r340 = right_c9 * r331; let r341 = right_s9 * r333; let r342 = right_c9 * r335;
     let r349 = r168 + r169 - 0.1 * r287 - 0.1 * r288 - 0.1029 * r305;
     let r362 = r185 - r186 + r188 + 0.1 * r285 + 0.1 * r286 + 0.1029 * r303;
     let r368 = r362 + 0.1029 * r304 + 0.04519 * r339 + 0.04519 * r340;
@@ -2021,300 +1689,122 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
         right_c6, right_s6, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9,
     ] = *at;
-    let r4 = left_c1 * left_c2_;
-    let r5 = left_s1 * left_c2_;
-    let r6 = left_c1 * left_s2_;
-    let r7 = left_s1 * left_s2_;
-    let r8 = left_s1 * left_c3_;
-    let r9 = left_s3_ * r6;
-    let r10 = left_c1 * left_c3_;
-    let r11 = left_s3_ * r7;
-    let r12 = left_c2_ * left_s3_;
-    let r13 = left_s1 * left_s3_;
-    let r14 = left_c3_ * r6;
-    let r15 = left_c1 * left_s3_;
-    let r16 = left_c3_ * r7;
-    let r17 = left_c2_ * left_c3_;
-    let r18 = left_c4 * r4;
-    let r19 = r8 - r9;
-    let r21 = r13 + r14;
-    let r23 = left_c4 * r5;
-    let r24 = r10 + r11;
-    let r26 = r15 - r16;
-    let r28 = left_s2_ * left_c4;
-    let r32 = left_c4 + 1.0;
-    let r34 = left_c4 - 1.0;
-    let r48 = 0.7071067811865475 * (left_s4 * r4);
-    let r49 = 0.5 * (r19 * r32);
-    let r51 = 0.5 * (r21 * r34);
-    let r52 = r48 - r49 + r51;
-    let r54 = 0.5 * (r19 * r34);
-    let r56 = 0.5 * (r21 * r32);
-    let r57 = r48 - r54 + r56;
-    let r59 = 0.7071067811865475 * (left_s4 * r5);
-    let r60 = 0.5 * (r24 * r32);
-    let r62 = 0.5 * (r26 * r34);
-    let r63 = r59 + r60 - r62;
-    let r65 = 0.5 * (r24 * r34);
-    let r67 = 0.5 * (r26 * r32);
-    let r68 = r59 + r65 - r67;
-    let r70 = 0.7071067811865475 * (left_s2_ * left_s4);
-    let r71 = 0.5 * (r12 * r32);
-    let r73 = 0.5 * (r17 * r34);
-    let r74 = r70 - r71 - r73;
-    let r76 = 0.5 * (r12 * r34);
-    let r78 = 0.5 * (r17 * r32);
-    let r79 = r70 - r76 - r78;
-    let r87 = 0.7071067811865475 * (left_s4 * r19);
-    let r89 = 0.7071067811865475 * (left_s4 * r21);
-    let r90 = r18 + r87 - r89;
-    let r92 = left_s5 * r52 - left_c5 * r57;
-    let r94 = 0.7071067811865475 * (left_s4 * r24);
-    let r96 = 0.7071067811865475 * (left_s4 * r26);
-    let r97 = r23 - r94 + r96;
-    let r99 = left_s5 * r63 - left_c5 * r68;
-    let r101 = 0.7071067811865475 * (left_s4 * r12);
-    let r103 = 0.7071067811865475 * (left_s4 * r17);
-    let r104 = r28 + r101 + r103;
-    let r106 = left_s5 * r74 - left_c5 * r79;
-    let r108 = left_s6 * r90;
-    let r109 = left_c6 * r92;
-    let r110 = left_s6 * r97;
-    let r111 = left_c6 * r99;
-    let r112 = left_s6 * r104;
-    let r113 = left_c6 * r106;
-    let r114 = left_c6 * r90 + left_s6 * r92;
-    let r116 = r108 - r109;
-    let r118 = left_c6 * r97 + left_s6 * r99;
-    let r120 = r110 - r111;
-    let r122 = left_c6 * r104 + left_s6 * r106;
-    let r124 = r112 - r113;
-    let r126 = left_s7 * r114;
-    let r127 = left_c7 * r116;
-    let r128 = left_s7 * r118;
-    let r129 = left_c7 * r120;
-    let r130 = left_s7 * r122;
-    let r131 = left_c7 * r124;
-    let r132 = left_c7 * r114 - left_s7 * r116;
-    let r134 = r126 + r127;
-    let r136 = left_c7 * r118 - left_s7 * r120;
-    let r137 = left_c8 * r136;
-    let r138 = r128 + r129;
-    let r139 = left_s8 * r138;
-    let r140 = left_c7 * r122 - left_s7 * r124;
-    let r142 = r130 + r131;
-    let r150 = left_c5 * r52 + left_s5 * r57;
-    let r152 = left_s8 * r132 + left_c8 * r134;
-    let r154 = left_c5 * r63 + left_s5 * r68;
-    let r156 = left_s8 * r136 + left_c8 * r138;
-    let r158 = left_c5 * r74 + left_s5 * r79;
-    let r160 = left_s8 * r140 + left_c8 * r142;
-    let r162 = left_s9 * r150;
-    let r163 = left_c9 * r152;
-    let r164 = left_s9 * r154;
-    let r165 = left_c9 * r156;
-    let r166 = left_s9 * r158;
-    let r167 = left_c9 * r160;
-    let r168 = 0.05 * r12;
-    let r169 = 0.085 * r17;
-    let r171 = 0.1 * r112;
-    let r173 = 0.1 * r113;
-    let r175 = 0.1029 * r130;
-    let r177 = 0.1029 * r131;
-    let r179 = 0.04519 * r166;
-    let r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179;
-    let r181 = 0.04519 * r167;
-    let r182 = r180 + r181;
-    let r185 = 0.05 * r10 + 0.05 * r11;
-    let r186 = 0.085 * r15;
-    let r188 = 0.085 * r16;
-    let r190 = 0.1 * r110;
-    let r192 = 0.1 * r111;
-    let r194 = 0.1029 * r128;
-    let r196 = 0.1029 * r129;
-    let r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196;
-    let r198 = 0.04519 * r164;
-    let r199 = r197 + r198;
-    let r200 = 0.04519 * r165;
-    let r201 = r199 - r200;
-    let r204 = 0.05 * r8 - 0.05 * r9;
-    let r205 = 0.085 * r13;
-    let r207 = 0.085 * r14;
-    let r209 = 0.1 * r108;
-    let r211 = 0.1 * r109;
-    let r213 = 0.1029 * r126;
-    let r215 = 0.1029 * r127;
-    let r216 = r204 + r205 + r207 + r209 - r211 + r213 + r215;
-    let r217 = 0.04519 * r162;
-    let r219 = 0.04519 * r163;
-    let r220 = r216 - r217 + r219;
-    let r221 = r166 - r167;
-    let r222 = r137 - r139;
-    let r223 = left_c8 * r132 - left_s8 * r134;
-    let r232 = left_c9 * r158 + left_s9 * r160;
-    let r233 = left_c9 * r154 + left_s9 * r156;
-    let r234 = left_c9 * r150 + left_s9 * r152;
-    let r245 = r48 + r49 + r51;
-    let r248 = r48 + r54 + r56;
-    let r251 = r59 - r60 - r62;
-    let r254 = r59 - r65 - r67;
-    let r257 = r70 + r71 - r73;
-    let r260 = r70 + r76 - r78;
-    let r269 = r18 - r87 - r89;
-    let r271 = right_s5 * r245 + right_c5 * r248;
-    let r274 = r23 + r94 + r96;
-    let r276 = right_s5 * r251 + right_c5 * r254;
-    let r279 = r28 - r101 + r103;
-    let r281 = right_s5 * r257 + right_c5 * r260;
-    let r283 = right_s6 * r269;
-    let r284 = right_c6 * r271;
-    let r285 = right_s6 * r274;
-    let r286 = right_c6 * r276;
-    let r287 = right_s6 * r279;
-    let r288 = right_c6 * r281;
-    let r289 = right_c6 * r269 - right_s6 * r271;
-    let r291 = r283 + r284;
-    let r293 = right_c6 * r274 - right_s6 * r276;
-    let r295 = r285 + r286;
-    let r297 = right_c6 * r279 - right_s6 * r281;
-    let r299 = r287 + r288;
-    let r301 = right_s7 * r289;
-    let r302 = right_c7 * r291;
-    let r303 = right_s7 * r293;
-    let r304 = right_c7 * r295;
-    let r305 = right_s7 * r297;
-    let r306 = right_c7 * r299;
-    let r307 = right_c7 * r289 - right_s7 * r291;
-    let r309 = r301 + r302;
-    let r311 = right_c7 * r293 - right_s7 * r295;
-    let r312 = right_c8 * r311;
-    let r313 = r303 + r304;
-    let r314 = right_s8 * r313;
-    let r315 = right_c7 * r297 - right_s7 * r299;
-    let r317 = r305 + r306;
-    let r325 = right_c5 * r245 - right_s5 * r248;
-    let r326 = right_c9 * r325;
-    let r327 = right_s8 * r307 + right_c8 * r309;
-    let r328 = right_s9 * r327;
-    let r329 = right_c5 * r251 - right_s5 * r254;
-    let r331 = right_s8 * r311 + right_c8 * r313;
-    let r333 = right_c5 * r257 - right_s5 * r260;
-    let r335 = right_s8 * r315 + right_c8 * r317;
-    let r337 = right_s9 * r325;
-    let r338 = right_c9 * r327;
-    let r339 = right_s9 * r329;
-    let r340 = right_c9 * r331;
-    let r341 = right_s9 * r333;
-    let r342 = right_c9 * r335;
-    let r344 = 0.1 * r287;
-    let r346 = 0.1 * r288;
-    let r348 = 0.1029 * r305;
-    let r350 = 0.1029 * r306;
-    let r352 = 0.04519 * r341;
-    let r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352;
-    let r354 = 0.04519 * r342;
-    let r357 = 0.1 * r285;
-    let r359 = 0.1 * r286;
-    let r361 = 0.1029 * r303;
-    let r363 = 0.1029 * r304;
-    let r364 = r185 - r186 + r188 + r357 + r359 + r361 + r363;
-    let r365 = 0.04519 * r339;
-    let r367 = 0.04519 * r340;
-    let r368 = r364 + r365 + r367;
-    let r371 = 0.1 * r283;
-    let r373 = 0.1 * r284;
-    let r375 = 0.1029 * r301;
-    let r377 = 0.1029 * r302;
-    let r378 = r204 - r205 - r207 - r371 - r373 - r375 - r377;
-    let r379 = 0.04519 * r337;
-    let r381 = 0.04519 * r338;
-    let r382 = r378 - r379 - r381;
-    let r383 = r341 + r342;
-    let r384 = r339 + r340;
-    let r385 = r337 + r338;
-    let r386 = r312 - r314;
-    let r387 = right_c8 * r307 - right_s8 * r309;
-    let r397 = right_c9 * r333 - right_s9 * r335;
-    let r428 = r15 + r24 - r16;
-    let r433 = r181 + (r177 + (r175 + (r171 - r173)) - r179);
-    let r435 = r12 - r17;
+    let r4 = left_c1 * left_c2_; let r5 = left_s1 * left_c2_; let r6 = left_c1 * left_s2_;
+    let r7 = left_s1 * left_s2_; let r8 = left_s1 * left_c3_; let r9 = left_s3_ * r6;
+    let r10 = left_c1 * left_c3_; let r11 = left_s3_ * r7; let r12 = left_c2_ * left_s3_;
+    let r13 = left_s1 * left_s3_; let r14 = left_c3_ * r6; let r15 = left_c1 * left_s3_;
+    let r16 = left_c3_ * r7; let r17 = left_c2_ * left_c3_; let r18 = left_c4 * r4; let r19 = r8 - r9;
+    let r21 = r13 + r14; let r23 = left_c4 * r5; let r24 = r10 + r11; let r26 = r15 - r16;
+    let r28 = left_s2_ * left_c4; let r32 = left_c4 + 1.0; let r34 = left_c4 - 1.0;
+    let r48 = 0.7071067811865475 * (left_s4 * r4); let r49 = 0.5 * (r19 * r32); let r51 = 0.5 * (r21 * r34);
+    let r52 = r48 - r49 + r51; let r54 = 0.5 * (r19 * r34); let r56 = 0.5 * (r21 * r32);
+    let r57 = r48 - r54 + r56; let r59 = 0.7071067811865475 * (left_s4 * r5); let r60 = 0.5 * (r24 * r32);
+    let r62 = 0.5 * (r26 * r34); let r63 = r59 + r60 - r62; let r65 = 0.5 * (r24 * r34);
+    let r67 = 0.5 * (r26 * r32); let r68 = r59 + r65 - r67;
+    let r70 = 0.7071067811865475 * (left_s2_ * left_s4); let r71 = 0.5 * (r12 * r32);
+    let r73 = 0.5 * (r17 * r34); let r74 = r70 - r71 - r73; let r76 = 0.5 * (r12 * r34);
+    let r78 = 0.5 * (r17 * r32); let r79 = r70 - r76 - r78; let r87 = 0.7071067811865475 * (left_s4 * r19);
+    let r89 = 0.7071067811865475 * (left_s4 * r21); let r90 = r18 + r87 - r89;
+    let r92 = left_s5 * r52 - left_c5 * r57; let r94 = 0.7071067811865475 * (left_s4 * r24);
+    let r96 = 0.7071067811865475 * (left_s4 * r26); let r97 = r23 - r94 + r96;
+    let r99 = left_s5 * r63 - left_c5 * r68; let r101 = 0.7071067811865475 * (left_s4 * r12);
+    let r103 = 0.7071067811865475 * (left_s4 * r17); let r104 = r28 + r101 + r103;
+    let r106 = left_s5 * r74 - left_c5 * r79; let r108 = left_s6 * r90; let r109 = left_c6 * r92;
+    let r110 = left_s6 * r97; let r111 = left_c6 * r99; let r112 = left_s6 * r104; let r113 = left_c6 * r106;
+    let r114 = left_c6 * r90 + left_s6 * r92; let r116 = r108 - r109; let r118 = left_c6 * r97 + left_s6 * r99;
+    let r120 = r110 - r111; let r122 = left_c6 * r104 + left_s6 * r106; let r124 = r112 - r113;
+    let r126 = left_s7 * r114; let r127 = left_c7 * r116; let r128 = left_s7 * r118; let r129 = left_c7 * r120;
+    let r130 = left_s7 * r122; let r131 = left_c7 * r124; let r132 = left_c7 * r114 - left_s7 * r116;
+    let r134 = r126 + r127; let r136 = left_c7 * r118 - left_s7 * r120; let r137 = left_c8 * r136;
+    let r138 = r128 + r129; let r139 = left_s8 * r138; let r140 = left_c7 * r122 - left_s7 * r124;
+    let r142 = r130 + r131; let r150 = left_c5 * r52 + left_s5 * r57;
+    let r152 = left_s8 * r132 + left_c8 * r134; let r154 = left_c5 * r63 + left_s5 * r68;
+    let r156 = left_s8 * r136 + left_c8 * r138; let r158 = left_c5 * r74 + left_s5 * r79;
+    let r160 = left_s8 * r140 + left_c8 * r142; let r162 = left_s9 * r150; let r163 = left_c9 * r152;
+    let r164 = left_s9 * r154; let r165 = left_c9 * r156; let r166 = left_s9 * r158; let r167 = left_c9 * r160;
+    let r168 = 0.05 * r12; let r169 = 0.085 * r17; let r171 = 0.1 * r112; let r173 = 0.1 * r113;
+    let r175 = 0.1029 * r130; let r177 = 0.1029 * r131; let r179 = 0.04519 * r166;
+    let r180 = r168 - r169 + r171 - r173 + r175 + r177 - r179; let r181 = 0.04519 * r167;
+    let r182 = r180 + r181; let r185 = 0.05 * r10 + 0.05 * r11; let r186 = 0.085 * r15; let r188 = 0.085 * r16;
+    let r190 = 0.1 * r110; let r192 = 0.1 * r111; let r194 = 0.1029 * r128; let r196 = 0.1029 * r129;
+    let r197 = r185 + r186 - r188 - r190 + r192 - r194 - r196; let r198 = 0.04519 * r164;
+    let r199 = r197 + r198; let r200 = 0.04519 * r165; let r201 = r199 - r200;
+    let r204 = 0.05 * r8 - 0.05 * r9; let r205 = 0.085 * r13; let r207 = 0.085 * r14; let r209 = 0.1 * r108;
+    let r211 = 0.1 * r109; let r213 = 0.1029 * r126; let r215 = 0.1029 * r127;
+    let r216 = r204 + r205 + r207 + r209 - r211 + r213 + r215; let r217 = 0.04519 * r162;
+    let r219 = 0.04519 * r163; let r220 = r216 - r217 + r219; let r221 = r166 - r167; let r222 = r137 - r139;
+    let r223 = left_c8 * r132 - left_s8 * r134; let r232 = left_c9 * r158 + left_s9 * r160;
+    let r233 = left_c9 * r154 + left_s9 * r156; let r234 = left_c9 * r150 + left_s9 * r152;
+    let r245 = r48 + r49 + r51; let r248 = r48 + r54 + r56; let r251 = r59 - r60 - r62;
+    let r254 = r59 - r65 - r67; let r257 = r70 + r71 - r73; let r260 = r70 + r76 - r78;
+    let r269 = r18 - r87 - r89; let r271 = right_s5 * r245 + right_c5 * r248; let r274 = r23 + r94 + r96;
+    let r276 = right_s5 * r251 + right_c5 * r254; let r279 = r28 - r101 + r103;
+    let r281 = right_s5 * r257 + right_c5 * r260; let r283 = right_s6 * r269; let r284 = right_c6 * r271;
+    let r285 = right_s6 * r274; let r286 = right_c6 * r276; let r287 = right_s6 * r279;
+    let r288 = right_c6 * r281; let r289 = right_c6 * r269 - right_s6 * r271; let r291 = r283 + r284;
+    let r293 = right_c6 * r274 - right_s6 * r276; let r295 = r285 + r286;
+    let r297 = right_c6 * r279 - right_s6 * r281; let r299 = r287 + r288; let r301 = right_s7 * r289;
+    let r302 = right_c7 * r291; let r303 = right_s7 * r293; let r304 = right_c7 * r295;
+    let r305 = right_s7 * r297; let r306 = right_c7 * r299; let r307 = right_c7 * r289 - right_s7 * r291;
+    let r309 = r301 + r302; let r311 = right_c7 * r293 - right_s7 * r295; let r312 = right_c8 * r311;
+    let r313 = r303 + r304; let r314 = right_s8 * r313; let r315 = right_c7 * r297 - right_s7 * r299;
+    let r317 = r305 + r306; let r325 = right_c5 * r245 - right_s5 * r248; let r326 = right_c9 * r325;
+    let r327 = right_s8 * r307 + right_c8 * r309; let r328 = right_s9 * r327;
+    let r329 = right_c5 * r251 - right_s5 * r254; let r331 = right_s8 * r311 + right_c8 * r313;
+    let r333 = right_c5 * r257 - right_s5 * r260; let r335 = right_s8 * r315 + right_c8 * r317;
+    let r337 = right_s9 * r325; let r338 = right_c9 * r327; let r339 = right_s9 * r329;
+    let r340 = right_c9 * r331; let r341 = right_s9 * r333; let r342 = right_c9 * r335; let r344 = 0.1 * r287;
+    let r346 = 0.1 * r288; let r348 = 0.1029 * r305; let r350 = 0.1029 * r306; let r352 = 0.04519 * r341;
+    let r353 = r168 + r169 - r344 - r346 - r348 - r350 - r352; let r354 = 0.04519 * r342;
+    let r357 = 0.1 * r285; let r359 = 0.1 * r286; let r361 = 0.1029 * r303; let r363 = 0.1029 * r304;
+    let r364 = r185 - r186 + r188 + r357 + r359 + r361 + r363; let r365 = 0.04519 * r339;
+    let r367 = 0.04519 * r340; let r368 = r364 + r365 + r367; let r371 = 0.1 * r283; let r373 = 0.1 * r284;
+    let r375 = 0.1029 * r301; let r377 = 0.1029 * r302;
+    let r378 = r204 - r205 - r207 - r371 - r373 - r375 - r377; let r379 = 0.04519 * r337;
+    let r381 = 0.04519 * r338; let r382 = r378 - r379 - r381; let r383 = r341 + r342; let r384 = r339 + r340;
+    let r385 = r337 + r338; let r386 = r312 - r314; let r387 = right_c8 * r307 - right_s8 * r309;
+    let r397 = right_c9 * r333 - right_s9 * r335; let r428 = r15 + r24 - r16;
+    let r433 = r181 + (r177 + (r175 + (r171 - r173)) - r179); let r435 = r12 - r17;
     let r440 = r200 + (r196 + (r194 + (r190 - r192)) - r198);
-    let r446 = r219 + (r215 + (r213 + (r209 - r211)) - r217);
-    let r449 = r14 + (r13 + r19);
-    let r467 = r181 + (r175 + r177 - r179);
-    let r471 = r200 + (r194 + r196 - r198);
-    let r475 = r219 + (r213 + r215 - r217);
-    let r481 = r164 - r165;
-    let r483 = r162 - r163;
-    let r486 = r150 * r481;
-    let r487 = r154 * r483;
-    let r489 = left_c8 * r140 - left_s8 * r142;
-    let r493 = r481 * r223;
-    let r494 = r483 * r222;
-    let r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440);
-    let r502 = r154 * r221 - r158 * r481;
-    let r505 = r221 * r222 - r481 * r489;
-    let r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449);
-    let r515 = r158 * r483 - r150 * r221;
-    let r518 = r483 * r489 - r221 * r223;
+    let r446 = r219 + (r215 + (r213 + (r209 - r211)) - r217); let r449 = r14 + (r13 + r19);
+    let r467 = r181 + (r175 + r177 - r179); let r471 = r200 + (r194 + r196 - r198);
+    let r475 = r219 + (r213 + r215 - r217); let r481 = r164 - r165; let r483 = r162 - r163;
+    let r486 = r150 * r481; let r487 = r154 * r483; let r489 = left_c8 * r140 - left_s8 * r142;
+    let r493 = r481 * r223; let r494 = r483 * r222;
+    let r498 = 0.7071067811865475 * (r428 * r433 + r435 * r440); let r502 = r154 * r221 - r158 * r481;
+    let r505 = r221 * r222 - r481 * r489; let r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449);
+    let r515 = r158 * r483 - r150 * r221; let r518 = r483 * r489 - r221 * r223;
     let r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
-    let r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222);
-    let r567 = r158 * r222 - r154 * r489;
-    let r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489);
-    let r573 = r150 * r489 - r158 * r223;
-    let r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223);
-    let r581 = r150 * r222 - r154 * r223;
-    let r620 = 0.7071067811865475 * (r428 * r232 + r435 * r233);
-    let r623 = r158 * r233 - r154 * r232;
-    let r628 = 0.7071067811865475 * (r435 * r234 - r449 * r232);
-    let r630 = r150 * r232 - r158 * r234;
-    let r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234);
-    let r639 = r150 * r233 - r154 * r234;
+    let r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222); let r567 = r158 * r222 - r154 * r489;
+    let r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489); let r573 = r150 * r489 - r158 * r223;
+    let r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223); let r581 = r150 * r222 - r154 * r223;
+    let r620 = 0.7071067811865475 * (r428 * r232 + r435 * r233); let r623 = r158 * r233 - r154 * r232;
+    let r628 = 0.7071067811865475 * (r435 * r234 - r449 * r232); let r630 = r150 * r232 - r158 * r234;
+    let r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234); let r639 = r150 * r233 - r154 * r234;
     let r665 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
     let r669 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
-    let r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483);
-    let r677 = r487 - r486;
-    let r683 = r353 - r354;
-    let r695 = r16 + (r24 - r15);
-    let r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346))));
-    let r702 = r12 + r17;
+    let r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483); let r677 = r487 - r486;
+    let r683 = r353 - r354; let r695 = r16 + (r24 - r15);
+    let r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346)))); let r702 = r12 + r17;
     let r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
-    let r713 = r381 + (r379 + (r377 + (r375 + (r371 + r373))));
-    let r716 = r19 - r13 - r14;
-    let r734 = r354 + (r352 + (r348 + r350));
-    let r738 = r367 + (r365 + (r361 + r363));
-    let r742 = r381 + (r379 + (r375 + r377));
-    let r751 = r325 * r384;
-    let r752 = r329 * r385;
-    let r753 = r383 * r386;
-    let r754 = right_c8 * r315 - right_s8 * r317;
-    let r755 = r384 * r754;
-    let r756 = r385 * r754;
-    let r757 = r383 * r387;
-    let r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707);
-    let r768 = r329 * r383 - r333 * r384;
-    let r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716);
-    let r781 = r333 * r385 - r325 * r383;
-    let r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713);
-    let r796 = r384 * r387 - r385 * r386;
-    let r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386);
-    let r834 = r329 * r754 - r333 * r386;
-    let r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754);
-    let r840 = r333 * r387 - r325 * r754;
-    let r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387);
-    let r848 = r329 * r387 - r325 * r386;
-    let r851 = right_c9 * r329 - right_s9 * r331;
-    let r853 = r326 - r328;
-    let r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851);
-    let r889 = r333 * r851 - r329 * r397;
-    let r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397);
-    let r896 = r325 * r397 - r333 * r853;
-    let r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853);
-    let r903 = r325 * r851 - r329 * r853;
+    let r713 = r381 + (r379 + (r377 + (r375 + (r371 + r373)))); let r716 = r19 - r13 - r14;
+    let r734 = r354 + (r352 + (r348 + r350)); let r738 = r367 + (r365 + (r361 + r363));
+    let r742 = r381 + (r379 + (r375 + r377)); let r751 = r325 * r384; let r752 = r329 * r385;
+    let r753 = r383 * r386; let r754 = right_c8 * r315 - right_s8 * r317; let r755 = r384 * r754;
+    let r756 = r385 * r754; let r757 = r383 * r387;
+    let r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707); let r768 = r329 * r383 - r333 * r384;
+    let r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716); let r781 = r333 * r385 - r325 * r383;
+    let r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713); let r796 = r384 * r387 - r385 * r386;
+    let r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386); let r834 = r329 * r754 - r333 * r386;
+    let r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754); let r840 = r333 * r387 - r325 * r754;
+    let r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387); let r848 = r329 * r387 - r325 * r386;
+    let r851 = right_c9 * r329 - right_s9 * r331; let r853 = r326 - r328;
+    let r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851); let r889 = r333 * r851 - r329 * r397;
+    let r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397); let r896 = r325 * r397 - r333 * r853;
+    let r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853); let r903 = r325 * r851 - r329 * r853;
     let r931 = 0.7071067811865475 * (r695 * r383 + r702 * r384);
     let r938 = 0.7071067811865475 * (r702 * r385 - r716 * r383);
-    let r945 = 0.7071067811865475 * (r716 * r384 + r695 * r385);
-    let r948 = r752 - r751;
+    let r945 = 0.7071067811865475 * (r716 * r384 + r695 * r385); let r948 = r752 - r751;
     [
         [0.0, -1.0 * left_s2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         [0.0, left_c2_, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -2355,7 +1845,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -2366,20 +1856,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -2408,6 +1899,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -2738,7 +2232,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2807,12 +2305,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2823,6 +2326,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -3144,8 +2650,7 @@ fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
     if !(lead.abs() > 0.01 * largest && largest < f64::INFINITY) {
         return None;
     }
-    let inverse = 1.0 / lead;
-    let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
+    let inverse = 1.0 / lead; let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
     let (mut x, count) = approximate_roots(&monic, scale)?;
     for x in &mut x {
         *x = settled(&monic, *x, scale);
@@ -3169,8 +2674,7 @@ fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
 fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<([f64; 4], usize)> {
     // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
     let (quarter, square) = (0.25 * b, b * b);
-    let p = c - 0.375 * square;
-    let q = d - 0.5 * b * (c - 0.25 * square);
+    let p = c - 0.375 * square; let q = d - 0.5 * b * (c - 0.25 * square);
     let r = e - quarter * (d - quarter * (c - 0.1875 * square));
     // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
     let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
@@ -3202,8 +2706,7 @@ fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
     let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
     let mut z = f64::max(typical, 0.5 * (falling + (falling * falling + 4.0 * (under + w / typical)).sqrt()));
     for _ in 0..24 {
-        let value = ((z + u) * z + v) * z - w;
-        let slope = (3.0 * z + 2.0 * u) * z + v;
+        let value = ((z + u) * z + v) * z - w; let slope = (3.0 * z + 2.0 * u) * z + v;
         let step = value / slope;
         z -= step;
         if step.abs() <= 1e-5 * z {
@@ -3275,8 +2778,7 @@ impl Polynomial {
     fn quadratic_roots(&self) -> Roots {
         let mut roots = Roots::NONE;
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
+        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
         let typical = 2.0 * a * self.scale;
         if discriminant < -TANGENT * f64::max(size, typical * typical) {
             return roots;
@@ -3544,8 +3046,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -100,6 +100,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -121,6 +123,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -138,7 +142,7 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -273,10 +277,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r27 = 0.1137 * (s4 * (c2 * c3_)), r29 = 0.01231 * r11;
     const double r30 = 0.015 * c2 - 0.105 * s2 - r25 - r27 - r29, r34 = 0.1137 * (c4 * r0);
     const double r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_)), r38 = 0.01231 * r9;
-    const double r39 = 0.015 * r2 + 0.105 * r0 + r34 - r36 - r38, r40 = 0.01231 * r10, r45 = 0.1137 * (c4 * r1);
-    const double r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_)), r49 = 0.01231 * r12, r51 = 0.01231 * r13;
-    const double r52 = 0.015 * r3 + 0.105 * r1 + r45 - r47 - r49 + r51, r67 = r51 + (r45 - r47 - r49);
-    const double r70 = r29 + (r25 + r27), r74 = r34 - r36 - r38 - r40, r80 = r12 - r13, r83 = r9 + r10;
+    const double r39 = 0.015 * r2 + 0.105 * r0 + r34 - r36 - r38, r40 = 0.01231 * r10;
+    const double r45 = 0.1137 * (c4 * r1), r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_)), r49 = 0.01231 * r12;
+    const double r51 = 0.01231 * r13, r52 = 0.015 * r3 + 0.105 * r1 + r45 - r47 - r49 + r51;
+    const double r67 = r51 + (r45 - r47 - r49), r70 = r29 + (r25 + r27), r74 = r34 - r36 - r38 - r40;
+    const double r80 = r12 - r13, r83 = r9 + r10;
     const Jacobian result = { {
         {0.0 - r52, c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80},
         {0.0, c1 * (r39 - r40) + s1 * r52, r0 * r67 - r1 * r74, r67 * r83 - r74 * r80},
@@ -575,7 +580,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -594,6 +600,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -621,11 +630,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -657,7 +674,7 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_ARM_POSITION_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[4][3];
@@ -751,7 +768,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1045,6 +1066,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1070,6 +1092,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1126,13 +1151,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 3, at[6], at[7]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1206,7 +1229,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;

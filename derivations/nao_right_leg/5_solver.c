@@ -141,6 +141,8 @@ int nao_right_leg_nearest(const nao_right_leg_solution *list, int count, const d
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -162,6 +164,8 @@ int nao_right_leg_nearest(const nao_right_leg_solution *list, int count, const d
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -181,7 +185,7 @@ int nao_right_leg_nearest(const nao_right_leg_solution *list, int count, const d
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -260,11 +264,11 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0;
-    const double r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2, r9 = r0 + r1;
-    const double r12 = r6 + r7, r14 = r3 + r5, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12;
-    const double r20 = c3 * r14, r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2;
+    const double r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2;
+    const double r9 = r0 + r1, r12 = r6 + r7, r14 = r3 + r5, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3;
+    const double r19 = c3 * r12, r20 = c3 * r14, r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
     const double r25 = r16 + 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (s1 * c3);
     const double r29 = r27 + 0.5 * (s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 - 0.5 * r19;
     const double r36 = r27 + 0.5 * (s3 * r14), r39 = r31 - 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25;
@@ -337,11 +341,11 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2, r2 = c1 + 1.0;
-    const double r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2, r9 = r0 + r1;
-    const double r12 = r6 + r7, r14 = r3 + r5, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3, r19 = c3 * r12;
-    const double r20 = c3 * r14, r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = s1 * s2;
+    const double r2 = c1 + 1.0, r3 = c2 * r2, r4 = c1 - 1.0, r5 = s2 * r4, r6 = c2 * r4, r7 = s2 * r2;
+    const double r9 = r0 + r1, r12 = r6 + r7, r14 = r3 + r5, r16 = c1 * s3, r17 = c3 * r9, r18 = s1 * s3;
+    const double r19 = c3 * r12, r20 = c3 * r14, r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
     const double r25 = r16 + 0.7071067811865475 * r17, r27 = 0.7071067811865475 * (s1 * c3);
     const double r29 = r27 + 0.5 * (s3 * r12), r31 = 0.7071067811865475 * r18, r33 = r31 - 0.5 * r19;
     const double r36 = r27 + 0.5 * (s3 * r14), r39 = r31 - 0.5 * r20, r41 = s4 * r22, r42 = c4 * r25;
@@ -354,8 +358,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r80 = c6 * r71, r81 = s6 * r73, r82 = c6 * r75, r83 = 0.07071067811865475 * r18;
     const double r86 = 0.1029 * r45, r88 = 0.1029 * r46, r90 = 0.022595 * r81, r92 = 0.04519 * r82;
     const double r93 = r83 - 0.05 * r20 + r86 + r88 - r90 + r92, r96 = 0.1029 * r43, r98 = 0.1029 * r44;
-    const double r100 = 0.022595 * r79, r102 = 0.04519 * r80, r103 = r83 - 0.05 * r19 + r96 + r98 - r100 + r102;
-    const double r107 = 0.1029 * r41, r109 = 0.1029 * r42;
+    const double r100 = 0.022595 * r79, r102 = 0.04519 * r80;
+    const double r103 = r83 - 0.05 * r19 + r96 + r98 - r100 + r102, r107 = 0.1029 * r41, r109 = 0.1029 * r42;
     const double r110 = 0.1 * r16 + 0.07071067811865475 * r17 + r107 + r109, r111 = 0.03195415544182008 * r77;
     const double r113 = 0.04519 * r78, r114 = r110 + r111 + r113, r115 = r52 - r54, r116 = c5 * r47 - s5 * r49;
     const double r129 = r76 + 0.5 * r74, r131 = r72 + 0.5 * r70, r139 = 0.5 * r81 - r82;
@@ -705,7 +709,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -724,6 +729,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -751,11 +759,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -787,7 +803,7 @@ typedef struct {
     Solution *out;
     double relative[NAO_RIGHT_LEG_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -886,7 +902,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1180,6 +1200,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1205,6 +1226,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1313,13 +1337,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1393,7 +1415,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1722,8 +1744,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28), c4 = r34;
-        const double s4 = 2361.0721534205795 * (0.02058 * w4);
+        const double w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
+        const double c4 = r34, s4 = 2361.0721534205795 * (0.02058 * w4);
         Known next = NOTHING_KNOWN;
         next.branch = i0;
         next.last = 2;

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -491,8 +486,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28);
-        let c4 = r34;
+        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let c4 = r34;
         let s4 = 2361.0721534205795 * (0.02058 * w4);
         let next = Known { branch: i0, last: 2, close: roots0.close, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -502,14 +496,10 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnkleRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r9 = p.px * p.r12_ + (0.05 * p.r22_ + 0.085 * p.r32_);
-    let r11 = p.pz * p.r32_ + (p.py * p.r22_ + r9);
-    let r15 = p.px * p.r13_ + (0.05 * p.r23_ + 0.085 * p.r33_);
-    let r18 = p.pz * p.r33_ + (p.py * p.r23_ + r15) + 0.04519;
-    let r19 = 3.0 * p.magnitude;
-    let r22 = f64::abs(r19 + 0.235);
-    let r23 = f64::abs(r19 + 0.75599);
+    let before = answers.candidates; let r9 = p.px * p.r12_ + (0.05 * p.r22_ + 0.085 * p.r32_);
+    let r11 = p.pz * p.r32_ + (p.py * p.r22_ + r9); let r15 = p.px * p.r13_ + (0.05 * p.r23_ + 0.085 * p.r33_);
+    let r18 = p.pz * p.r33_ + (p.py * p.r23_ + r15) + 0.04519; let r19 = 3.0 * p.magnitude;
+    let r22 = f64::abs(r19 + 0.235); let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -522,19 +512,14 @@ struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r24 = shared.r11 * shared.r11;
-    let r25 = shared.r18 * shared.r18;
-    let r26 = r24 + r25;
+    let r24 = shared.r11 * shared.r11; let r25 = shared.r18 * shared.r18; let r26 = r24 + r25;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_away(r26, 16.0 * r29) {
         return;
     }
-    let f6 = 1.0;
-    let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
+    let f6 = 1.0; let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r36 = 1.0 / r26;
-        let c6 = w6 * shared.r18 * r36;
-        let s6 = w6 * shared.r11 * r36;
+        let r36 = 1.0 / r26; let c6 = w6 * shared.r18 * r36; let s6 = w6 * shared.r11 * r36;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -559,30 +544,23 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.r22_ * known.s6;
-    let r3 = p.r23_ * known.c6;
-    let r4 = p.r32_ * known.s6;
-    let r5 = p.r33_ * known.c6;
+    let before = answers.candidates; let r2 = p.r22_ * known.s6; let r3 = p.r23_ * known.c6;
+    let r4 = p.r32_ * known.s6; let r5 = p.r33_ * known.c6;
     let r10 = p.px * (p.r12_ * known.s6 + p.r13_ * known.c6);
     let r31 = 0.009300102 * known.c6 + 0.2058 * r10 + 0.2058 * (p.py * (r2 + r3));
     let r35 = r31 + 0.2058 * (p.pz * (r4 + r5)) + 0.01029 * r2;
     let r41 = r35 + 0.01029 * r3 + 0.017493 * r4 + 0.017493 * r5;
     let r44 = 0.2058 * (p.px * p.r11_) + 0.2058 * (p.py * p.r21_);
-    let r48 = r44 + 0.2058 * (p.pz * p.r31_) + 0.01029 * p.r21_;
-    let r50 = r48 + 0.017493 * p.r31_;
+    let r48 = r44 + 0.2058 * (p.pz * p.r31_) + 0.01029 * p.r21_; let r50 = r48 + 0.017493 * p.r31_;
     let r53 = 2.0 * (p.px * (p.px + 0.04519 * p.r13_)) + 2.0 * (p.py * (p.py + 0.04519 * p.r23_));
     let r55 = r53 + 2.0 * (p.pz * (p.pz + 0.04519 * p.r33_));
     let r58 = r55 - p.px * p.px - p.py * p.py - p.pz * p.pz;
     let r64 = r58 + 0.1 * p.py + 0.004519 * p.r23_ + 0.17 * p.pz;
-    let r67 = r64 + 0.0076823 * p.r33_ + 0.0123555461;
-    let r68 = 0.02058 * known.s4;
-    let r69 = 0.0 - r68;
+    let r67 = r64 + 0.0076823 * p.r33_ + 0.0123555461; let r68 = 0.02058 * known.s4; let r69 = 0.0 - r68;
     let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
     let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
-    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049);
-    let r85 = f64::abs(r81 + 3.1572666541);
+    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -607,12 +585,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r88, 16.0 * r91) {
         return;
     }
-    let f5 = 1.0;
-    let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
+    let f5 = 1.0; let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
     let r99 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
-    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt();
-    let c5 = r99 * r104;
-    let s5 = r96 * r104;
+    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt(); let c5 = r99 * r104; let s5 = r96 * r104;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c5, s5, f5, ..*known };
     block_4(p, &next, answers);
 }
@@ -636,8 +611,7 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: HipYawPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r6 = p.r13_ * known.s6 - p.r12_ * known.c6;
+    let before = answers.candidates; let r6 = p.r13_ * known.s6 - p.r12_ * known.c6;
     let r8 = p.r32_ * known.c6 - p.r33_ * known.s6 - p.r22_ * known.c6;
     let r10 = 0.7071067811865475 * (p.r23_ * known.s6 + r8);
     let shared = &Shared4 { r6, r10 };
@@ -659,17 +633,13 @@ struct Shared4 { r6: f64, r10: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r11 = shared.r6 * shared.r6;
-    let r12 = shared.r10 * shared.r10;
-    let r13 = r11 + r12;
+    let r11 = shared.r6 * shared.r6; let r12 = shared.r10 * shared.r10; let r13 = r11 + r12;
     if !is_away(r13, 191.99999999999997) {
         return;
     }
     let roots0 = square_roots(0.0 - r11 - r12, known.f5 * (3.4641016151377544 * known.f6));
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r20 = 1.0 / r13;
-        let c1 = 0.0 - w1 * shared.r10 * r20;
-        let s1 = w1 * shared.r6 * r20;
+        let r20 = 1.0 / r13; let c1 = 0.0 - w1 * shared.r10 * r20; let s1 = w1 * shared.r6 * r20;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -692,13 +662,9 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r32_ * known.c6;
-    let r5 = p.r33_ * known.s6;
-    let r6 = p.r22_ * known.c6 - p.r23_ * known.s6;
-    let r9 = 0.5 * (r4 + r6 - r5);
-    let r14 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
-    let r18 = 0.7071067811865475 * r14;
-    let r19 = r9 + known.c1 * (r4 - r5 - r9) + r18;
+    let r4 = p.r32_ * known.c6; let r5 = p.r33_ * known.s6; let r6 = p.r22_ * known.c6 - p.r23_ * known.s6;
+    let r9 = 0.5 * (r4 + r6 - r5); let r14 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
+    let r18 = 0.7071067811865475 * r14; let r19 = r9 + known.c1 * (r4 - r5 - r9) + r18;
     let r21 = r9 + known.c1 * (r6 - r9) - r18;
     let shared = &Shared5 { r19, r21 };
     chart_5_1(p, known, shared, answers);
@@ -717,10 +683,8 @@ struct Shared5 { r19: f64, r21: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19;
-    let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
-    let c2 = shared.r21 * r26;
-    let s2 = shared.r19 * r26;
+    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
+    let c2 = shared.r21 * r26; let s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -728,15 +692,12 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: HipPitch.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.c5 * known.s6;
-    let r5 = 0.1029 * (known.c5 * known.c6) + 0.04519;
+    let r0 = known.c5 * known.s6; let r5 = 0.1029 * (known.c5 * known.c6) + 0.04519;
     let r16 = p.px - 0.1029 * (p.r11_ * known.s5) + 0.1029 * (p.r12_ * r0);
     let r22 = p.pz - 0.1029 * (p.r31_ * known.s5) + 0.1029 * (p.r32_ * r0);
     let r26 = p.r33_ * r5 + r22 - p.py + 0.1029 * (p.r21_ * known.s5);
     let r30 = r26 - 0.1029 * (p.r22_ * r0) - p.r23_ * r5 + 0.035;
-    let r36 = known.s4 * known.c5 + known.c4 * known.s5;
-    let r37 = known.s6 * r36;
-    let r38 = known.c6 * r36;
+    let r36 = known.s4 * known.c5 + known.c4 * known.s5; let r37 = known.s6 * r36; let r38 = known.c6 * r36;
     let r39 = known.c4 * known.c5 - known.s4 * known.s5;
     let r51 = known.c1 * (p.r13_ * r38 + (p.r11_ * r39 + p.r12_ * r37));
     let r54 = p.r33_ * r38 + (p.r31_ * r39 + p.r32_ * r37) - p.r21_ * r39;
@@ -753,11 +714,8 @@ struct Shared6 { r59: f64, r62: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r63 = 0.1 * shared.r59;
-    let r64 = 0.1 * shared.r62;
-    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt();
-    let c3 = r64 * r69;
-    let s3 = 0.0 - r63 * r69;
+    let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
+    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let c3 = r64 * r69; let s3 = 0.0 - r63 * r69;
     let at = [
         known.c1, known.s1, known.c2, known.s2, c3, s3, known.c4, known.s4, known.c5, known.s5, known.c6,
         known.s6,
@@ -772,55 +730,19 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = s1 * s2;
-    let r2 = c1 + 1.0;
-    let r3 = c2 * r2;
-    let r4 = c1 - 1.0;
-    let r5 = s2 * r4;
-    let r6 = c2 * r4;
-    let r7 = s2 * r2;
-    let r9 = r0 + r1;
-    let r12 = r6 + r7;
-    let r14 = r3 + r5;
-    let r16 = c1 * s3;
-    let r17 = c3 * r9;
-    let r18 = s1 * s3;
-    let r19 = c3 * r12;
-    let r20 = c3 * r14;
-    let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
-    let r25 = r16 + 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (s1 * c3);
-    let r29 = r27 + 0.5 * (s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 - 0.5 * r19;
-    let r36 = r27 + 0.5 * (s3 * r14);
-    let r39 = r31 - 0.5 * r20;
-    let r41 = s4 * r22;
-    let r42 = c4 * r25;
-    let r43 = s4 * r29;
-    let r44 = c4 * r33;
-    let r45 = s4 * r36;
-    let r46 = c4 * r39;
-    let r47 = c4 * r22 - s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = c4 * r29 - s4 * r33;
-    let r53 = r43 + r44;
-    let r55 = c4 * r36 - s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 - r1;
-    let r67 = s5 * r47 + c5 * r49;
-    let r69 = r3 - r5;
-    let r71 = s5 * r51 + c5 * r53;
-    let r73 = r6 - r7;
-    let r75 = s5 * r55 + c5 * r57;
-    let r77 = s6 * r65;
-    let r78 = c6 * r67;
-    let r79 = s6 * r69;
-    let r80 = c6 * r71;
-    let r81 = s6 * r73;
-    let r82 = c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
+    let r0 = s1 * c2; let r1 = s1 * s2; let r2 = c1 + 1.0; let r3 = c2 * r2; let r4 = c1 - 1.0;
+    let r5 = s2 * r4; let r6 = c2 * r4; let r7 = s2 * r2; let r9 = r0 + r1; let r12 = r6 + r7;
+    let r14 = r3 + r5; let r16 = c1 * s3; let r17 = c3 * r9; let r18 = s1 * s3; let r19 = c3 * r12;
+    let r20 = c3 * r14; let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    let r25 = r16 + 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (s1 * c3);
+    let r29 = r27 + 0.5 * (s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 - 0.5 * r19;
+    let r36 = r27 + 0.5 * (s3 * r14); let r39 = r31 - 0.5 * r20; let r41 = s4 * r22; let r42 = c4 * r25;
+    let r43 = s4 * r29; let r44 = c4 * r33; let r45 = s4 * r36; let r46 = c4 * r39;
+    let r47 = c4 * r22 - s4 * r25; let r49 = r41 + r42; let r51 = c4 * r29 - s4 * r33; let r53 = r43 + r44;
+    let r55 = c4 * r36 - s4 * r39; let r57 = r45 + r46; let r65 = r0 - r1; let r67 = s5 * r47 + c5 * r49;
+    let r69 = r3 - r5; let r71 = s5 * r51 + c5 * r53; let r73 = r6 - r7; let r75 = s5 * r55 + c5 * r57;
+    let r77 = s6 * r65; let r78 = c6 * r67; let r79 = s6 * r69; let r80 = c6 * r71; let r81 = s6 * r73;
+    let r82 = c6 * r75; let r83 = 0.07071067811865475 * r18;
     let r89 = r83 - 0.05 * r20 + 0.1029 * r45 + 0.1029 * r46;
     let r99 = r83 - 0.05 * r19 + 0.1029 * r43 + 0.1029 * r44;
     let r108 = 0.1 * r16 + 0.07071067811865475 * r17 + 0.1029 * r41;
@@ -887,92 +809,30 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = s1 * s2;
-    let r2 = c1 + 1.0;
-    let r3 = c2 * r2;
-    let r4 = c1 - 1.0;
-    let r5 = s2 * r4;
-    let r6 = c2 * r4;
-    let r7 = s2 * r2;
-    let r9 = r0 + r1;
-    let r12 = r6 + r7;
-    let r14 = r3 + r5;
-    let r16 = c1 * s3;
-    let r17 = c3 * r9;
-    let r18 = s1 * s3;
-    let r19 = c3 * r12;
-    let r20 = c3 * r14;
-    let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
-    let r25 = r16 + 0.7071067811865475 * r17;
-    let r27 = 0.7071067811865475 * (s1 * c3);
-    let r29 = r27 + 0.5 * (s3 * r12);
-    let r31 = 0.7071067811865475 * r18;
-    let r33 = r31 - 0.5 * r19;
-    let r36 = r27 + 0.5 * (s3 * r14);
-    let r39 = r31 - 0.5 * r20;
-    let r41 = s4 * r22;
-    let r42 = c4 * r25;
-    let r43 = s4 * r29;
-    let r44 = c4 * r33;
-    let r45 = s4 * r36;
-    let r46 = c4 * r39;
-    let r47 = c4 * r22 - s4 * r25;
-    let r49 = r41 + r42;
-    let r51 = c4 * r29 - s4 * r33;
-    let r52 = c5 * r51;
-    let r53 = r43 + r44;
-    let r54 = s5 * r53;
-    let r55 = c4 * r36 - s4 * r39;
-    let r57 = r45 + r46;
-    let r65 = r0 - r1;
-    let r66 = c6 * r65;
-    let r67 = s5 * r47 + c5 * r49;
-    let r68 = s6 * r67;
-    let r69 = r3 - r5;
-    let r70 = c6 * r69;
-    let r71 = s5 * r51 + c5 * r53;
-    let r72 = s6 * r71;
-    let r73 = r6 - r7;
-    let r74 = c6 * r73;
-    let r75 = s5 * r55 + c5 * r57;
-    let r76 = s6 * r75;
-    let r77 = s6 * r65;
-    let r78 = c6 * r67;
-    let r79 = s6 * r69;
-    let r80 = c6 * r71;
-    let r81 = s6 * r73;
-    let r82 = c6 * r75;
-    let r83 = 0.07071067811865475 * r18;
-    let r86 = 0.1029 * r45;
-    let r88 = 0.1029 * r46;
-    let r90 = 0.022595 * r81;
-    let r92 = 0.04519 * r82;
-    let r93 = r83 - 0.05 * r20 + r86 + r88 - r90 + r92;
-    let r96 = 0.1029 * r43;
-    let r98 = 0.1029 * r44;
-    let r100 = 0.022595 * r79;
-    let r102 = 0.04519 * r80;
-    let r103 = r83 - 0.05 * r19 + r96 + r98 - r100 + r102;
-    let r107 = 0.1029 * r41;
-    let r109 = 0.1029 * r42;
-    let r110 = 0.1 * r16 + 0.07071067811865475 * r17 + r107 + r109;
-    let r111 = 0.03195415544182008 * r77;
-    let r113 = 0.04519 * r78;
-    let r114 = r110 + r111 + r113;
-    let r115 = r52 - r54;
-    let r116 = c5 * r47 - s5 * r49;
-    let r129 = r76 + 0.5 * r74;
-    let r131 = r72 + 0.5 * r70;
-    let r139 = 0.5 * r81 - r82;
-    let r142 = r78 + 0.7071067811865475 * r77;
-    let r160 = r92 + (r86 + r88 - r90);
-    let r164 = r102 + (r96 + r98 - r100);
-    let r168 = r113 + (r111 + (r107 + r109));
-    let r173 = r90 - r92;
-    let r175 = r100 - r102;
-    let r177 = r111 + r113;
-    let r183 = c5 * r55 - s5 * r57;
+    let r0 = s1 * c2; let r1 = s1 * s2; let r2 = c1 + 1.0; let r3 = c2 * r2; let r4 = c1 - 1.0;
+    let r5 = s2 * r4; let r6 = c2 * r4; let r7 = s2 * r2; let r9 = r0 + r1; let r12 = r6 + r7;
+    let r14 = r3 + r5; let r16 = c1 * s3; let r17 = c3 * r9; let r18 = s1 * s3; let r19 = c3 * r12;
+    let r20 = c3 * r14; let r22 = c1 * c3 - 0.7071067811865475 * (s3 * r9);
+    let r25 = r16 + 0.7071067811865475 * r17; let r27 = 0.7071067811865475 * (s1 * c3);
+    let r29 = r27 + 0.5 * (s3 * r12); let r31 = 0.7071067811865475 * r18; let r33 = r31 - 0.5 * r19;
+    let r36 = r27 + 0.5 * (s3 * r14); let r39 = r31 - 0.5 * r20; let r41 = s4 * r22; let r42 = c4 * r25;
+    let r43 = s4 * r29; let r44 = c4 * r33; let r45 = s4 * r36; let r46 = c4 * r39;
+    let r47 = c4 * r22 - s4 * r25; let r49 = r41 + r42; let r51 = c4 * r29 - s4 * r33; let r52 = c5 * r51;
+    let r53 = r43 + r44; let r54 = s5 * r53; let r55 = c4 * r36 - s4 * r39; let r57 = r45 + r46;
+    let r65 = r0 - r1; let r66 = c6 * r65; let r67 = s5 * r47 + c5 * r49; let r68 = s6 * r67;
+    let r69 = r3 - r5; let r70 = c6 * r69; let r71 = s5 * r51 + c5 * r53; let r72 = s6 * r71;
+    let r73 = r6 - r7; let r74 = c6 * r73; let r75 = s5 * r55 + c5 * r57; let r76 = s6 * r75;
+    let r77 = s6 * r65; let r78 = c6 * r67; let r79 = s6 * r69; let r80 = c6 * r71; let r81 = s6 * r73;
+    let r82 = c6 * r75; let r83 = 0.07071067811865475 * r18; let r86 = 0.1029 * r45; let r88 = 0.1029 * r46;
+    let r90 = 0.022595 * r81; let r92 = 0.04519 * r82; let r93 = r83 - 0.05 * r20 + r86 + r88 - r90 + r92;
+    let r96 = 0.1029 * r43; let r98 = 0.1029 * r44; let r100 = 0.022595 * r79; let r102 = 0.04519 * r80;
+    let r103 = r83 - 0.05 * r19 + r96 + r98 - r100 + r102; let r107 = 0.1029 * r41; let r109 = 0.1029 * r42;
+    let r110 = 0.1 * r16 + 0.07071067811865475 * r17 + r107 + r109; let r111 = 0.03195415544182008 * r77;
+    let r113 = 0.04519 * r78; let r114 = r110 + r111 + r113; let r115 = r52 - r54;
+    let r116 = c5 * r47 - s5 * r49; let r129 = r76 + 0.5 * r74; let r131 = r72 + 0.5 * r70;
+    let r139 = 0.5 * r81 - r82; let r142 = r78 + 0.7071067811865475 * r77; let r160 = r92 + (r86 + r88 - r90);
+    let r164 = r102 + (r96 + r98 - r100); let r168 = r113 + (r111 + (r107 + r109)); let r173 = r90 - r92;
+    let r175 = r100 - r102; let r177 = r111 + r113; let r183 = c5 * r55 - s5 * r57;
     let r191 = 0.09999999999999998 * r18 - 0.035355339059327376 * r20;
     let r195 = r191 + 0.07276128778409574 * r45 + 0.07276128778409574 * r46;
     let r199 = r195 - 0.01597707772091004 * r81 + 0.03195415544182008 * r82;
@@ -990,28 +850,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r253 = 0.5 * (r69 * r177) - 0.7071067811865475 * (r65 * r175);
     let r269 = 0.0 - 0.7071067811865475 * (r52 + r183 - r54);
     let r272 = 0.0 - 0.7071067811865475 * (s1 * r183 - s1 * r115);
-    let r275 = 0.0 - 0.5 * (r69 * r183 - r73 * r115);
-    let r276 = 0.7071067811865475 * r116;
+    let r275 = 0.0 - 0.5 * (r69 * r183 - r73 * r115); let r276 = 0.7071067811865475 * r116;
     let r277 = 0.7071067811865475 * (s1 * r116);
-    let r281 = 0.5 * (r73 * r116) + 0.7071067811865475 * (r65 * r183);
-    let r282 = 0.0 - r281;
-    let r287 = 0.7071067811865475 * (r65 * r115) + 0.5 * (r69 * r116);
-    let r288 = 0.0 - r287;
-    let r291 = 0.7071067811865475 * r66 - r68;
-    let r309 = 0.35355339059327373 * r74 + 0.7071067811865475 * r76;
+    let r281 = 0.5 * (r73 * r116) + 0.7071067811865475 * (r65 * r183); let r282 = 0.0 - r281;
+    let r287 = 0.7071067811865475 * (r65 * r115) + 0.5 * (r69 * r116); let r288 = 0.0 - r287;
+    let r291 = 0.7071067811865475 * r66 - r68; let r309 = 0.35355339059327373 * r74 + 0.7071067811865475 * r76;
     let r313 = r309 + 0.35355339059327373 * r70 + 0.7071067811865475 * r72;
     let r317 = 0.0 - 0.7071067811865475 * (s1 * r129 - s1 * r131);
-    let r320 = 0.0 - 0.5 * (r69 * r129 - r73 * r131);
-    let r322 = 0.4999999999999999 * r66;
-    let r323 = 0.7071067811865475 * r68;
-    let r326 = 0.7071067811865475 * (s1 * r291);
+    let r320 = 0.0 - 0.5 * (r69 * r129 - r73 * r131); let r322 = 0.4999999999999999 * r66;
+    let r323 = 0.7071067811865475 * r68; let r326 = 0.7071067811865475 * (s1 * r291);
     let r330 = 0.5 * (r73 * r291) - 0.7071067811865475 * (r65 * r129);
-    let r335 = 0.5 * (r69 * r291) - 0.7071067811865475 * (r65 * r131);
-    let r338 = 0.5 * r79 - r80;
+    let r335 = 0.5 * (r69 * r291) - 0.7071067811865475 * (r65 * r131); let r338 = 0.5 * r79 - r80;
     let r357 = 0.35355339059327373 * r81 - 0.7071067811865475 * r82;
     let r361 = r357 + 0.35355339059327373 * r79 - 0.7071067811865475 * r80;
-    let r365 = 0.5 * (r69 * r139 - r73 * r338);
-    let r369 = 0.4999999999999999 * r77 + 0.7071067811865475 * r78;
+    let r365 = 0.5 * (r69 * r139 - r73 * r338); let r369 = 0.4999999999999999 * r77 + 0.7071067811865475 * r78;
     let r370 = 0.7071067811865475 * (s1 * r142);
     let r375 = 0.7071067811865475 * (r65 * r139) - 0.5 * (r73 * r142);
     let r383 = 0.7071067811865475 * (r65 * r338) - 0.5 * (r69 * r142);
@@ -1039,7 +891,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1050,20 +902,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1092,6 +945,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1434,7 +1290,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1503,12 +1363,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1519,6 +1384,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1914,8 +1782,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -142,7 +146,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -217,15 +221,16 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2, r19 = s4 * r18;
-    const double r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22, r24 = r8 + r9;
-    const double r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16, r29 = c4 * r18;
-    const double r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = r17 - r19, r35 = c5 * r34;
-    const double r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40;
-    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2;
+    const double r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22;
+    const double r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37;
+    const double r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40, r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37;
+    const double r45 = c1 * c5, r46 = s5 * r40;
     const double r55 = 0.05 * c1 + 0.4 * r0 + 0.35 * r4 - 0.35 * r5 + 0.06 * r17;
     const double r63 = r55 - 0.06 * r19 + 0.125 * s1 - 0.86 * r35 + 0.86 * r36, r64 = 0.125 * r42;
     const double r66 = 0.125 * r43, r80 = 0.05 * s1 + 0.4 * r1 + 0.35 * r6 - 0.35 * r7 + 0.06 * r21;
@@ -296,36 +301,39 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2, r19 = s4 * r18;
-    const double r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22, r24 = r8 + r9;
-    const double r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16, r29 = c4 * r18;
-    const double r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = r17 - r19, r35 = c5 * r34;
-    const double r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40;
-    const double r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = 0.05 * c1;
-    const double r48 = 0.4 * r0, r50 = 0.35 * r4, r52 = 0.35 * r5, r54 = 0.06 * r17, r56 = 0.06 * r19;
-    const double r58 = 0.125 * s1, r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35, r64 = 0.125 * r42;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2;
+    const double r19 = s4 * r18, r20 = r6 - r7, r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22;
+    const double r24 = r8 + r9, r25 = c4 * r24, r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5, r37 = r21 - r23, r38 = c5 * r37;
+    const double r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40, r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37;
+    const double r45 = c1 * c5, r46 = s5 * r40, r47 = 0.05 * c1, r48 = 0.4 * r0, r50 = 0.35 * r4;
+    const double r52 = 0.35 * r5, r54 = 0.06 * r17, r56 = 0.06 * r19, r58 = 0.125 * s1;
+    const double r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35, r64 = 0.125 * r42;
     const double r66 = 0.125 * r43, r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
     const double r72 = 0.05 * s1, r73 = 0.4 * r1, r75 = 0.35 * r6, r77 = 0.35 * r7, r79 = 0.06 * r21;
-    const double r81 = 0.06 * r23, r83 = 0.125 * c1, r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
-    const double r89 = 0.125 * r44, r91 = 0.125 * r45;
-    const double r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31, r97 = r42 + r43, r98 = c6 * r97;
-    const double r99 = r28 + r29, r100 = s6 * r99, r101 = r44 - r45, r103 = r30 + r31, r106 = r32 + r33;
-    const double r115 = 0.35 * r8, r117 = 0.35 * r9, r119 = 0.06 * r25, r121 = 0.06 * r27, r123 = 0.125 * r32;
-    const double r125 = 0.125 * r33, r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125;
-    const double r127 = 0.125 * r41, r128 = r126 + r127;
-    const double r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38, r138 = r136 + 0.985 * r39;
-    const double r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29, r148 = r144 + 0.985 * r35 - 0.985 * r36;
-    const double r149 = r38 + r39, r150 = r35 - r36, r155 = s6 * r46 + c6 * r106, r156 = s6 * r101 + c6 * r103;
-    const double r157 = s6 * r97 + c6 * r99, r163 = c6 * r46 - s6 * r106, r175 = r138 - r72, r177 = r148 - r47;
-    const double r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125), r187 = r175 - r73, r189 = r177 - r48;
-    const double r194 = r127 + (r119 - r121 - r123 - r125), r198 = r77 + (r187 - r75), r201 = r52 + (r189 - r50);
-    const double r205 = r56 + (r201 - r54) - r58, r208 = r83 + (r81 + (r198 - r79)), r209 = r106 - r41;
-    const double r235 = c1 * r155, r236 = s1 * r155, r255 = s1 * r156 + c1 * r157, r258 = c1 * r163;
-    const double r259 = s1 * r163, r260 = c6 * r101 - s6 * r103, r262 = r98 - r100, r280 = s1 * r260 + c1 * r262;
-    const double r294 = 0.0 - c1 * r41, r296 = 0.0 - s1 * r41, r299 = 0.0 - (s1 * r149 + c1 * r150);
+    const double r81 = 0.06 * r23, r83 = 0.125 * c1;
+    const double r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38, r89 = 0.125 * r44;
+    const double r91 = 0.125 * r45, r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31;
+    const double r97 = r42 + r43, r98 = c6 * r97, r99 = r28 + r29, r100 = s6 * r99, r101 = r44 - r45;
+    const double r103 = r30 + r31, r106 = r32 + r33, r115 = 0.35 * r8, r117 = 0.35 * r9, r119 = 0.06 * r25;
+    const double r121 = 0.06 * r27, r123 = 0.125 * r32, r125 = 0.125 * r33;
+    const double r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125, r127 = 0.125 * r41;
+    const double r128 = r126 + r127, r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
+    const double r138 = r136 + 0.985 * r39, r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29;
+    const double r148 = r144 + 0.985 * r35 - 0.985 * r36, r149 = r38 + r39, r150 = r35 - r36;
+    const double r155 = s6 * r46 + c6 * r106, r156 = s6 * r101 + c6 * r103, r157 = s6 * r97 + c6 * r99;
+    const double r163 = c6 * r46 - s6 * r106, r175 = r138 - r72, r177 = r148 - r47;
+    const double r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125), r187 = r175 - r73;
+    const double r189 = r177 - r48, r194 = r127 + (r119 - r121 - r123 - r125), r198 = r77 + (r187 - r75);
+    const double r201 = r52 + (r189 - r50), r205 = r56 + (r201 - r54) - r58, r208 = r83 + (r81 + (r198 - r79));
+    const double r209 = r106 - r41, r235 = c1 * r155, r236 = s1 * r155, r255 = s1 * r156 + c1 * r157;
+    const double r258 = c1 * r163, r259 = s1 * r163, r260 = c6 * r101 - s6 * r103, r262 = r98 - r100;
+    const double r280 = s1 * r260 + c1 * r262, r294 = 0.0 - c1 * r41, r296 = 0.0 - s1 * r41;
+    const double r299 = 0.0 - (s1 * r149 + c1 * r150);
     const Jacobian result = { {
         {0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0},
         {r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0},
@@ -633,7 +641,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -652,6 +661,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -679,11 +691,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -715,7 +735,7 @@ typedef struct {
     Solution *out;
     double relative[OFFSET_WRIST_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -811,7 +831,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1105,6 +1129,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1130,6 +1155,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1188,13 +1216,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1268,7 +1294,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1310,7 +1336,8 @@ typedef struct {
 /* Chart 1 of block 6: generic. */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r27 = 0.125 * shared->r24 - 0.06 * shared->r22, r30 = 0.125 * shared->r22 + 0.06 * shared->r24;
+    const double r27 = 0.125 * shared->r24 - 0.06 * shared->r22;
+    const double r30 = 0.125 * shared->r22 + 0.06 * shared->r24;
     const double r35 = 1.0 / sqrt(fmax(r30 * r30 + r27 * r27, 0.0)), c4 = 0.0 - r30 * r35, s4 = r27 * r35;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, c4, s4, known->c5, known->s5,
@@ -1526,7 +1553,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const size_t before = answers->candidates;
-    const double r4 = p->r21_ * known->c1 - p->r11_ * known->s1, r5 = p->r12_ * known->s1 - p->r22_ * known->c1;
+    const double r4 = p->r21_ * known->c1 - p->r11_ * known->s1;
+    const double r5 = p->r12_ * known->s1 - p->r22_ * known->c1;
     const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);

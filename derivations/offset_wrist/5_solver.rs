@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.3254696631613145, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -473,9 +468,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Base.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = 0.125 * p.r23_ - p.py;
-    let r3 = p.px - 0.125 * p.r13_;
-    let r5 = f64::abs(p.magnitude + 2.205);
+    let r1 = 0.125 * p.r23_ - p.py; let r3 = p.px - 0.125 * p.r13_; let r5 = f64::abs(p.magnitude + 2.205);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
 }
@@ -487,20 +480,15 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
     let roots0 = square_roots(0.015625 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r22 = 1.0 / r8;
-        let r24 = (w1 * shared.r1 - (0.0 - 0.125 * shared.r3)) * r22;
-        let c1 = (0.125 * shared.r1 - w1 * shared.r3) * r22;
-        let s1 = r24;
+        let r22 = 1.0 / r8; let r24 = (w1 * shared.r1 - (0.0 - 0.125 * shared.r3)) * r22;
+        let c1 = (0.125 * shared.r1 - w1 * shared.r3) * r22; let s1 = r24;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -509,8 +497,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Wrist3.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let before = answers.candidates; let r4 = p.r21_ * known.c1 - p.r11_ * known.s1;
     let r5 = p.r12_ * known.s1 - p.r22_ * known.c1;
     let shared = &Shared2 { r4, r5 };
     chart_2_1(p, known, shared, answers);
@@ -524,18 +511,13 @@ struct Shared2 { r4: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r6 = shared.r4 * shared.r4;
-    let r7 = shared.r5 * shared.r5;
-    let r8 = r6 + r7;
+    let r6 = shared.r4 * shared.r4; let r7 = shared.r5 * shared.r5; let r8 = r6 + r7;
     if !is_away(r8, 128.0) {
         return;
     }
-    let f6 = 1.0;
-    let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
+    let f6 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r13 = 1.0 / r8;
-        let c6 = 0.0 - w6 * shared.r5 * r13;
-        let s6 = w6 * shared.r4 * r13;
+        let r13 = 1.0 / r8; let c6 = 0.0 - w6 * shared.r5 * r13; let s6 = w6 * shared.r4 * r13;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -561,8 +543,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = known.c1 * (p.r21_ * known.s6 + p.r22_ * known.c6);
     let r9 = known.s1 * (p.r11_ * known.s6 + p.r12_ * known.c6);
-    let r10 = p.r23_ * known.c1 - p.r13_ * known.s1;
-    let r11 = r8 - r9;
+    let r10 = p.r23_ * known.c1 - p.r13_ * known.s1; let r11 = r8 - r9;
     let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
@@ -580,10 +561,8 @@ struct Shared3 { r10: f64, r11: f64 }
 /// Chart 1 of block 3: generic.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10;
-    let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
-    let c5 = shared.r11 * r16;
-    let s5 = shared.r10 * r16;
+    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10; let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
+    let c5 = shared.r11 * r16; let s5 = shared.r10 * r16;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_4(p, &next, answers);
 }
@@ -591,25 +570,16 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: Elbow.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.125 * known.c5 + 0.06 * known.s5;
-    let r6 = 0.125 * known.c6 - known.s6 * r2;
-    let r9 = known.c6 * r2 + 0.125 * known.s6;
-    let r14 = 0.06 * known.c5 - 0.125 * known.s5 + 0.125;
-    let r19 = p.r31_ * r6;
-    let r20 = p.r32_ * r9;
-    let r21 = p.r33_ * r14;
+    let r2 = 0.125 * known.c5 + 0.06 * known.s5; let r6 = 0.125 * known.c6 - known.s6 * r2;
+    let r9 = known.c6 * r2 + 0.125 * known.s6; let r14 = 0.06 * known.c5 - 0.125 * known.s5 + 0.125;
+    let r19 = p.r31_ * r6; let r20 = p.r32_ * r9; let r21 = p.r33_ * r14;
     let r24 = p.r12_ * r9 + (p.px - p.r11_ * r6) - p.r13_ * r14;
     let r28 = p.r22_ * r9 + (p.py - p.r21_ * r6) - p.r23_ * r14;
     let r43 = 0.015 * known.c5 - 0.03125 * known.s5 + 2.0 * (p.px * r24);
     let r47 = r43 + 2.0 * (p.py * r28) + 2.0 * (p.pz * (r20 + (p.pz - r19) - r21));
-    let r50 = r47 - p.px * p.px - p.py * p.py - p.pz * p.pz;
-    let r51 = 0.05 * (known.c1 * r24);
-    let r53 = 0.05 * (known.s1 * r28);
-    let r55 = 0.18 * p.pz;
-    let r57 = 0.18 * r19;
-    let r59 = 0.18 * r20;
-    let r61 = 0.18 * r21;
-    let r63 = r50 - r51 - r53 - r55 + r57 - r59 + r61 + 0.085375;
+    let r50 = r47 - p.px * p.px - p.py * p.py - p.pz * p.pz; let r51 = 0.05 * (known.c1 * r24);
+    let r53 = 0.05 * (known.s1 * r28); let r55 = 0.18 * p.pz; let r57 = 0.18 * r19; let r59 = 0.18 * r20;
+    let r61 = 0.18 * r21; let r63 = r50 - r51 - r53 - r55 + r57 - r59 + r61 + 0.085375;
     let r70 = 0.2825 - (r61 + (r57 + (r63 - r51 - r53 - r55) - r59));
     let shared = &Shared4 { r70 };
     chart_4_1(p, known, shared, answers);
@@ -624,8 +594,7 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     let r72 = shared.r70 * shared.r70 - 0.07840000000000001;
     let roots0 = square_roots(r72, 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r77 = 0.0 - 12.755102040816325 * (0.28 * shared.r70);
-        let c3 = r77;
+        let r77 = 0.0 - 12.755102040816325 * (0.28 * shared.r70); let c3 = r77;
         let s3 = 12.755102040816325 * (0.28 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_5(p, &next, answers);
@@ -635,20 +604,14 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
 /// Block 5: Shoulder.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = 0.125 * known.c5 + 0.06 * known.s5;
-    let r6 = 0.125 * known.c6 - known.s6 * r2;
-    let r9 = known.c6 * r2 + 0.125 * known.s6;
+    let before = answers.candidates; let r2 = 0.125 * known.c5 + 0.06 * known.s5;
+    let r6 = 0.125 * known.c6 - known.s6 * r2; let r9 = known.c6 * r2 + 0.125 * known.s6;
     let r14 = 0.06 * known.c5 - 0.125 * known.s5 + 0.125;
     let r24 = p.r12_ * r9 + (p.px - p.r11_ * r6) - p.r13_ * r14;
-    let r28 = p.r22_ * r9 + (p.py - p.r21_ * r6) - p.r23_ * r14;
-    let r30 = 0.35 * known.s3;
-    let r32 = 0.35 * known.c3 + 0.4;
-    let r35 = p.r32_ * r9 + (p.pz - p.r31_ * r6) - p.r33_ * r14;
-    let r36 = r35 - 0.18;
-    let r38 = known.c1 * r24 + known.s1 * r28 - 0.05;
-    let r42 = f64::abs(p.magnitude + 19.6);
-    let r43 = f64::abs(2.0 * p.magnitude + 38.89);
+    let r28 = p.r22_ * r9 + (p.py - p.r21_ * r6) - p.r23_ * r14; let r30 = 0.35 * known.s3;
+    let r32 = 0.35 * known.c3 + 0.4; let r35 = p.r32_ * r9 + (p.pz - p.r31_ * r6) - p.r33_ * r14;
+    let r36 = r35 - 0.18; let r38 = known.c1 * r24 + known.s1 * r28 - 0.05;
+    let r42 = f64::abs(p.magnitude + 19.6); let r43 = f64::abs(2.0 * p.magnitude + 38.89);
     let shared = &Shared5 { r30, r32, r36, r38, r42, r43 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, before, answers);
@@ -667,9 +630,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     }
     let r49 = shared.r32 * shared.r36 + shared.r30 * shared.r38;
     let r52 = shared.r32 * shared.r38 - shared.r30 * shared.r36;
-    let r57 = 1.0 / f64::max(r52 * r52 + r49 * r49, 0.0).sqrt();
-    let c2 = r52 * r57;
-    let s2 = 0.0 - r49 * r57;
+    let r57 = 1.0 / f64::max(r52 * r52 + r49 * r49, 0.0).sqrt(); let c2 = r52 * r57; let s2 = 0.0 - r49 * r57;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -691,12 +652,9 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, ans
 /// Block 6: Wrist1.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = known.c1 * (p.px - 0.125 * p.r13_) + known.s1 * (p.py - 0.125 * p.r23_);
-    let r7 = r6 - 0.05;
-    let r11 = p.pz - 0.125 * p.r33_ - 0.18;
-    let r16 = known.c2 * r7 - known.s2 * r11 - 0.4;
-    let r18 = known.c2 * r11 + known.s2 * r7;
-    let r22 = known.c3 * r18 + known.s3 * r16;
+    let r6 = known.c1 * (p.px - 0.125 * p.r13_) + known.s1 * (p.py - 0.125 * p.r23_); let r7 = r6 - 0.05;
+    let r11 = p.pz - 0.125 * p.r33_ - 0.18; let r16 = known.c2 * r7 - known.s2 * r11 - 0.4;
+    let r18 = known.c2 * r11 + known.s2 * r7; let r22 = known.c3 * r18 + known.s3 * r16;
     let r24 = 0.35 - (known.c3 * r16 - known.s3 * r18);
     let shared = &Shared6 { r22, r24 };
     chart_6_1(p, known, shared, answers);
@@ -715,11 +673,8 @@ struct Shared6 { r22: f64, r24: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r27 = 0.125 * shared.r24 - 0.06 * shared.r22;
-    let r30 = 0.125 * shared.r22 + 0.06 * shared.r24;
-    let r35 = 1.0 / f64::max(r30 * r30 + r27 * r27, 0.0).sqrt();
-    let c4 = 0.0 - r30 * r35;
-    let s4 = r27 * r35;
+    let r27 = 0.125 * shared.r24 - 0.06 * shared.r22; let r30 = 0.125 * shared.r22 + 0.06 * shared.r24;
+    let r35 = 1.0 / f64::max(r30 * r30 + r27 * r27, 0.0).sqrt(); let c4 = 0.0 - r30 * r35; let s4 = r27 * r35;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, c4, s4, known.c5, known.s5, known.c6,
         known.s6,
@@ -734,61 +689,20 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r17 = c4 * r16;
-    let r18 = s3 * r0 + c3 * r2;
-    let r19 = s4 * r18;
-    let r20 = r6 - r7;
-    let r21 = c4 * r20;
-    let r22 = s3 * r1 + c3 * r3;
-    let r23 = s4 * r22;
-    let r24 = r8 + r9;
-    let r25 = c4 * r24;
-    let r26 = s2 * s3 - c2 * c3;
-    let r27 = s4 * r26;
-    let r28 = s4 * r16;
-    let r29 = c4 * r18;
-    let r30 = s4 * r20;
-    let r31 = c4 * r22;
-    let r32 = s4 * r24;
-    let r33 = c4 * r26;
-    let r34 = r17 - r19;
-    let r35 = c5 * r34;
-    let r36 = s1 * s5;
-    let r37 = r21 - r23;
-    let r38 = c5 * r37;
-    let r39 = c1 * s5;
-    let r40 = r25 - r27;
-    let r41 = c5 * r40;
-    let r42 = s5 * r34;
-    let r43 = s1 * c5;
-    let r44 = s5 * r37;
-    let r45 = c1 * c5;
-    let r46 = s5 * r40;
-    let r55 = 0.05 * c1 + 0.4 * r0 + 0.35 * r4 - 0.35 * r5 + 0.06 * r17;
-    let r63 = r55 - 0.06 * r19 + 0.125 * s1 - 0.86 * r35 + 0.86 * r36;
-    let r64 = 0.125 * r42;
-    let r66 = 0.125 * r43;
-    let r80 = 0.05 * s1 + 0.4 * r1 + 0.35 * r6 - 0.35 * r7 + 0.06 * r21;
-    let r88 = r80 - 0.06 * r23 - 0.125 * c1 - 0.86 * r38 - 0.86 * r39;
-    let r89 = 0.125 * r44;
-    let r91 = 0.125 * r45;
-    let r97 = r42 + r43;
-    let r99 = r28 + r29;
-    let r101 = r44 - r45;
-    let r103 = r30 + r31;
-    let r106 = r32 + r33;
-    let r120 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r17 = c4 * r16; let r18 = s3 * r0 + c3 * r2; let r19 = s4 * r18; let r20 = r6 - r7; let r21 = c4 * r20;
+    let r22 = s3 * r1 + c3 * r3; let r23 = s4 * r22; let r24 = r8 + r9; let r25 = c4 * r24;
+    let r26 = s2 * s3 - c2 * c3; let r27 = s4 * r26; let r28 = s4 * r16; let r29 = c4 * r18;
+    let r30 = s4 * r20; let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = r17 - r19;
+    let r35 = c5 * r34; let r36 = s1 * s5; let r37 = r21 - r23; let r38 = c5 * r37; let r39 = c1 * s5;
+    let r40 = r25 - r27; let r41 = c5 * r40; let r42 = s5 * r34; let r43 = s1 * c5; let r44 = s5 * r37;
+    let r45 = c1 * c5; let r46 = s5 * r40; let r55 = 0.05 * c1 + 0.4 * r0 + 0.35 * r4 - 0.35 * r5 + 0.06 * r17;
+    let r63 = r55 - 0.06 * r19 + 0.125 * s1 - 0.86 * r35 + 0.86 * r36; let r64 = 0.125 * r42;
+    let r66 = 0.125 * r43; let r80 = 0.05 * s1 + 0.4 * r1 + 0.35 * r6 - 0.35 * r7 + 0.06 * r21;
+    let r88 = r80 - 0.06 * r23 - 0.125 * c1 - 0.86 * r38 - 0.86 * r39; let r89 = 0.125 * r44;
+    let r91 = 0.125 * r45; let r97 = r42 + r43; let r99 = r28 + r29; let r101 = r44 - r45;
+    let r103 = r30 + r31; let r106 = r32 + r33; let r120 = 0.4 * s2 + 0.35 * r8 + 0.35 * r9 + 0.06 * r25;
     let r126 = r120 - 0.06 * r27 - 0.125 * r32 - 0.125 * r33;
     let r129 = r89 + (r88 - r89 + r91 - 0.18 * r30 - 0.18 * r31);
     let r136 = r129 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
@@ -855,116 +769,37 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r17 = c4 * r16;
-    let r18 = s3 * r0 + c3 * r2;
-    let r19 = s4 * r18;
-    let r20 = r6 - r7;
-    let r21 = c4 * r20;
-    let r22 = s3 * r1 + c3 * r3;
-    let r23 = s4 * r22;
-    let r24 = r8 + r9;
-    let r25 = c4 * r24;
-    let r26 = s2 * s3 - c2 * c3;
-    let r27 = s4 * r26;
-    let r28 = s4 * r16;
-    let r29 = c4 * r18;
-    let r30 = s4 * r20;
-    let r31 = c4 * r22;
-    let r32 = s4 * r24;
-    let r33 = c4 * r26;
-    let r34 = r17 - r19;
-    let r35 = c5 * r34;
-    let r36 = s1 * s5;
-    let r37 = r21 - r23;
-    let r38 = c5 * r37;
-    let r39 = c1 * s5;
-    let r40 = r25 - r27;
-    let r41 = c5 * r40;
-    let r42 = s5 * r34;
-    let r43 = s1 * c5;
-    let r44 = s5 * r37;
-    let r45 = c1 * c5;
-    let r46 = s5 * r40;
-    let r47 = 0.05 * c1;
-    let r48 = 0.4 * r0;
-    let r50 = 0.35 * r4;
-    let r52 = 0.35 * r5;
-    let r54 = 0.06 * r17;
-    let r56 = 0.06 * r19;
-    let r58 = 0.125 * s1;
-    let r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35;
-    let r64 = 0.125 * r42;
-    let r66 = 0.125 * r43;
-    let r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
-    let r72 = 0.05 * s1;
-    let r73 = 0.4 * r1;
-    let r75 = 0.35 * r6;
-    let r77 = 0.35 * r7;
-    let r79 = 0.06 * r21;
-    let r81 = 0.06 * r23;
-    let r83 = 0.125 * c1;
-    let r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
-    let r89 = 0.125 * r44;
-    let r91 = 0.125 * r45;
-    let r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31;
-    let r97 = r42 + r43;
-    let r98 = c6 * r97;
-    let r99 = r28 + r29;
-    let r100 = s6 * r99;
-    let r101 = r44 - r45;
-    let r103 = r30 + r31;
-    let r106 = r32 + r33;
-    let r115 = 0.35 * r8;
-    let r117 = 0.35 * r9;
-    let r119 = 0.06 * r25;
-    let r121 = 0.06 * r27;
-    let r123 = 0.125 * r32;
-    let r125 = 0.125 * r33;
-    let r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125;
-    let r127 = 0.125 * r41;
-    let r128 = r126 + r127;
-    let r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
-    let r138 = r136 + 0.985 * r39;
-    let r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29;
-    let r148 = r144 + 0.985 * r35 - 0.985 * r36;
-    let r149 = r38 + r39;
-    let r150 = r35 - r36;
-    let r155 = s6 * r46 + c6 * r106;
-    let r156 = s6 * r101 + c6 * r103;
-    let r157 = s6 * r97 + c6 * r99;
-    let r163 = c6 * r46 - s6 * r106;
-    let r175 = r138 - r72;
-    let r177 = r148 - r47;
-    let r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125);
-    let r187 = r175 - r73;
-    let r189 = r177 - r48;
-    let r194 = r127 + (r119 - r121 - r123 - r125);
-    let r198 = r77 + (r187 - r75);
-    let r201 = r52 + (r189 - r50);
-    let r205 = r56 + (r201 - r54) - r58;
-    let r208 = r83 + (r81 + (r198 - r79));
-    let r209 = r106 - r41;
-    let r235 = c1 * r155;
-    let r236 = s1 * r155;
-    let r255 = s1 * r156 + c1 * r157;
-    let r258 = c1 * r163;
-    let r259 = s1 * r163;
-    let r260 = c6 * r101 - s6 * r103;
-    let r262 = r98 - r100;
-    let r280 = s1 * r260 + c1 * r262;
-    let r294 = 0.0 - c1 * r41;
-    let r296 = 0.0 - s1 * r41;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r17 = c4 * r16; let r18 = s3 * r0 + c3 * r2; let r19 = s4 * r18; let r20 = r6 - r7; let r21 = c4 * r20;
+    let r22 = s3 * r1 + c3 * r3; let r23 = s4 * r22; let r24 = r8 + r9; let r25 = c4 * r24;
+    let r26 = s2 * s3 - c2 * c3; let r27 = s4 * r26; let r28 = s4 * r16; let r29 = c4 * r18;
+    let r30 = s4 * r20; let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = r17 - r19;
+    let r35 = c5 * r34; let r36 = s1 * s5; let r37 = r21 - r23; let r38 = c5 * r37; let r39 = c1 * s5;
+    let r40 = r25 - r27; let r41 = c5 * r40; let r42 = s5 * r34; let r43 = s1 * c5; let r44 = s5 * r37;
+    let r45 = c1 * c5; let r46 = s5 * r40; let r47 = 0.05 * c1; let r48 = 0.4 * r0; let r50 = 0.35 * r4;
+    let r52 = 0.35 * r5; let r54 = 0.06 * r17; let r56 = 0.06 * r19; let r58 = 0.125 * s1;
+    let r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35; let r64 = 0.125 * r42;
+    let r66 = 0.125 * r43; let r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
+    let r72 = 0.05 * s1; let r73 = 0.4 * r1; let r75 = 0.35 * r6; let r77 = 0.35 * r7; let r79 = 0.06 * r21;
+    let r81 = 0.06 * r23; let r83 = 0.125 * c1; let r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
+    let r89 = 0.125 * r44; let r91 = 0.125 * r45;
+    let r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31; let r97 = r42 + r43; let r98 = c6 * r97;
+    let r99 = r28 + r29; let r100 = s6 * r99; let r101 = r44 - r45; let r103 = r30 + r31; let r106 = r32 + r33;
+    let r115 = 0.35 * r8; let r117 = 0.35 * r9; let r119 = 0.06 * r25; let r121 = 0.06 * r27;
+    let r123 = 0.125 * r32; let r125 = 0.125 * r33;
+    let r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125; let r127 = 0.125 * r41;
+    let r128 = r126 + r127; let r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
+    let r138 = r136 + 0.985 * r39; let r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29;
+    let r148 = r144 + 0.985 * r35 - 0.985 * r36; let r149 = r38 + r39; let r150 = r35 - r36;
+    let r155 = s6 * r46 + c6 * r106; let r156 = s6 * r101 + c6 * r103; let r157 = s6 * r97 + c6 * r99;
+    let r163 = c6 * r46 - s6 * r106; let r175 = r138 - r72; let r177 = r148 - r47;
+    let r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125); let r187 = r175 - r73;
+    let r189 = r177 - r48; let r194 = r127 + (r119 - r121 - r123 - r125); let r198 = r77 + (r187 - r75);
+    let r201 = r52 + (r189 - r50); let r205 = r56 + (r201 - r54) - r58; let r208 = r83 + (r81 + (r198 - r79));
+    let r209 = r106 - r41; let r235 = c1 * r155; let r236 = s1 * r155; let r255 = s1 * r156 + c1 * r157;
+    let r258 = c1 * r163; let r259 = s1 * r163; let r260 = c6 * r101 - s6 * r103; let r262 = r98 - r100;
+    let r280 = s1 * r260 + c1 * r262; let r294 = 0.0 - c1 * r41; let r296 = 0.0 - s1 * r41;
     let r299 = 0.0 - (s1 * r149 + c1 * r150);
     [
         [0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0],
@@ -990,7 +825,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1001,20 +836,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1043,6 +879,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1385,7 +1224,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1454,12 +1297,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1470,6 +1318,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1865,8 +1716,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

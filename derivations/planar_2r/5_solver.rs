@@ -316,6 +316,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -341,6 +343,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -358,7 +362,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -374,8 +378,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
+    let px = target[0]; let py = target[1];
     let magnitude = f64::max(f64::max(0.9, f64::abs(px)), f64::abs(py));
     Parameters { px, py, magnitude }
 }
@@ -418,8 +421,7 @@ struct Shared1 { r3: f64 }
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r3 * shared.r3 - 0.16000000000000003, 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let c2 = 0.0 - 6.249999999999999 * (0.4 * shared.r3);
-        let s2 = 6.249999999999999 * (0.4 * w2);
+        let c2 = 0.0 - 6.249999999999999 * (0.4 * shared.r3); let s2 = 6.249999999999999 * (0.4 * w2);
         let next = Known { branch: i0, last: 2, close: roots0.close, c2, s2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -428,11 +430,8 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Shoulder.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = 0.4 * known.s2;
-    let r2 = 0.4 * known.c2 + 0.5;
-    let r3 = 0.0 - p.px;
-    let r4 = f64::abs(p.magnitude);
+    let before = answers.candidates; let r0 = 0.4 * known.s2; let r2 = 0.4 * known.c2 + 0.5;
+    let r3 = 0.0 - p.px; let r4 = f64::abs(p.magnitude);
     let shared = &Shared2 { r0, r2, r3, r4 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -449,11 +448,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     if !is_away(r7, 89.11999999999999) {
         return;
     }
-    let r10 = p.py * shared.r2 - p.px * shared.r0;
-    let r14 = p.px * shared.r2 - (0.0 - p.py * shared.r0);
-    let r19 = 1.0 / f64::max(r14 * r14 + r10 * r10, 0.0).sqrt();
-    let c1 = r14 * r19;
-    let s1 = r10 * r19;
+    let r10 = p.py * shared.r2 - p.px * shared.r0; let r14 = p.px * shared.r2 - (0.0 - p.py * shared.r0);
+    let r19 = 1.0 / f64::max(r14 * r14 + r10 * r10, 0.0).sqrt(); let c1 = r14 * r19; let s1 = r10 * r19;
     let at = [c1, s1, known.c2, known.s2];
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, known.free);
 }
@@ -462,8 +458,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
-    let r7 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    let r8 = 0.01 * shared.r4;
+    let r7 = shared.r0 * shared.r0 + shared.r2 * shared.r2; let r8 = 0.01 * shared.r4;
     if !(is_near(r7, 5.57e-7, NEAR) && is_near(shared.r3, r8, NEAR) && is_near(p.py, r8, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r7, 5.57e-7, BESIDE) && is_near(shared.r3, r8, BESIDE) && is_near(p.py, r8, BESIDE))) {
         return;
     }
@@ -528,10 +523,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * s2;
+    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2;
     [
         [0.0 - (0.5 * s1 + 0.4 * r2 + 0.4 * r3), 0.0 - 0.4 * (r2 + r3)],
         [0.5 * c1 + 0.4 * r0 - 0.4 * r1, 0.4 * (r0 - r1)],
@@ -546,7 +538,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -557,20 +549,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -599,6 +592,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -937,7 +933,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1006,12 +1006,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1022,6 +1027,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1417,8 +1425,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -317,6 +317,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -342,6 +344,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -359,7 +363,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -375,10 +379,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let cphi = target[2].cos();
-    let sphi = target[2].sin();
+    let px = target[0]; let py = target[1]; let cphi = target[2].cos(); let sphi = target[2].sin();
     let magnitude = f64::max(f64::max(f64::max(f64::max(1.05, f64::abs(px)), f64::abs(py)), f64::abs(cphi)), f64::abs(sphi));
     Parameters { px, py, cphi, sphi, magnitude }
 }
@@ -423,8 +424,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13 - 0.16000000000000003;
     let roots0 = square_roots(r15, 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let c2 = 0.0 - 6.249999999999999 * (0.4 * shared.r13);
-        let s2 = 6.249999999999999 * (0.4 * w2);
+        let c2 = 0.0 - 6.249999999999999 * (0.4 * shared.r13); let s2 = 6.249999999999999 * (0.4 * w2);
         let next = Known { branch: i0, last: 2, close: roots0.close, c2, s2, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -433,12 +433,8 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Shoulder.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = 0.4 * known.s2;
-    let r2 = 0.4 * known.c2 + 0.5;
-    let r4 = p.py - 0.15 * p.sphi;
-    let r6 = 0.15 * p.cphi - p.px;
-    let r8 = f64::abs(p.magnitude + 1.95);
+    let before = answers.candidates; let r0 = 0.4 * known.s2; let r2 = 0.4 * known.c2 + 0.5;
+    let r4 = p.py - 0.15 * p.sphi; let r6 = 0.15 * p.cphi - p.px; let r8 = f64::abs(p.magnitude + 1.95);
     let shared = &Shared2 { r0, r2, r4, r6, r8 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -457,9 +453,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
     let r15 = shared.r0 * shared.r6 - (0.0 - shared.r2 * shared.r4);
     let r18 = shared.r0 * shared.r4 - shared.r2 * shared.r6;
-    let r23 = 1.0 / f64::max(r18 * r18 + r15 * r15, 0.0).sqrt();
-    let c1 = r18 * r23;
-    let s1 = r15 * r23;
+    let r23 = 1.0 / f64::max(r18 * r18 + r15 * r15, 0.0).sqrt(); let c1 = r18 * r23; let s1 = r15 * r23;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c1, s1, ..*known };
     block_3(p, &next, answers);
 }
@@ -468,8 +462,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
-    let r11 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    let r12 = 0.01 * shared.r8;
+    let r11 = shared.r0 * shared.r0 + shared.r2 * shared.r2; let r12 = 0.01 * shared.r8;
     if !(is_near(r11, 5.57e-7, NEAR) && is_near(shared.r6, r12, NEAR) && is_near(shared.r4, r12, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r11, 5.57e-7, BESIDE) && is_near(shared.r6, r12, BESIDE) && is_near(shared.r4, r12, BESIDE))) {
         return;
     }
@@ -482,10 +475,8 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: Wrist.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.sphi * known.c1 - p.cphi * known.s1;
-    let r6 = p.cphi * known.c1 + p.sphi * known.s1;
-    let r10 = known.c2 * r6 + known.s2 * r4;
-    let r11 = known.c2 * r4 - known.s2 * r6;
+    let r4 = p.sphi * known.c1 - p.cphi * known.s1; let r6 = p.cphi * known.c1 + p.sphi * known.s1;
+    let r10 = known.c2 * r6 + known.s2 * r4; let r11 = known.c2 * r4 - known.s2 * r6;
     let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
@@ -503,10 +494,8 @@ struct Shared3 { r10: f64, r11: f64 }
 /// Chart 1 of block 3: generic.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11;
-    let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
-    let c3 = shared.r10 * r16;
-    let s3 = shared.r11 * r16;
+    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11; let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
+    let c3 = shared.r10 * r16; let s3 = shared.r11 * r16;
     let at = [known.c1, known.s1, known.c2, known.s2, c3, s3];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
@@ -518,15 +507,8 @@ const TIP: usize = 4;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * s2;
-    let r5 = c3 * (r0 - r1);
-    let r6 = r2 + r3;
-    let r7 = s3 * r6;
-    let r8 = c3 * r6;
-    let r10 = s3 * (r1 - r0);
+    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = c3 * (r0 - r1);
+    let r6 = r2 + r3; let r7 = s3 * r6; let r8 = c3 * r6; let r10 = s3 * (r1 - r0);
     let r19 = 0.5 * s1 + 0.4 * r2 + 0.4 * r3 + 0.15 * r8 - 0.15 * r10;
     let r29 = 0.5 * c1 + 0.4 * r0 - 0.4 * r1 + 0.15 * r5 - 0.15 * r7;
     [
@@ -579,25 +561,10 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * s2;
-    let r5 = c3 * (r0 - r1);
-    let r6 = r2 + r3;
-    let r7 = s3 * r6;
-    let r8 = c3 * r6;
-    let r10 = s3 * (r1 - r0);
-    let r12 = 0.4 * r2;
-    let r14 = 0.4 * r3;
-    let r16 = 0.15 * r8;
-    let r18 = 0.15 * r10;
-    let r22 = 0.4 * r0;
-    let r24 = 0.4 * r1;
-    let r26 = 0.15 * r5;
-    let r28 = 0.15 * r7;
-    let r31 = r5 - r7;
-    let r45 = r10 - r8;
+    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = c3 * (r0 - r1);
+    let r6 = r2 + r3; let r7 = s3 * r6; let r8 = c3 * r6; let r10 = s3 * (r1 - r0); let r12 = 0.4 * r2;
+    let r14 = 0.4 * r3; let r16 = 0.15 * r8; let r18 = 0.15 * r10; let r22 = 0.4 * r0; let r24 = 0.4 * r1;
+    let r26 = 0.15 * r5; let r28 = 0.15 * r7; let r31 = r5 - r7; let r45 = r10 - r8;
     [
         [r18 - (0.5 * s1 + r12 + r14 + r16), r18 - (r16 + (r12 + r14)), 0.0 - 0.15 * (r8 - r10)],
         [0.5 * c1 + r22 - r24 + r26 - r28, r26 + (r22 - r24) - r28, 0.15 * r31],
@@ -614,7 +581,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -625,20 +592,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -667,6 +635,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1006,7 +977,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1075,12 +1050,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1091,6 +1071,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1492,8 +1475,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -318,6 +318,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -343,6 +345,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -360,7 +364,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -376,12 +380,8 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let cphi = target[2].cos();
-    let sphi = target[2].sin();
-    let c1 = target[3].cos();
-    let s1 = target[3].sin();
+    let px = target[0]; let py = target[1]; let cphi = target[2].cos(); let sphi = target[2].sin();
+    let c1 = target[3].cos(); let s1 = target[3].sin();
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.15, f64::abs(px)), f64::abs(py)), f64::abs(cphi)), f64::abs(sphi)), f64::abs(c1)), f64::abs(s1));
     Parameters { px, py, cphi, sphi, c1, s1, magnitude }
 }
@@ -417,8 +417,7 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Chart 1 of block 1: given.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let c1_ = p.c1;
-    let s1_ = p.s1;
+    let c1_ = p.c1; let s1_ = p.s1;
     let next = Known { branch: 0, last: 1, close: false, c1_, s1_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
 }
@@ -426,11 +425,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: Elbow.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.px - 0.1 * p.cphi;
-    let r4 = p.py - 0.1 * p.sphi;
+    let r1 = p.px - 0.1 * p.cphi; let r4 = p.py - 0.1 * p.sphi;
     let r13 = 2.0 * (p.px * r1) + 2.0 * (p.py * r4) - p.px * p.px;
-    let r18 = r13 - p.py * p.py - 0.8 * (known.c1_ * r1) - 0.8 * (known.s1_ * r4);
-    let r19 = 0.0425 - r18;
+    let r18 = r13 - p.py * p.py - 0.8 * (known.c1_ * r1) - 0.8 * (known.s1_ * r4); let r19 = 0.0425 - r18;
     let shared = &Shared2 { r19 };
     chart_2_1(p, known, shared, answers);
 }
@@ -444,8 +441,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r21 = shared.r19 * shared.r19 - 0.04409999999999999;
     let roots0 = square_roots(r21, 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r25 = 0.0 - 22.67573696145125 * (0.21 * shared.r19);
-        let c3 = r25;
+        let r25 = 0.0 - 22.67573696145125 * (0.21 * shared.r19); let c3 = r25;
         let s3 = 22.67573696145125 * (0.21 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
@@ -455,16 +451,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Shoulder.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = p.px - 0.1 * p.cphi;
-    let r4 = p.py - 0.1 * p.sphi;
-    let r8 = 0.3 * known.s3;
-    let r10 = 0.3 * known.c3 + 0.35;
-    let r11 = known.c1_ * r4 - known.s1_ * r1;
-    let r13 = 0.4 - (known.c1_ * r1 + known.s1_ * r4);
-    let r14 = 2.0 * p.magnitude;
-    let r17 = f64::abs(r14 + 4.4);
-    let r18 = f64::abs(r14 + 4.8);
+    let before = answers.candidates; let r1 = p.px - 0.1 * p.cphi; let r4 = p.py - 0.1 * p.sphi;
+    let r8 = 0.3 * known.s3; let r10 = 0.3 * known.c3 + 0.35; let r11 = known.c1_ * r4 - known.s1_ * r1;
+    let r13 = 0.4 - (known.c1_ * r1 + known.s1_ * r4); let r14 = 2.0 * p.magnitude;
+    let r17 = f64::abs(r14 + 4.4); let r18 = f64::abs(r14 + 4.8);
     let shared = &Shared3 { r8, r10, r11, r13, r17, r18 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -483,9 +473,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let r25 = shared.r8 * shared.r13 - (0.0 - shared.r10 * shared.r11);
     let r28 = shared.r8 * shared.r11 - shared.r10 * shared.r13;
-    let r33 = 1.0 / f64::max(r28 * r28 + r25 * r25, 0.0).sqrt();
-    let c2 = r28 * r33;
-    let s2 = r25 * r33;
+    let r33 = 1.0 / f64::max(r28 * r28 + r25 * r25, 0.0).sqrt(); let c2 = r28 * r33; let s2 = r25 * r33;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, ..*known };
     block_4(p, &next, answers);
 }
@@ -507,12 +495,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: Wrist.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.sphi * known.c1_ - p.cphi * known.s1_;
-    let r6 = p.cphi * known.c1_ + p.sphi * known.s1_;
-    let r10 = known.c2 * r4 - known.s2 * r6;
-    let r12 = known.c2 * r6 + known.s2 * r4;
-    let r16 = known.c3 * r12 + known.s3 * r10;
-    let r17 = known.c3 * r10 - known.s3 * r12;
+    let r4 = p.sphi * known.c1_ - p.cphi * known.s1_; let r6 = p.cphi * known.c1_ + p.sphi * known.s1_;
+    let r10 = known.c2 * r4 - known.s2 * r6; let r12 = known.c2 * r6 + known.s2 * r4;
+    let r16 = known.c3 * r12 + known.s3 * r10; let r17 = known.c3 * r10 - known.s3 * r12;
     let shared = &Shared4 { r16, r17 };
     chart_4_1(p, known, shared, answers);
 }
@@ -530,10 +515,8 @@ struct Shared4 { r16: f64, r17: f64 }
 /// Chart 1 of block 4: generic.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17;
-    let r22 = 1.0 / f64::max(r20, 0.0).sqrt();
-    let c4 = shared.r16 * r22;
-    let s4 = shared.r17 * r22;
+    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17; let r22 = 1.0 / f64::max(r20, 0.0).sqrt();
+    let c4 = shared.r16 * r22; let s4 = shared.r17 * r22;
     let at = [known.c1_, known.s1_, known.c2, known.s2, known.c3, known.s3, c4, s4];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
@@ -545,13 +528,9 @@ const TIP: usize = 6;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1_, s1_, c2, s2, c3, s3, c4, s4] = *at;
-    let r2 = c1_ * c2 - s1_ * s2;
-    let r5 = s1_ * c2 + c1_ * s2;
-    let r16 = c3 * r2 - s3 * r5;
-    let r19 = c3 * r5 + s3 * r2;
-    let r25 = 0.4 * (c1_ - r2) + 0.75 * r2 - 0.75 * r16 + 1.05 * r16;
-    let r27 = 0.4 * (s1_ - r5) + 0.75 * r5 - 0.75 * r19 + 1.05 * r19;
-    let r30 = c4 * r16 - s4 * r19;
+    let r2 = c1_ * c2 - s1_ * s2; let r5 = s1_ * c2 + c1_ * s2; let r16 = c3 * r2 - s3 * r5;
+    let r19 = c3 * r5 + s3 * r2; let r25 = 0.4 * (c1_ - r2) + 0.75 * r2 - 0.75 * r16 + 1.05 * r16;
+    let r27 = 0.4 * (s1_ - r5) + 0.75 * r5 - 0.75 * r19 + 1.05 * r19; let r30 = c4 * r16 - s4 * r19;
     let r33 = c4 * r19 + s4 * r16;
     [
         r25 - 1.05 * r30 + 1.15 * r30,
@@ -606,19 +585,11 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1_, s1_, c2, s2, c3, s3, c4, s4] = *at;
-    let r2 = c1_ * c2 - s1_ * s2;
-    let r5 = s1_ * c2 + c1_ * s2;
-    let r11 = 0.4 * (c1_ - r2) + 0.75 * r2;
-    let r13 = 0.4 * (s1_ - r5) + 0.75 * r5;
-    let r16 = c3 * r2 - s3 * r5;
-    let r19 = c3 * r5 + s3 * r2;
-    let r25 = r11 - 0.75 * r16 + 1.05 * r16;
-    let r27 = r13 - 0.75 * r19 + 1.05 * r19;
-    let r30 = c4 * r16 - s4 * r19;
-    let r33 = c4 * r19 + s4 * r16;
-    let r39 = r25 - 1.05 * r30 + 1.15 * r30;
-    let r41 = r27 - 1.05 * r33 + 1.15 * r33;
-    let r48 = 0.0 - r33;
+    let r2 = c1_ * c2 - s1_ * s2; let r5 = s1_ * c2 + c1_ * s2; let r11 = 0.4 * (c1_ - r2) + 0.75 * r2;
+    let r13 = 0.4 * (s1_ - r5) + 0.75 * r5; let r16 = c3 * r2 - s3 * r5; let r19 = c3 * r5 + s3 * r2;
+    let r25 = r11 - 0.75 * r16 + 1.05 * r16; let r27 = r13 - 0.75 * r19 + 1.05 * r19;
+    let r30 = c4 * r16 - s4 * r19; let r33 = c4 * r19 + s4 * r16; let r39 = r25 - 1.05 * r30 + 1.15 * r30;
+    let r41 = r27 - 1.05 * r33 + 1.15 * r33; let r48 = 0.0 - r33;
     [
         [0.0 - r41, 0.4 * s1_ - r41, r13 - r41, r27 - r41],
         [r39, r39 - 0.4 * c1_, r39 - r11, r39 - r25],
@@ -637,7 +608,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -648,20 +619,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -690,6 +662,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1030,7 +1005,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1099,12 +1078,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1115,6 +1099,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1516,8 +1503,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -317,6 +317,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -342,6 +344,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -359,7 +363,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -375,9 +379,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
+    let px = target[0]; let py = target[1]; let pz = target[2];
     let magnitude = f64::max(f64::max(f64::max(0.8600000000000001, f64::abs(px)), f64::abs(py)), f64::abs(pz));
     Parameters { px, py, pz, magnitude }
 }
@@ -416,20 +418,14 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r0 = p.pz * p.pz;
-    let r1 = p.px * p.px;
-    let r2 = r0 + r1;
-    let r3 = p.magnitude * p.magnitude;
+    let r0 = p.pz * p.pz; let r1 = p.px * p.px; let r2 = r0 + r1; let r3 = p.magnitude * p.magnitude;
     let r4 = r3 + r3;
     if !is_away(r2, 16.0 * r4) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r0 - r1, f64::max(r4, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r0 - r1, f64::max(r4, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r11 = 1.0 / r2;
-        let c1 = p.px * w1 * r11;
-        let s1 = 0.0 - p.pz * w1 * r11;
+        let r11 = 1.0 / r2; let c1 = p.px * w1 * r11; let s1 = 0.0 - p.pz * w1 * r11;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -453,11 +449,8 @@ fn chart_1_2(p: &Parameters, before: usize, answers: &mut Answers<'_>) {
 /// Block 2: Pitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.py - 0.66;
-    let r3 = p.pz * known.s1 - p.px * known.c1;
-    let r7 = f64::abs(3.0 * p.magnitude + 3.3);
-    let r8 = f64::abs(2.0 * p.magnitude);
+    let before = answers.candidates; let r2 = p.py - 0.66; let r3 = p.pz * known.s1 - p.px * known.c1;
+    let r7 = f64::abs(3.0 * p.magnitude + 3.3); let r8 = f64::abs(2.0 * p.magnitude);
     let shared = &Shared2 { r2, r3, r7, r8 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -477,18 +470,14 @@ struct Shared2 { r2: f64, r3: f64, r7: f64, r8: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r9 = shared.r2 * shared.r2;
-    let r10 = shared.r3 * shared.r3;
-    let r11 = r9 + r10;
+    let r9 = shared.r2 * shared.r2; let r10 = shared.r3 * shared.r3; let r11 = r9 + r10;
     let r14 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
     if !is_away(r11, 16.0 * r14) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f1 * f64::max(r14, 0.0).sqrt());
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r22 = 1.0 / r11;
-        let c2 = 0.0 - w2 * shared.r3 * r22;
-        let s2 = w2 * shared.r2 * r22;
+        let r22 = 1.0 / r11; let c2 = 0.0 - w2 * shared.r3 * r22; let s2 = w2 * shared.r2 * r22;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c2, s2, ..*known };
         block_3(p, &next, answers);
     }
@@ -512,8 +501,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: Slide.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r3 = known.c2 * (p.px * known.c1 - p.pz * known.s1);
-    let r7 = r3 + known.s2 * (p.py - 0.66) - 0.2;
+    let r3 = known.c2 * (p.px * known.c1 - p.pz * known.s1); let r7 = r3 + known.s2 * (p.py - 0.66) - 0.2;
     let shared = &Shared3 { r7 };
     chart_3_1(p, known, shared, answers);
 }
@@ -531,8 +519,7 @@ struct Shared3 { r7: f64 }
 /// Chart 1 of block 3: generic.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let d3 = shared.r7;
-    let at = [known.c1, known.s1, known.c2, known.s2, d3];
+    let d3 = shared.r7; let at = [known.c1, known.s1, known.c2, known.s2, d3];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
 
@@ -543,8 +530,7 @@ const TIP: usize = 3;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
+    let r0 = c1 * c2; let r1 = s1 * c2;
     [
         d3 * r0 + 0.2 * r0,
         s2 * d3 + 0.2 * s2 + 0.66,
@@ -596,10 +582,7 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r8 = s2 * d3 + 0.2 * s2;
-    let r10 = d3 * r0 + 0.2 * r0;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r8 = s2 * d3 + 0.2 * s2; let r10 = d3 * r0 + 0.2 * r0;
     let r12 = d3 * r1 + 0.2 * r1;
     [
         [0.0 - r12, 0.0 - c1 * r8, r0],
@@ -616,7 +599,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -627,20 +610,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -669,6 +653,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1011,7 +998,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1080,12 +1071,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1096,6 +1092,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1491,8 +1490,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

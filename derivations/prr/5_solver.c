@@ -132,6 +132,8 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -153,6 +155,8 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 #define PI 3.141592653589793
 #define TAU 6.283185307179586
 
@@ -480,6 +484,19 @@ static bool newton_step(const Parameters *p, const double *q, double damping, do
     return substituted(columns, step);
 }
 
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold,
+ * or a root is double. */
+static double regularity(const Parameters *p, const double *q)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
+    triangle(p, q, 0.0, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        least = fmin(least, fabs(columns[i][i]));
+        most = fmax(most, fabs(columns[i][i]));
+    }
+    return least / most;
+}
+
 /* By joint: whether it turns. */
 static const bool IS_ANGLE[JOINTS] = { false, true, true };
 
@@ -563,7 +580,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -582,6 +600,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit)) {
@@ -609,11 +630,19 @@ static void polish(const Parameters *p, double *q, Fit *fit)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -738,7 +767,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE));
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound);
 }
 
 /* Whether two answers, with their relative residuals, are one. */
@@ -1069,7 +1102,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 /* Block 3: Elbow. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    const double r4 = p->cphi * known->c2 + p->sphi * known->s2, r5 = p->sphi * known->c2 - p->cphi * known->s2;
+    const double r4 = p->cphi * known->c2 + p->sphi * known->s2;
+    const double r5 = p->sphi * known->c2 - p->cphi * known->s2;
     const Shared3 own = { r4, r5 }, *const shared = &own;
     chart_3_1(p, known, shared, answers);
 }
@@ -1082,8 +1116,8 @@ typedef struct {
 /* Chart 1 of block 2: generic. */
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1, r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0));
-    const double c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
+    const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1;
+    const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
     Known next = *known;
     next.c2 = c2;
     next.s2 = s2;
@@ -1121,7 +1155,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 /* Block 1: Rail. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    const double r1 = p->px + 0.3 * p->sphi, r10 = 2.0 * (p->px * r1) + 2.0 * (p->pz * (p->pz + 0.3 * p->cphi));
+    const double r1 = p->px + 0.3 * p->sphi;
+    const double r10 = 2.0 * (p->px * r1) + 2.0 * (p->pz * (p->pz + 0.3 * p->cphi));
     const double r13 = r10 - p->px * p->px - p->pz * p->pz - 0.1125;
     const Shared1 own = { r1, r13 }, *const shared = &own;
     chart_1_1(p, shared, answers);

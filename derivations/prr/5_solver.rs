@@ -289,6 +289,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -314,6 +316,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
 
 /// Parameters of the equations.
@@ -322,10 +326,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let pz = target[1];
-    let cphi = target[2].cos();
-    let sphi = target[2].sin();
+    let px = target[0]; let pz = target[1]; let cphi = target[2].cos(); let sphi = target[2].sin();
     Parameters { px, pz, cphi, sphi, }
 }
 
@@ -345,8 +346,7 @@ const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, d1: 0.0, 
 
 /// Block 1: Rail.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = p.px + 0.3 * p.sphi;
-    let r10 = 2.0 * (p.px * r1) + 2.0 * (p.pz * (p.pz + 0.3 * p.cphi));
+    let r1 = p.px + 0.3 * p.sphi; let r10 = 2.0 * (p.px * r1) + 2.0 * (p.pz * (p.pz + 0.3 * p.cphi));
     let r13 = r10 - p.px * p.px - p.pz * p.pz - 0.1125;
     let shared = &Shared1 { r1, r13 };
     chart_1_1(p, shared, answers);
@@ -369,8 +369,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Shoulder.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.pz + 0.3 * p.cphi;
-    let r4 = 0.3 * p.sphi - (known.d1 - p.px);
+    let r1 = p.pz + 0.3 * p.cphi; let r4 = 0.3 * p.sphi - (known.d1 - p.px);
     let shared = &Shared2 { r1, r4 };
     chart_2_1(p, known, shared, answers);
 }
@@ -381,11 +380,8 @@ struct Shared2 { r1: f64, r4: f64 }
 /// Chart 1 of block 2: generic.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r5 = 0.45 * shared.r4;
-    let r6 = 0.45 * shared.r1;
-    let r11 = 1.0 / f64::max(r6 * r6 + r5 * r5, 0.0).sqrt();
-    let c2 = 0.0 - r6 * r11;
-    let s2 = 0.0 - r5 * r11;
+    let r5 = 0.45 * shared.r4; let r6 = 0.45 * shared.r1;
+    let r11 = 1.0 / f64::max(r6 * r6 + r5 * r5, 0.0).sqrt(); let c2 = 0.0 - r6 * r11; let s2 = 0.0 - r5 * r11;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_3(p, &next, answers);
 }
@@ -393,8 +389,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Elbow.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.cphi * known.c2 + p.sphi * known.s2;
-    let r5 = p.sphi * known.c2 - p.cphi * known.s2;
+    let r4 = p.cphi * known.c2 + p.sphi * known.s2; let r5 = p.sphi * known.c2 - p.cphi * known.s2;
     let shared = &Shared3 { r4, r5 };
     chart_3_1(p, known, shared, answers);
 }
@@ -405,11 +400,8 @@ struct Shared3 { r4: f64, r5: f64 }
 /// Chart 1 of block 3: generic.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
-    let r10 = 1.0 / f64::max(r8, 0.0).sqrt();
-    let c3 = shared.r4 * r10;
-    let s3 = shared.r5 * r10;
-    let at = [known.d1, known.c2, known.s2, c3, s3];
+    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5; let r10 = 1.0 / f64::max(r8, 0.0).sqrt();
+    let c3 = shared.r4 * r10; let s3 = shared.r5 * r10; let at = [known.d1, known.c2, known.s2, c3, s3];
     answers.finish(p, known.branch, known.last, known.close, &at, NONE_FREE);
 }
 
@@ -420,10 +412,7 @@ const TIP: usize = 4;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [d1, c2, s2, c3, s3] = *at;
-    let r1 = c2 * c3;
-    let r2 = s2 * s3;
-    let r3 = s2 * c3;
-    let r4 = c2 * s3;
+    let r1 = c2 * c3; let r2 = s2 * s3; let r3 = s2 * c3; let r4 = c2 * s3;
     [
         d1 - 0.45 * s2 - 0.3 * r4 - 0.3 * r3,
         0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1),
@@ -476,13 +465,8 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [_, c2, s2, c3, s3] = *at;
-    let r1 = c2 * c3;
-    let r2 = s2 * s3;
-    let r3 = s2 * c3;
-    let r4 = c2 * s3;
-    let r19 = r3 + r4;
-    let r21 = r1 - r2;
-    let r29 = 0.0 - r19;
+    let r1 = c2 * c3; let r2 = s2 * s3; let r3 = s2 * c3; let r4 = c2 * s3; let r19 = r3 + r4;
+    let r21 = r1 - r2; let r29 = 0.0 - r19;
     [
         [1.0, 0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1), 0.3 * (r2 - r1)],
         [0.0, 0.3 * r3 + (0.45 * s2 + 0.3 * r4), 0.3 * r19],
@@ -739,7 +723,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -807,12 +795,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit)) -> ([f64; JOINTS], Fit) {
         }
         let Some(next) = improved(p, &end) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -823,6 +816,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JO
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative);
@@ -910,6 +906,18 @@ fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
 fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
     substituted(&triangle(p, q, damping))
+}
+
+/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+/// hold, or a root is double.
+fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
+    let columns = triangle(p, q, 0.0);
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for i in 0..JOINTS {
+        let pivot = columns[i][i].abs();
+        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
+    }
+    least / most
 }
 
 /// The triangle of a step's equations, the right side in the last column.

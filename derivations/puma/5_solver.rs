@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.674, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -475,9 +470,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = 0.15 * p.r13_ - p.px;
-    let r3 = p.pz - 0.15 * p.r33_;
+    let before = answers.candidates; let r1 = 0.15 * p.r13_ - p.px; let r3 = p.pz - 0.15 * p.r33_;
     let r5 = f64::abs(p.magnitude + 3.198);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
@@ -491,20 +484,14 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r17 = 1.0 / r8;
-        let c1 = 0.0 - w1 * shared.r3 * r17;
-        let s1 = w1 * shared.r1 * r17;
+        let r17 = 1.0 / r8; let c1 = 0.0 - w1 * shared.r3 * r17; let s1 = w1 * shared.r1 * r17;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -514,8 +501,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderYaw.
 fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
-    let r9 = shared.r5 * shared.r5;
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3; let r9 = shared.r5 * shared.r5;
     if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE)) {
         return;
     }
@@ -531,8 +517,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r14 = 2.0 * (p.px * (p.px - 0.15 * p.r13_)) + 2.0 * (p.py * (p.py - 0.15 * p.r23_));
     let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.15 * p.r33_)) - p.px * p.px;
-    let r21 = r17 - p.py * p.py - p.pz * p.pz - 1.32 * p.py;
-    let r24 = r21 + 0.198 * p.r23_ + 0.084852;
+    let r21 = r17 - p.py * p.py - p.pz * p.pz - 1.32 * p.py; let r24 = r21 + 0.198 * p.r23_ + 0.084852;
     let shared = &Shared2 { r24 };
     chart_2_1(p, known, shared, answers);
 }
@@ -553,8 +538,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r26 = shared.r24 * shared.r24 - 0.13931406950400002;
     let roots0 = square_roots(r26, 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let c3 = 7.178025906215364 * (0.373248 * shared.r24);
-        let s3 = 7.178025906215364 * (0.373248 * w3);
+        let c3 = 7.178025906215364 * (0.373248 * shared.r24); let s3 = 7.178025906215364 * (0.373248 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
     }
@@ -563,13 +547,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: ShoulderPitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r7 = 0.432 * (known.c3 + 1.0);
-    let r8 = 0.432 * known.s3;
+    let before = answers.candidates; let r7 = 0.432 * (known.c3 + 1.0); let r8 = 0.432 * known.s3;
     let r11 = p.py - 0.15 * p.r23_ - 0.66;
     let r12 = known.c1 * (p.pz - 0.15 * p.r33_) + known.s1 * (p.px - 0.15 * p.r13_);
-    let r16 = f64::abs(p.magnitude + 3.858);
-    let r17 = f64::abs(2.0 * p.magnitude + 6.396);
+    let r16 = f64::abs(p.magnitude + 3.858); let r17 = f64::abs(2.0 * p.magnitude + 6.396);
     let shared = &Shared3 { r7, r8, r11, r12, r16, r17 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -586,12 +567,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r20, 414.76608000000004) {
         return;
     }
-    let f2 = 1.0;
-    let r23 = shared.r7 * shared.r12 - shared.r8 * shared.r11;
+    let f2 = 1.0; let r23 = shared.r7 * shared.r12 - shared.r8 * shared.r11;
     let r27 = shared.r8 * shared.r12 - (0.0 - shared.r7 * shared.r11);
-    let r32 = 1.0 / f64::max(r27 * r27 + r23 * r23, 0.0).sqrt();
-    let c2 = r27 * r32;
-    let s2 = r23 * r32;
+    let r32 = 1.0 / f64::max(r27 * r27 + r23 * r23, 0.0).sqrt(); let c2 = r27 * r32; let s2 = r23 * r32;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -614,11 +592,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: WristYaw.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
+    let before = answers.candidates; let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
     let r11 = known.c3 * (known.c2 * r5 - p.r23_ * known.s2);
-    let r12 = known.s3 * (p.r23_ * known.c2 + known.s2 * r5);
-    let r13 = p.r33_ * known.s1 - p.r13_ * known.c1;
+    let r12 = known.s3 * (p.r23_ * known.c2 + known.s2 * r5); let r13 = p.r33_ * known.s1 - p.r13_ * known.c1;
     let r14 = r11 - r12;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
@@ -639,17 +615,13 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (20.591260281974 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r24 = 1.0 / r17;
-        let c4 = 0.0 - w4 * shared.r14 * r24;
-        let s4 = w4 * shared.r13 * r24;
+        let r24 = 1.0 / r17; let c4 = 0.0 - w4 * shared.r14 * r24; let s4 = w4 * shared.r13 * r24;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -672,12 +644,9 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: WristPitch.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
-    let r9 = p.r23_ * known.c2 + known.s2 * r5;
-    let r11 = known.c2 * r5 - p.r23_ * known.s2;
-    let r18 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1);
-    let r19 = known.c3 * r9 + known.s3 * r11;
-    let r20 = known.c4 * (known.c3 * r11 - known.s3 * r9) + r18;
+    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1; let r9 = p.r23_ * known.c2 + known.s2 * r5;
+    let r11 = known.c2 * r5 - p.r23_ * known.s2; let r18 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1);
+    let r19 = known.c3 * r9 + known.s3 * r11; let r20 = known.c4 * (known.c3 * r11 - known.s3 * r9) + r18;
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
@@ -695,10 +664,8 @@ struct Shared5 { r19: f64, r20: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19;
-    let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
-    let c5 = shared.r20 * r25;
-    let s5 = 0.0 - shared.r19 * r25;
+    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r20 * r25; let s5 = 0.0 - shared.r19 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -706,16 +673,12 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: WristRoll.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.r32_ * known.c1 + p.r12_ * known.s1;
-    let r11 = known.c3 * (known.c2 * r5 - p.r22_ * known.s2);
+    let r5 = p.r32_ * known.c1 + p.r12_ * known.s1; let r11 = known.c3 * (known.c2 * r5 - p.r22_ * known.s2);
     let r12 = known.s3 * (p.r22_ * known.c2 + known.s2 * r5);
-    let r14 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1);
-    let r16 = known.s4 * (r11 - r12);
-    let r22 = p.r31_ * known.c1 + p.r11_ * known.s1;
-    let r28 = known.c3 * (known.c2 * r22 - p.r21_ * known.s2);
+    let r14 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1); let r16 = known.s4 * (r11 - r12);
+    let r22 = p.r31_ * known.c1 + p.r11_ * known.s1; let r28 = known.c3 * (known.c2 * r22 - p.r21_ * known.s2);
     let r29 = known.s3 * (p.r21_ * known.c2 + known.s2 * r22);
-    let r31 = known.c4 * (p.r11_ * known.c1 - p.r31_ * known.s1);
-    let r34 = r31 - known.s4 * (r28 - r29);
+    let r31 = known.c4 * (p.r11_ * known.c1 - p.r31_ * known.s1); let r34 = r31 - known.s4 * (r28 - r29);
     let shared = &Shared6 { r14, r16, r34 };
     chart_6_1(p, known, shared, answers);
 }
@@ -726,11 +689,8 @@ struct Shared6 { r14: f64, r16: f64, r34: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r35 = shared.r16 - shared.r14;
-    let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
-    let r40 = 1.0 / r39;
-    let c6 = shared.r34 * r40;
-    let s6 = r35 * r40;
+    let r35 = shared.r16 - shared.r14; let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
+    let r40 = 1.0 / r39; let c6 = shared.r34 * r40; let s6 = r35 * r40;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
         known.s5, c6, s6,
@@ -752,38 +712,14 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c2 * c3;
-    let r7 = s2 * s3;
-    let r8 = c3 * r1;
-    let r9 = s3 * r3;
-    let r17 = s3 * r0 - c3 * r2;
-    let r19 = c2 * s3 + s2 * c3;
-    let r20 = s4 * r19;
-    let r22 = s3 * r1 - c3 * r3;
-    let r26 = c4 * r19;
-    let r29 = r4 + r5;
-    let r31 = c1 * s4 - c4 * r17;
-    let r33 = r6 - r7;
-    let r36 = r8 + r9;
-    let r38 = s1 * s4 + c4 * r22;
-    let r40 = s5 * r29;
-    let r41 = c5 * r31;
-    let r42 = s5 * r33;
-    let r43 = c5 * r26;
-    let r44 = s5 * r36;
-    let r45 = c5 * r38;
-    let r46 = c1 * c4 + s4 * r17;
-    let r48 = c5 * r29 + s5 * r31;
-    let r51 = c5 * r33 - s5 * r26;
-    let r53 = s1 * c4 - s4 * r22;
-    let r55 = c5 * r36 - s5 * r38;
-    let r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c2 * c3; let r7 = s2 * s3; let r8 = c3 * r1; let r9 = s3 * r3; let r17 = s3 * r0 - c3 * r2;
+    let r19 = c2 * s3 + s2 * c3; let r20 = s4 * r19; let r22 = s3 * r1 - c3 * r3; let r26 = c4 * r19;
+    let r29 = r4 + r5; let r31 = c1 * s4 - c4 * r17; let r33 = r6 - r7; let r36 = r8 + r9;
+    let r38 = s1 * s4 + c4 * r22; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33;
+    let r43 = c5 * r26; let r44 = s5 * r36; let r45 = c5 * r38; let r46 = c1 * c4 + s4 * r17;
+    let r48 = c5 * r29 + s5 * r31; let r51 = c5 * r33 - s5 * r26; let r53 = s1 * c4 - s4 * r22;
+    let r55 = c5 * r36 - s5 * r38; let r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
     let r78 = 0.432 * r0 + 0.432 * r4 + 0.432 * r5 - 0.15 * r40;
     let r87 = 0.432 * r1 + 0.432 * r8 + 0.432 * r9 - 0.15 * r44;
     [
@@ -847,84 +783,28 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c2 * c3;
-    let r7 = s2 * s3;
-    let r8 = c3 * r1;
-    let r9 = s3 * r3;
-    let r17 = s3 * r0 - c3 * r2;
-    let r19 = c2 * s3 + s2 * c3;
-    let r20 = s4 * r19;
-    let r22 = s3 * r1 - c3 * r3;
-    let r26 = c4 * r19;
-    let r29 = r4 + r5;
-    let r31 = c1 * s4 - c4 * r17;
-    let r33 = r6 - r7;
-    let r36 = r8 + r9;
-    let r38 = s1 * s4 + c4 * r22;
-    let r40 = s5 * r29;
-    let r41 = c5 * r31;
-    let r42 = s5 * r33;
-    let r43 = c5 * r26;
-    let r44 = s5 * r36;
-    let r45 = c5 * r38;
-    let r46 = c1 * c4 + s4 * r17;
-    let r48 = c5 * r29 + s5 * r31;
-    let r51 = c5 * r33 - s5 * r26;
-    let r53 = s1 * c4 - s4 * r22;
-    let r54 = c6 * r53;
-    let r55 = c5 * r36 - s5 * r38;
-    let r56 = s6 * r55;
-    let r64 = 0.432 * r6;
-    let r66 = 0.432 * r7;
-    let r68 = 0.15 * r42;
-    let r70 = 0.15 * r43;
-    let r71 = 0.432 * c2 + r64 - r66 - r68 - r70;
-    let r73 = 0.432 * r4;
-    let r75 = 0.432 * r5;
-    let r77 = 0.15 * r40;
-    let r79 = 0.15 * r41;
-    let r80 = 0.432 * r0 + r73 + r75 - r77 + r79;
-    let r82 = 0.432 * r8;
-    let r84 = 0.432 * r9;
-    let r86 = 0.15 * r44;
-    let r88 = 0.15 * r45;
-    let r89 = 0.432 * r1 + r82 + r84 - r86 - r88;
-    let r90 = r44 + r45;
-    let r91 = r42 + r43;
-    let r96 = c6 * r20 + s6 * r51;
-    let r97 = c6 * r46 + s6 * r48;
-    let r102 = s6 * r53 + c6 * r55;
-    let r120 = r64 - r66 - r68 - r70;
-    let r131 = r33 * r90;
-    let r132 = r36 * r91;
-    let r133 = r40 - r41;
-    let r134 = r36 * r133;
-    let r135 = r29 * r90;
-    let r136 = r29 * r91;
-    let r137 = r33 * r133;
-    let r142 = r46 * r91;
-    let r143 = r20 * r133;
-    let r147 = r20 * r90 + r53 * r91;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c2 * c3; let r7 = s2 * s3; let r8 = c3 * r1; let r9 = s3 * r3; let r17 = s3 * r0 - c3 * r2;
+    let r19 = c2 * s3 + s2 * c3; let r20 = s4 * r19; let r22 = s3 * r1 - c3 * r3; let r26 = c4 * r19;
+    let r29 = r4 + r5; let r31 = c1 * s4 - c4 * r17; let r33 = r6 - r7; let r36 = r8 + r9;
+    let r38 = s1 * s4 + c4 * r22; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33;
+    let r43 = c5 * r26; let r44 = s5 * r36; let r45 = c5 * r38; let r46 = c1 * c4 + s4 * r17;
+    let r48 = c5 * r29 + s5 * r31; let r51 = c5 * r33 - s5 * r26; let r53 = s1 * c4 - s4 * r22;
+    let r54 = c6 * r53; let r55 = c5 * r36 - s5 * r38; let r56 = s6 * r55; let r64 = 0.432 * r6;
+    let r66 = 0.432 * r7; let r68 = 0.15 * r42; let r70 = 0.15 * r43;
+    let r71 = 0.432 * c2 + r64 - r66 - r68 - r70; let r73 = 0.432 * r4; let r75 = 0.432 * r5;
+    let r77 = 0.15 * r40; let r79 = 0.15 * r41; let r80 = 0.432 * r0 + r73 + r75 - r77 + r79;
+    let r82 = 0.432 * r8; let r84 = 0.432 * r9; let r86 = 0.15 * r44; let r88 = 0.15 * r45;
+    let r89 = 0.432 * r1 + r82 + r84 - r86 - r88; let r90 = r44 + r45; let r91 = r42 + r43;
+    let r96 = c6 * r20 + s6 * r51; let r97 = c6 * r46 + s6 * r48; let r102 = s6 * r53 + c6 * r55;
+    let r120 = r64 - r66 - r68 - r70; let r131 = r33 * r90; let r132 = r36 * r91; let r133 = r40 - r41;
+    let r134 = r36 * r133; let r135 = r29 * r90; let r136 = r29 * r91; let r137 = r33 * r133;
+    let r142 = r46 * r91; let r143 = r20 * r133; let r147 = r20 * r90 + r53 * r91;
     let r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
-    let r157 = r53 * r133 + r46 * r90;
-    let r166 = s1 * r96;
-    let r168 = r54 - r56;
-    let r170 = c1 * r96;
-    let r193 = c1 * r168 - s1 * r97;
-    let r202 = s6 * r20 - c6 * r51;
-    let r204 = s6 * r46 - c6 * r48;
-    let r226 = 0.0 - s1 * r202;
-    let r231 = s1 * r204 - c1 * r102;
-    let r236 = 0.0 - c1 * r202;
-    let r244 = 0.0 - s1 * r91;
-    let r247 = s1 * r133 + c1 * r90;
-    let r249 = 0.0 - c1 * r91;
+    let r157 = r53 * r133 + r46 * r90; let r166 = s1 * r96; let r168 = r54 - r56; let r170 = c1 * r96;
+    let r193 = c1 * r168 - s1 * r97; let r202 = s6 * r20 - c6 * r51; let r204 = s6 * r46 - c6 * r48;
+    let r226 = 0.0 - s1 * r202; let r231 = s1 * r204 - c1 * r102; let r236 = 0.0 - c1 * r202;
+    let r244 = 0.0 - s1 * r91; let r247 = s1 * r133 + c1 * r90; let r249 = 0.0 - c1 * r91;
     [
         [r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0],
         [0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0],
@@ -949,7 +829,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -960,20 +840,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1002,6 +883,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1344,7 +1228,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1413,12 +1301,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1429,6 +1322,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1824,8 +1720,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

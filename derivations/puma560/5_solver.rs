@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.0150169491833725, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -487,18 +482,14 @@ struct Shared1 { r1: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r2 = p.py * p.py;
-    let r3 = p.px * p.px;
-    let r4 = r2 + r3;
-    let r5 = shared.r1 * shared.r1;
+    let r2 = p.py * p.py; let r3 = p.px * p.px; let r4 = r2 + r3; let r5 = shared.r1 * shared.r1;
     let r6 = r5 + r5;
     if !is_away(r4, 16.0 * r6) {
         return;
     }
     let roots0 = square_roots(0.022515002499999996 - r2 - r3, f64::max(r6, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r18 = 1.0 / r4;
-        let c1 = (p.px * w1 - 0.15005 * p.py) * r18;
+        let r18 = 1.0 / r4; let c1 = (p.px * w1 - 0.15005 * p.py) * r18;
         let s1 = (p.py * w1 - (0.0 - 0.15005 * p.px)) * r18;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -523,8 +514,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let roots0 = square_roots(r7 - 0.1390562595901504, 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
         let r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared.r5);
-        let r16 = 7.17547488580693 * (0.37290248 * w3 - 0.01753108 * shared.r5);
-        let c3 = r16;
+        let r16 = 7.17547488580693 * (0.37290248 * w3 - 0.01753108 * shared.r5); let c3 = r16;
         let s3 = 7.17547488580693 * r12;
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
@@ -534,12 +524,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Shoulder.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = 0.4318 * known.c3 + 0.0203 * known.s3;
-    let r8 = 0.0203 * known.c3 - 0.4318 * known.s3 + 0.4318;
-    let r9 = p.px * known.c1 + p.py * known.s1;
-    let r10 = 0.0 - r9;
-    let r14 = f64::abs(p.magnitude + 2.0679);
+    let before = answers.candidates; let r4 = 0.4318 * known.c3 + 0.0203 * known.s3;
+    let r8 = 0.0203 * known.c3 - 0.4318 * known.s3 + 0.4318; let r9 = p.px * known.c1 + p.py * known.s1;
+    let r10 = 0.0 - r9; let r14 = f64::abs(p.magnitude + 2.0679);
     let r15 = f64::abs(2.0 * p.magnitude + 4.1358);
     let shared = &Shared3 { r4, r8, r9, r10, r14, r15 };
     chart_3_1(p, known, shared, answers);
@@ -557,12 +544,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r18, 76.55716384000002) {
         return;
     }
-    let f2 = 1.0;
-    let r21 = p.pz * shared.r8 - shared.r4 * shared.r9;
+    let f2 = 1.0; let r21 = p.pz * shared.r8 - shared.r4 * shared.r9;
     let r25 = shared.r8 * shared.r9 - (0.0 - p.pz * shared.r4);
-    let r30 = 1.0 / f64::max(r25 * r25 + r21 * r21, 0.0).sqrt();
-    let c2 = r25 * r30;
-    let s2 = r21 * r30;
+    let r30 = 1.0 / f64::max(r25 * r25 + r21 * r21, 0.0).sqrt(); let c2 = r25 * r30; let s2 = r21 * r30;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -585,11 +569,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: WristRoll.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
+    let before = answers.candidates; let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
     let r10 = known.c3 * (known.c2 * r4 + p.r33_ * known.s2);
-    let r12 = known.s3 * (p.r33_ * known.c2 - known.s2 * r4);
-    let r13 = p.r23_ * known.c1 - p.r13_ * known.s1;
+    let r12 = known.s3 * (p.r33_ * known.c2 - known.s2 * r4); let r13 = p.r23_ * known.c1 - p.r13_ * known.s1;
     let r14 = r10 + r12;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
@@ -610,17 +592,13 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 6784.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, 20.591260281974 * known.f2);
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r23 = 1.0 / r17;
-        let c4 = w4 * shared.r14 * r23;
-        let s4 = w4 * shared.r13 * r23;
+        let r23 = 1.0 / r17; let c4 = w4 * shared.r14 * r23; let s4 = w4 * shared.r13 * r23;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -643,12 +621,9 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: WristPitch.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1;
-    let r9 = known.c2 * r4 + p.r33_ * known.s2;
-    let r11 = p.r33_ * known.c2 - known.s2 * r4;
-    let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
-    let r19 = known.c3 * r11 - known.s3 * r9;
-    let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + r18;
+    let r4 = p.r13_ * known.c1 + p.r23_ * known.s1; let r9 = known.c2 * r4 + p.r33_ * known.s2;
+    let r11 = p.r33_ * known.c2 - known.s2 * r4; let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
+    let r19 = known.c3 * r11 - known.s3 * r9; let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + r18;
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
 }
@@ -666,10 +641,8 @@ struct Shared5 { r19: f64, r20: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
-    let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
-    let c5 = shared.r19 * r25;
-    let s5 = 0.0 - shared.r20 * r25;
+    let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r19 * r25; let s5 = 0.0 - shared.r20 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -677,15 +650,12 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: Flange.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1;
-    let r10 = known.c3 * (known.c2 * r4 + p.r32_ * known.s2);
+    let r4 = p.r12_ * known.c1 + p.r22_ * known.s1; let r10 = known.c3 * (known.c2 * r4 + p.r32_ * known.s2);
     let r12 = known.s3 * (p.r32_ * known.c2 - known.s2 * r4);
     let r15 = known.c4 * (p.r22_ * known.c1 - p.r12_ * known.s1);
-    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1;
-    let r27 = known.c3 * (known.c2 * r21 + p.r31_ * known.s2);
+    let r21 = p.r11_ * known.c1 + p.r21_ * known.s1; let r27 = known.c3 * (known.c2 * r21 + p.r31_ * known.s2);
     let r29 = known.s3 * (p.r31_ * known.c2 - known.s2 * r21);
-    let r32 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1);
-    let r34 = r15 - known.s4 * (r10 + r12);
+    let r32 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1); let r34 = r15 - known.s4 * (r10 + r12);
     let r35 = r32 - known.s4 * (r27 + r29);
     let shared = &Shared6 { r34, r35 };
     chart_6_1(p, known, shared, answers);
@@ -697,10 +667,8 @@ struct Shared6 { r34: f64, r35: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35;
-    let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
-    let c6 = shared.r34 * r40;
-    let s6 = shared.r35 * r40;
+    let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35; let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
+    let c6 = shared.r34 * r40; let s6 = shared.r35 * r40;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
         known.s5, c6, s6,
@@ -722,37 +690,13 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r16 = r4 - r5;
-    let r19 = r6 - r7;
-    let r22 = r8 + r9;
-    let r23 = c4 * r22;
-    let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4;
-    let r31 = r10 + r11;
-    let r33 = c4 * r19 + c1 * s4;
-    let r35 = r12 + r13;
-    let r38 = r14 - r15;
-    let r46 = c5 * r29 - s5 * r31;
-    let r48 = s4 * r16 + s1 * c4;
-    let r50 = c5 * r33 - s5 * r35;
-    let r52 = s4 * r19 - c1 * c4;
-    let r54 = c5 * r23 - s5 * r38;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r16 = r4 - r5; let r19 = r6 - r7; let r22 = r8 + r9; let r23 = c4 * r22; let r28 = s4 * r22;
+    let r29 = c4 * r16 - s1 * s4; let r31 = r10 + r11; let r33 = c4 * r19 + c1 * s4; let r35 = r12 + r13;
+    let r38 = r14 - r15; let r46 = c5 * r29 - s5 * r31; let r48 = s4 * r16 + s1 * c4;
+    let r50 = c5 * r33 - s5 * r35; let r52 = s4 * r19 - c1 * c4; let r54 = c5 * r23 - s5 * r38;
     let r69 = 0.4318 * s2 + 0.0203 * r8 + 0.0203 * r9 - 0.4318 * r14;
     let r78 = 0.4318 * r1 + 0.0203 * r6 - 0.0203 * r7 - 0.15005 * c1;
     let r89 = 0.4318 * r0 + 0.0203 * r4 - 0.0203 * r5 + 0.15005 * s1;
@@ -817,75 +761,25 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r10 = s3 * r0;
-    let r11 = c3 * r2;
-    let r12 = s3 * r1;
-    let r13 = c3 * r3;
-    let r14 = s2 * s3;
-    let r15 = c2 * c3;
-    let r16 = r4 - r5;
-    let r19 = r6 - r7;
-    let r22 = r8 + r9;
-    let r23 = c4 * r22;
-    let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4;
-    let r31 = r10 + r11;
-    let r33 = c4 * r19 + c1 * s4;
-    let r35 = r12 + r13;
-    let r38 = r14 - r15;
-    let r46 = c5 * r29 - s5 * r31;
-    let r48 = s4 * r16 + s1 * c4;
-    let r50 = c5 * r33 - s5 * r35;
-    let r51 = c6 * r50;
-    let r52 = s4 * r19 - c1 * c4;
-    let r53 = s6 * r52;
-    let r54 = c5 * r23 - s5 * r38;
-    let r64 = 0.0203 * r8;
-    let r66 = 0.0203 * r9;
-    let r68 = 0.4318 * r14;
-    let r70 = 0.4318 * r15;
-    let r71 = 0.4318 * s2 + r64 + r66 - r68 + r70;
-    let r73 = 0.0203 * r6;
-    let r75 = 0.0203 * r7;
-    let r77 = 0.15005 * c1;
-    let r79 = 0.4318 * r12;
-    let r80 = 0.4318 * r1 + r73 - r75 - r77 - r79;
-    let r81 = 0.4318 * r13;
-    let r84 = 0.0203 * r4;
-    let r86 = 0.0203 * r5;
-    let r88 = 0.15005 * s1;
-    let r90 = 0.4318 * r10;
-    let r92 = 0.4318 * r11;
-    let r93 = 0.4318 * r0 + r84 - r86 + r88 - r90 - r92;
-    let r97 = c6 * r54 - s6 * r28;
-    let r98 = r51 - r53;
-    let r99 = c6 * r46 - s6 * r48;
-    let r100 = s5 * r33 + c5 * r35;
-    let r101 = s5 * r23 + c5 * r38;
-    let r102 = s5 * r29 + c5 * r31;
-    let r106 = s6 * r54 + c6 * r28;
-    let r107 = s6 * r50 + c6 * r52;
-    let r108 = s6 * r46 + c6 * r48;
-    let r127 = r70 + (r64 + r66 - r68);
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
+    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
+    let r16 = r4 - r5; let r19 = r6 - r7; let r22 = r8 + r9; let r23 = c4 * r22; let r28 = s4 * r22;
+    let r29 = c4 * r16 - s1 * s4; let r31 = r10 + r11; let r33 = c4 * r19 + c1 * s4; let r35 = r12 + r13;
+    let r38 = r14 - r15; let r46 = c5 * r29 - s5 * r31; let r48 = s4 * r16 + s1 * c4;
+    let r50 = c5 * r33 - s5 * r35; let r51 = c6 * r50; let r52 = s4 * r19 - c1 * c4; let r53 = s6 * r52;
+    let r54 = c5 * r23 - s5 * r38; let r64 = 0.0203 * r8; let r66 = 0.0203 * r9; let r68 = 0.4318 * r14;
+    let r70 = 0.4318 * r15; let r71 = 0.4318 * s2 + r64 + r66 - r68 + r70; let r73 = 0.0203 * r6;
+    let r75 = 0.0203 * r7; let r77 = 0.15005 * c1; let r79 = 0.4318 * r12;
+    let r80 = 0.4318 * r1 + r73 - r75 - r77 - r79; let r81 = 0.4318 * r13; let r84 = 0.0203 * r4;
+    let r86 = 0.0203 * r5; let r88 = 0.15005 * s1; let r90 = 0.4318 * r10; let r92 = 0.4318 * r11;
+    let r93 = 0.4318 * r0 + r84 - r86 + r88 - r90 - r92; let r97 = c6 * r54 - s6 * r28; let r98 = r51 - r53;
+    let r99 = c6 * r46 - s6 * r48; let r100 = s5 * r33 + c5 * r35; let r101 = s5 * r23 + c5 * r38;
+    let r102 = s5 * r29 + c5 * r31; let r106 = s6 * r54 + c6 * r28; let r107 = s6 * r50 + c6 * r52;
+    let r108 = s6 * r46 + c6 * r48; let r127 = r70 + (r64 + r66 - r68);
     let r146 = s1 * (r73 - r75 - r77 - r79 - r81) + c1 * (r88 + (r84 - r86) - r90 - r92);
-    let r170 = 0.0 - c1 * r97;
-    let r174 = 0.0 - s1 * r97;
-    let r178 = s1 * r98 + c1 * r99;
-    let r182 = c1 * r106;
-    let r183 = s1 * r106;
-    let r211 = 0.0 - (s1 * r107 + c1 * r108);
-    let r215 = c1 * r101;
-    let r216 = s1 * r101;
+    let r170 = 0.0 - c1 * r97; let r174 = 0.0 - s1 * r97; let r178 = s1 * r98 + c1 * r99; let r182 = c1 * r106;
+    let r183 = s1 * r106; let r211 = 0.0 - (s1 * r107 + c1 * r108); let r215 = c1 * r101; let r216 = s1 * r101;
     let r236 = 0.0 - (s1 * r100 + c1 * r102);
     [
         [r81 - r80, 0.0 - c1 * r71, 0.0 - c1 * r127, 0.0, 0.0, 0.0],
@@ -911,7 +805,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -922,20 +816,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -964,6 +859,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1306,7 +1204,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1375,12 +1277,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1391,6 +1298,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1786,8 +1696,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

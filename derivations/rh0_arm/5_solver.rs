@@ -317,6 +317,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -342,6 +344,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -359,7 +363,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -375,9 +379,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
+    let px = target[0]; let py = target[1]; let pz = target[2];
     let magnitude = f64::max(f64::max(f64::max(0.8205551275463989, f64::abs(px)), f64::abs(py)), f64::abs(pz));
     Parameters { px, py, pz, magnitude }
 }
@@ -407,8 +409,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: Elbow.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r6 = p.pz * p.pz + (p.px * p.px + p.py * p.py) + 0.4 * p.px;
-    let r9 = r6 - 0.6 * p.py + 0.024;
+    let r6 = p.pz * p.pz + (p.px * p.px + p.py * p.py) + 0.4 * p.px; let r9 = r6 - 0.6 * p.py + 0.024;
     let shared = &Shared1 { r9 };
     chart_1_1(p, shared, answers);
 }
@@ -421,8 +422,7 @@ struct Shared1 { r9: f64 }
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r9 * shared.r9 - 0.011151359999999999, 1.4142135623730951);
     for (i0, &w16) in roots0.as_slice().iter().enumerate() {
-        let c16 = 89.67516069788797 * (0.1056 * shared.r9);
-        let s16 = 89.67516069788797 * (0.1056 * w16);
+        let c16 = 89.67516069788797 * (0.1056 * shared.r9); let s16 = 89.67516069788797 * (0.1056 * w16);
         let next = Known { branch: i0, last: 2, close: roots0.close, c16, s16, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -431,10 +431,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Clavicle.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = p.py - 0.3;
-    let r1 = 0.24 * known.s16;
-    let r2 = 0.0 - r1;
+    let before = answers.candidates; let r0 = p.py - 0.3; let r1 = 0.24 * known.s16; let r2 = 0.0 - r1;
     let r4 = f64::abs(p.magnitude + 0.3);
     let shared = &Shared2 { r0, r1, r2, r4 };
     chart_2_1(p, known, shared, answers);
@@ -448,18 +445,14 @@ struct Shared2 { r0: f64, r1: f64, r2: f64, r4: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r5 = p.pz * p.pz;
-    let r6 = shared.r0 * shared.r0;
-    let r7 = r5 + r6;
+    let r5 = p.pz * p.pz; let r6 = shared.r0 * shared.r0; let r7 = r5 + r6;
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
     if !is_away(r7, 16.0 * r10) {
         return;
     }
     let roots0 = square_roots(shared.r1 * shared.r1 - r5 - r6, f64::max(r10, 0.0).sqrt());
     for (i0, &w14) in roots0.as_slice().iter().enumerate() {
-        let r22 = 1.0 / r7;
-        let r24 = 0.0 - (w14 * shared.r0 + p.pz * shared.r1) * r22;
-        let c14 = r24;
+        let r22 = 1.0 / r7; let r24 = 0.0 - (w14 * shared.r0 + p.pz * shared.r1) * r22; let c14 = r24;
         let s14 = (shared.r0 * shared.r1 - p.pz * w14) * r22;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c14, s14, ..*known };
         block_3(p, &next, answers);
@@ -483,11 +476,8 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: Shoulder.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = 0.24 * known.c16 + 0.22;
-    let r5 = p.px + 0.2;
-    let r6 = known.c14 * (p.py - 0.3) + p.pz * known.s14;
-    let r10 = f64::abs(p.magnitude + 0.2);
+    let before = answers.candidates; let r4 = 0.24 * known.c16 + 0.22; let r5 = p.px + 0.2;
+    let r6 = known.c14 * (p.py - 0.3) + p.pz * known.s14; let r10 = f64::abs(p.magnitude + 0.2);
     let r11 = f64::abs(2.0 * p.magnitude + 0.9);
     let shared = &Shared3 { r4, r5, r6, r10, r11 };
     chart_3_1(p, known, shared, answers);
@@ -511,12 +501,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(shared.r4 * shared.r4, 47.110400000000006) {
         return;
     }
-    let r13 = shared.r4 * shared.r5;
-    let r14 = shared.r4 * shared.r6;
-    let r19 = 1.0 / f64::max(r14 * r14 + r13 * r13, 0.0).sqrt();
-    let c15 = 0.0 - r14 * r19;
-    let s15 = r13 * r19;
-    let at = [known.c14, known.s14, c15, s15, known.c16, known.s16];
+    let r13 = shared.r4 * shared.r5; let r14 = shared.r4 * shared.r6;
+    let r19 = 1.0 / f64::max(r14 * r14 + r13 * r13, 0.0).sqrt(); let c15 = 0.0 - r14 * r19;
+    let s15 = r13 * r19; let at = [known.c14, known.s14, c15, s15, known.c16, known.s16];
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, known.free);
 }
 
@@ -540,9 +527,7 @@ const TIP: usize = 3;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c14, s14, c15, s15, c16, s16] = *at;
-    let r0 = c14 * c15;
-    let r1 = s14 * c15;
-    let r11 = 0.22 * r1 + 0.24 * (c16 * r1) + 0.24 * (c14 * s16);
+    let r0 = c14 * c15; let r1 = s14 * c15; let r11 = 0.22 * r1 + 0.24 * (c16 * r1) + 0.24 * (c14 * s16);
     let r16 = 0.22 * r0 + 0.24 * (c16 * r0) - 0.24 * (s14 * s16);
     [
         0.22 * s15 + 0.24 * (s15 * c16) - 0.2,
@@ -593,21 +578,10 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c14, s14, c15, s15, c16, s16] = *at;
-    let r0 = c14 * c15;
-    let r1 = s14 * c15;
-    let r2 = s15 * c16;
-    let r3 = c16 * r0;
-    let r4 = s14 * s16;
-    let r5 = c16 * r1;
-    let r6 = c14 * s16;
-    let r11 = 0.22 * r1 + 0.24 * r5 + 0.24 * r6;
-    let r14 = 0.22 * r0 + 0.24 * r3;
-    let r15 = 0.24 * r4;
-    let r19 = 0.22 * s15 + 0.24 * r2;
-    let r26 = c14 * s15;
-    let r27 = s14 * s15;
-    let r32 = r5 + r6;
-    let r34 = r3 - r4;
+    let r0 = c14 * c15; let r1 = s14 * c15; let r2 = s15 * c16; let r3 = c16 * r0; let r4 = s14 * s16;
+    let r5 = c16 * r1; let r6 = c14 * s16; let r11 = 0.22 * r1 + 0.24 * r5 + 0.24 * r6;
+    let r14 = 0.22 * r0 + 0.24 * r3; let r15 = 0.24 * r4; let r19 = 0.22 * s15 + 0.24 * r2;
+    let r26 = c14 * s15; let r27 = s14 * s15; let r32 = r5 + r6; let r34 = r3 - r4;
     [
         [0.0, s14 * r11 + c14 * (r14 - r15), 0.0 - 0.24 * (r26 * r32 - r27 * r34)],
         [r11, c14 * r19, 0.24 * (r27 * r2 + c15 * r32)],
@@ -623,7 +597,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -634,20 +608,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -676,6 +651,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1015,7 +993,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1084,12 +1066,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1100,6 +1087,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1495,8 +1485,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.787092354220426, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -475,10 +470,8 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: AnkleRoll.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = 0.112 - (p.px + 0.112 * p.r11_ - 0.0265 * p.r12_);
-    let r8 = 0.0265 * p.r22_ - (p.py + 0.112 * p.r21_);
-    let r11 = f64::abs(p.magnitude + 1.3705);
+    let before = answers.candidates; let r4 = 0.112 - (p.px + 0.112 * p.r11_ - 0.0265 * p.r12_);
+    let r8 = 0.0265 * p.r22_ - (p.py + 0.112 * p.r21_); let r11 = f64::abs(p.magnitude + 1.3705);
     let r12 = f64::abs(p.magnitude + 1.2585);
     let shared = &Shared1 { r4, r8, r11, r12 };
     chart_1_1(p, shared, answers);
@@ -492,19 +485,14 @@ struct Shared1 { r4: f64, r8: f64, r11: f64, r12: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r13 = shared.r4 * shared.r4;
-    let r14 = shared.r8 * shared.r8;
-    let r15 = r13 + r14;
+    let r13 = shared.r4 * shared.r4; let r14 = shared.r8 * shared.r8; let r15 = r13 + r14;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
     if !is_away(r15, 16.0 * r18) {
         return;
     }
-    let f12 = 1.0;
-    let roots0 = square_roots(0.0 - r13 - r14, f64::max(r18, 0.0).sqrt());
+    let f12 = 1.0; let roots0 = square_roots(0.0 - r13 - r14, f64::max(r18, 0.0).sqrt());
     for (i0, &w12) in roots0.as_slice().iter().enumerate() {
-        let r25 = 1.0 / r15;
-        let c12 = 0.0 - w12 * shared.r8 * r25;
-        let s12 = w12 * shared.r4 * r25;
+        let r25 = 1.0 / r15; let c12 = 0.0 - w12 * shared.r8 * r25; let s12 = w12 * shared.r4 * r25;
         let next = Known { branch: i0, last: 2, close: roots0.close, c12, s12, f12, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -554,8 +542,7 @@ struct Shared2 { r32: f64 }
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r32 * shared.r32 - 0.02458624, 1.4142135623730951 * known.f12);
     for (i0, &w10) in roots0.as_slice().iter().enumerate() {
-        let r39 = 0.0 - 40.673157017909205 * (0.1568 * shared.r32);
-        let c10 = r39;
+        let r39 = 0.0 - 40.673157017909205 * (0.1568 * shared.r32); let c10 = r39;
         let s10 = 40.673157017909205 * (0.1568 * w10);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c10, s10, ..*known };
         block_3(p, &next, answers);
@@ -565,14 +552,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.px + 0.112 * p.r11_ - 0.0265 * p.r12_ - 0.112;
-    let r9 = known.c12 * (p.py + 0.112 * p.r21_ - 0.0265 * p.r22_);
-    let r11 = 0.28 * known.s10;
-    let r13 = 0.28 * (known.c10 + 1.0);
-    let r17 = p.pz + 0.112 * p.r31_ - 0.0265 * p.r32_;
-    let r18 = known.s12 * r4 - r9;
-    let r22 = f64::abs(p.magnitude + 1.2585);
+    let before = answers.candidates; let r4 = p.px + 0.112 * p.r11_ - 0.0265 * p.r12_ - 0.112;
+    let r9 = known.c12 * (p.py + 0.112 * p.r21_ - 0.0265 * p.r22_); let r11 = 0.28 * known.s10;
+    let r13 = 0.28 * (known.c10 + 1.0); let r17 = p.pz + 0.112 * p.r31_ - 0.0265 * p.r32_;
+    let r18 = known.s12 * r4 - r9; let r22 = f64::abs(p.magnitude + 1.2585);
     let r23 = f64::abs(2.0 * p.magnitude + 2.629);
     let shared = &Shared3 { r11, r13, r17, r18, r22, r23 };
     chart_3_1(p, known, shared, answers);
@@ -590,12 +573,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r26, 31.36) {
         return;
     }
-    let f11 = 1.0;
-    let r30 = shared.r11 * shared.r18 - (0.0 - shared.r13 * shared.r17);
+    let f11 = 1.0; let r30 = shared.r11 * shared.r18 - (0.0 - shared.r13 * shared.r17);
     let r33 = shared.r11 * shared.r17 - shared.r13 * shared.r18;
-    let r38 = 1.0 / f64::max(r33 * r33 + r30 * r30, 0.0).sqrt();
-    let c11 = r33 * r38;
-    let s11 = r30 * r38;
+    let r38 = 1.0 / f64::max(r33 * r33 + r30 * r30, 0.0).sqrt(); let c11 = r33 * r38; let s11 = r30 * r38;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c11, s11, f11, ..*known };
     block_4(p, &next, answers);
 }
@@ -618,12 +598,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: HipPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.r22_ * known.c12 - p.r12_ * known.s12;
-    let r7 = known.c11 * r2 + p.r32_ * known.s11;
-    let r9 = p.r32_ * known.c11 - known.s11 * r2;
-    let r13 = known.s10 * r7 - known.c10 * r9;
-    let r14 = known.c10 * r7 + known.s10 * r9;
+    let before = answers.candidates; let r2 = p.r22_ * known.c12 - p.r12_ * known.s12;
+    let r7 = known.c11 * r2 + p.r32_ * known.s11; let r9 = p.r32_ * known.c11 - known.s11 * r2;
+    let r13 = known.s10 * r7 - known.c10 * r9; let r14 = known.c10 * r7 + known.s10 * r9;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -643,17 +620,13 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 3200.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f11 * (14.142135623730951 * known.f12));
     for (i0, &w9) in roots0.as_slice().iter().enumerate().take(1) {
-        let r24 = 1.0 / r17;
-        let c9 = 0.0 - w9 * shared.r14 * r24;
-        let s9 = w9 * shared.r13 * r24;
+        let r24 = 1.0 / r17; let c9 = 0.0 - w9 * shared.r14 * r24; let s9 = w9 * shared.r13 * r24;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c9, s9, ..*known };
         block_5(p, &next, answers);
     }
@@ -676,12 +649,9 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r22_ * known.c12 - p.r12_ * known.s12;
-    let r9 = known.c11 * r4 + p.r32_ * known.s11;
-    let r11 = p.r32_ * known.c11 - known.s11 * r4;
-    let r16 = known.c9 * (known.c10 * r9 + known.s10 * r11);
-    let r18 = known.s9 * (known.c10 * r11 - known.s10 * r9);
-    let r19 = p.r12_ * known.c12 + p.r22_ * known.s12;
+    let r4 = p.r22_ * known.c12 - p.r12_ * known.s12; let r9 = known.c11 * r4 + p.r32_ * known.s11;
+    let r11 = p.r32_ * known.c11 - known.s11 * r4; let r16 = known.c9 * (known.c10 * r9 + known.s10 * r11);
+    let r18 = known.s9 * (known.c10 * r11 - known.s10 * r9); let r19 = p.r12_ * known.c12 + p.r22_ * known.s12;
     let r20 = r16 + r18;
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
@@ -700,10 +670,8 @@ struct Shared5 { r19: f64, r20: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19;
-    let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
-    let c8 = shared.r20 * r25;
-    let s8 = 0.0 - shared.r19 * r25;
+    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
+    let c8 = shared.r20 * r25; let s8 = 0.0 - shared.r19 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c8, s8, ..*known };
     block_6(p, &next, answers);
 }
@@ -711,12 +679,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: HipYaw.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.r23_ * known.c12 - p.r13_ * known.s12;
-    let r7 = known.c11 * r2 + p.r33_ * known.s11;
-    let r9 = p.r33_ * known.c11 - known.s11 * r2;
-    let r19 = p.r21_ * known.c12 - p.r11_ * known.s12;
-    let r24 = known.c11 * r19 + p.r31_ * known.s11;
-    let r26 = p.r31_ * known.c11 - known.s11 * r19;
+    let r2 = p.r23_ * known.c12 - p.r13_ * known.s12; let r7 = known.c11 * r2 + p.r33_ * known.s11;
+    let r9 = p.r33_ * known.c11 - known.s11 * r2; let r19 = p.r21_ * known.c12 - p.r11_ * known.s12;
+    let r24 = known.c11 * r19 + p.r31_ * known.s11; let r26 = p.r31_ * known.c11 - known.s11 * r19;
     let r32 = known.c9 * (known.c10 * r26 - known.s10 * r24);
     let r33 = known.s9 * (known.c10 * r24 + known.s10 * r26);
     let r34 = known.c9 * (known.c10 * r9 - known.s10 * r7) - known.s9 * (known.c10 * r7 + known.s10 * r9);
@@ -730,11 +695,8 @@ struct Shared6 { r32: f64, r33: f64, r34: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r35 = shared.r33 - shared.r32;
-    let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
-    let r40 = 1.0 / r39;
-    let c7 = shared.r34 * r40;
-    let s7 = r35 * r40;
+    let r35 = shared.r33 - shared.r32; let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
+    let r40 = 1.0 / r39; let c7 = shared.r34 * r40; let s7 = r35 * r40;
     let at = [
         known.c12, known.s12, known.c11, known.s11, known.c10, known.s10, known.c9, known.s9, known.c8,
         known.s8, c7, s7,
@@ -756,42 +718,15 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c12, s12, c11, s11, c10, s10, c9, s9, c8, s8, c7, s7] = *at;
-    let r0 = s12 * c11;
-    let r1 = c12 * c11;
-    let r2 = s12 * s11;
-    let r3 = c12 * s11;
-    let r4 = c10 * r0;
-    let r5 = s10 * r2;
-    let r6 = c10 * r1;
-    let r7 = s10 * r3;
-    let r8 = s11 * c10;
-    let r9 = c11 * s10;
-    let r16 = r4 - r5;
-    let r18 = s10 * r0 + c10 * r2;
-    let r20 = r6 - r7;
-    let r22 = s10 * r1 + c10 * r3;
-    let r24 = r8 + r9;
-    let r26 = s11 * s10 - c11 * c10;
-    let r35 = c9 * r16 - s9 * r18;
-    let r38 = c9 * r20 - s9 * r22;
-    let r40 = c9 * r24 - s9 * r26;
-    let r41 = s8 * r40;
-    let r42 = c12 * s8;
-    let r43 = c8 * r35;
-    let r44 = s12 * s8;
-    let r45 = c8 * r38;
-    let r46 = c8 * r40;
-    let r47 = c12 * c8 - s8 * r35;
-    let r48 = c7 * r47;
-    let r49 = s9 * r16 + c9 * r18;
-    let r50 = s7 * r49;
-    let r51 = s12 * c8 + s8 * r38;
-    let r52 = c7 * r51;
-    let r53 = s9 * r20 + c9 * r22;
-    let r54 = s7 * r53;
-    let r55 = c7 * r41;
-    let r56 = s9 * r24 + c9 * r26;
-    let r57 = s7 * r56;
+    let r0 = s12 * c11; let r1 = c12 * c11; let r2 = s12 * s11; let r3 = c12 * s11; let r4 = c10 * r0;
+    let r5 = s10 * r2; let r6 = c10 * r1; let r7 = s10 * r3; let r8 = s11 * c10; let r9 = c11 * s10;
+    let r16 = r4 - r5; let r18 = s10 * r0 + c10 * r2; let r20 = r6 - r7; let r22 = s10 * r1 + c10 * r3;
+    let r24 = r8 + r9; let r26 = s11 * s10 - c11 * c10; let r35 = c9 * r16 - s9 * r18;
+    let r38 = c9 * r20 - s9 * r22; let r40 = c9 * r24 - s9 * r26; let r41 = s8 * r40; let r42 = c12 * s8;
+    let r43 = c8 * r35; let r44 = s12 * s8; let r45 = c8 * r38; let r46 = c8 * r40;
+    let r47 = c12 * c8 - s8 * r35; let r48 = c7 * r47; let r49 = s9 * r16 + c9 * r18; let r50 = s7 * r49;
+    let r51 = s12 * c8 + s8 * r38; let r52 = c7 * r51; let r53 = s9 * r20 + c9 * r22; let r54 = s7 * r53;
+    let r55 = c7 * r41; let r56 = s9 * r24 + c9 * r26; let r57 = s7 * r56;
     let r70 = 0.28 * s11 + 0.28 * r8 + 0.28 * r9 - 0.112 * r55;
     let r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 - 0.112 * r52;
     let r87 = r81 - 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
@@ -858,87 +793,29 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c12, s12, c11, s11, c10, s10, c9, s9, c8, s8, c7, s7] = *at;
-    let r0 = s12 * c11;
-    let r1 = c12 * c11;
-    let r2 = s12 * s11;
-    let r3 = c12 * s11;
-    let r4 = c10 * r0;
-    let r5 = s10 * r2;
-    let r6 = c10 * r1;
-    let r7 = s10 * r3;
-    let r8 = s11 * c10;
-    let r9 = c11 * s10;
-    let r16 = r4 - r5;
-    let r18 = s10 * r0 + c10 * r2;
-    let r20 = r6 - r7;
-    let r22 = s10 * r1 + c10 * r3;
-    let r24 = r8 + r9;
-    let r26 = s11 * s10 - c11 * c10;
-    let r35 = c9 * r16 - s9 * r18;
-    let r38 = c9 * r20 - s9 * r22;
-    let r40 = c9 * r24 - s9 * r26;
-    let r41 = s8 * r40;
-    let r42 = c12 * s8;
-    let r43 = c8 * r35;
-    let r44 = s12 * s8;
-    let r45 = c8 * r38;
-    let r46 = c8 * r40;
-    let r47 = c12 * c8 - s8 * r35;
-    let r48 = c7 * r47;
-    let r49 = s9 * r16 + c9 * r18;
-    let r50 = s7 * r49;
-    let r51 = s12 * c8 + s8 * r38;
-    let r52 = c7 * r51;
-    let r53 = s9 * r20 + c9 * r22;
-    let r54 = s7 * r53;
-    let r55 = c7 * r41;
-    let r56 = s9 * r24 + c9 * r26;
-    let r57 = s7 * r56;
-    let r60 = s7 * r51;
-    let r61 = c7 * r53;
-    let r65 = 0.28 * r8;
-    let r67 = 0.28 * r9;
-    let r69 = 0.112 * r55;
-    let r71 = 0.112 * r57;
-    let r73 = 0.0265 * r46;
-    let r74 = 0.28 * s11 + r65 + r67 - r69 - r71 + r73;
-    let r76 = 0.28 * r6;
-    let r78 = 0.28 * r7;
-    let r80 = 0.112 * r52;
-    let r82 = 0.112 * r54;
-    let r84 = 0.0265 * r44;
-    let r86 = 0.0265 * r45;
-    let r87 = 0.28 * r1 + r76 - r78 - r80 - r82 - r84 + r86;
-    let r89 = 0.28 * r4;
-    let r91 = 0.28 * r5;
-    let r93 = 0.112 * r48;
-    let r95 = 0.112 * r50;
-    let r97 = 0.0265 * r42;
-    let r99 = 0.0265 * r43;
-    let r100 = 0.28 * r0 + r89 - r91 + r93 - r95 + r97 + r99;
-    let r101 = r42 + r43;
-    let r106 = r55 + r57;
-    let r107 = r52 + r54;
-    let r108 = r48 - r50;
-    let r117 = s7 * r41 - c7 * r56;
-    let r118 = r60 - r61;
-    let r119 = s7 * r47 + c7 * r49;
-    let r130 = r73 + (r65 + r67 - r69 - r71);
-    let r144 = s12 * (r99 + (r97 + (r93 + (r89 - r91) - r95)));
-    let r146 = r69 + r71 - r73;
-    let r151 = r84 + (r80 + r82) - r86;
-    let r155 = r99 + (r97 + (r93 - r95));
-    let r163 = r44 - r45;
-    let r181 = c12 * (r86 + (r76 - r78 - r80 - r82 - r84)) + r144;
-    let r186 = s12 * r106;
-    let r206 = 0.0 - c12 * r106;
-    let r210 = c12 * r107 - s12 * r108;
-    let r213 = s12 * r46;
-    let r225 = 0.0 - c12 * r46;
-    let r227 = s12 * r101 - c12 * r163;
-    let r230 = s12 * r117;
-    let r250 = 0.0 - c12 * r117;
-    let r254 = c12 * r118 - s12 * r119;
+    let r0 = s12 * c11; let r1 = c12 * c11; let r2 = s12 * s11; let r3 = c12 * s11; let r4 = c10 * r0;
+    let r5 = s10 * r2; let r6 = c10 * r1; let r7 = s10 * r3; let r8 = s11 * c10; let r9 = c11 * s10;
+    let r16 = r4 - r5; let r18 = s10 * r0 + c10 * r2; let r20 = r6 - r7; let r22 = s10 * r1 + c10 * r3;
+    let r24 = r8 + r9; let r26 = s11 * s10 - c11 * c10; let r35 = c9 * r16 - s9 * r18;
+    let r38 = c9 * r20 - s9 * r22; let r40 = c9 * r24 - s9 * r26; let r41 = s8 * r40; let r42 = c12 * s8;
+    let r43 = c8 * r35; let r44 = s12 * s8; let r45 = c8 * r38; let r46 = c8 * r40;
+    let r47 = c12 * c8 - s8 * r35; let r48 = c7 * r47; let r49 = s9 * r16 + c9 * r18; let r50 = s7 * r49;
+    let r51 = s12 * c8 + s8 * r38; let r52 = c7 * r51; let r53 = s9 * r20 + c9 * r22; let r54 = s7 * r53;
+    let r55 = c7 * r41; let r56 = s9 * r24 + c9 * r26; let r57 = s7 * r56; let r60 = s7 * r51;
+    let r61 = c7 * r53; let r65 = 0.28 * r8; let r67 = 0.28 * r9; let r69 = 0.112 * r55; let r71 = 0.112 * r57;
+    let r73 = 0.0265 * r46; let r74 = 0.28 * s11 + r65 + r67 - r69 - r71 + r73; let r76 = 0.28 * r6;
+    let r78 = 0.28 * r7; let r80 = 0.112 * r52; let r82 = 0.112 * r54; let r84 = 0.0265 * r44;
+    let r86 = 0.0265 * r45; let r87 = 0.28 * r1 + r76 - r78 - r80 - r82 - r84 + r86; let r89 = 0.28 * r4;
+    let r91 = 0.28 * r5; let r93 = 0.112 * r48; let r95 = 0.112 * r50; let r97 = 0.0265 * r42;
+    let r99 = 0.0265 * r43; let r100 = 0.28 * r0 + r89 - r91 + r93 - r95 + r97 + r99; let r101 = r42 + r43;
+    let r106 = r55 + r57; let r107 = r52 + r54; let r108 = r48 - r50; let r117 = s7 * r41 - c7 * r56;
+    let r118 = r60 - r61; let r119 = s7 * r47 + c7 * r49; let r130 = r73 + (r65 + r67 - r69 - r71);
+    let r144 = s12 * (r99 + (r97 + (r93 + (r89 - r91) - r95))); let r146 = r69 + r71 - r73;
+    let r151 = r84 + (r80 + r82) - r86; let r155 = r99 + (r97 + (r93 - r95)); let r163 = r44 - r45;
+    let r181 = c12 * (r86 + (r76 - r78 - r80 - r82 - r84)) + r144; let r186 = s12 * r106;
+    let r206 = 0.0 - c12 * r106; let r210 = c12 * r107 - s12 * r108; let r213 = s12 * r46;
+    let r225 = 0.0 - c12 * r46; let r227 = s12 * r101 - c12 * r163; let r230 = s12 * r117;
+    let r250 = 0.0 - c12 * r117; let r254 = c12 * r118 - s12 * r119;
     [
         [0.0 - r87, s12 * r74, s12 * r130, 0.0 - s12 * r146, r53 * r146 - r56 * r151, r146 * r163 + r46 * r151],
         [0.0 - r100, 0.0 - c12 * r74, 0.0 - c12 * r130, c12 * r146, r56 * r155 + r49 * r146, 0.0 - (r46 * r155 + r146 * r101)],
@@ -963,7 +840,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -974,20 +851,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1016,6 +894,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1358,7 +1239,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1427,12 +1312,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1443,6 +1333,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1838,8 +1731,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

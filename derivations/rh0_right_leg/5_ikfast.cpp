@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -142,7 +146,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -217,16 +221,17 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const double r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
-    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22;
-    const double r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5;
-    const double r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35, r48 = c6 * r47;
-    const double r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38, r52 = c6 * r51;
-    const double r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41, r56 = s4 * r24 + c4 * r26;
-    const double r57 = s6 * r56, r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2;
+    const double r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7;
+    const double r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18;
+    const double r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5;
+    const double r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35;
+    const double r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38;
+    const double r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41;
+    const double r56 = s4 * r24 + c4 * r26, r57 = s6 * r56;
+    const double r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
     const double r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 + 0.112 * r52;
     const double r87 = r81 + 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
     const double r94 = 0.28 * r0 + 0.28 * r4 - 0.28 * r5 - 0.112 * r48;
@@ -290,17 +295,17 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const double r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
-    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22;
-    const double r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5;
-    const double r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35, r48 = c6 * r47;
-    const double r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38, r52 = c6 * r51;
-    const double r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41, r56 = s4 * r24 + c4 * r26;
-    const double r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53, r65 = 0.28 * r8, r67 = 0.28 * r9;
-    const double r69 = 0.112 * r55, r71 = 0.112 * r57, r73 = 0.0265 * r46;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2;
+    const double r2 = s1 * s2, r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7;
+    const double r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18;
+    const double r38 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5;
+    const double r43 = c5 * r35, r44 = s1 * s5, r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35;
+    const double r48 = c6 * r47, r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38;
+    const double r52 = c6 * r51, r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41;
+    const double r56 = s4 * r24 + c4 * r26, r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53, r65 = 0.28 * r8;
+    const double r67 = 0.28 * r9, r69 = 0.112 * r55, r71 = 0.112 * r57, r73 = 0.0265 * r46;
     const double r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73, r76 = 0.28 * r6, r78 = 0.28 * r7;
     const double r80 = 0.112 * r52, r82 = 0.112 * r54, r84 = 0.0265 * r44, r86 = 0.0265 * r45;
     const double r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86, r89 = 0.28 * r4, r91 = 0.28 * r5;
@@ -621,7 +626,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -640,6 +646,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -667,11 +676,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -703,7 +720,7 @@ typedef struct {
     Solution *out;
     double relative[RH0_RIGHT_LEG_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -799,7 +816,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1093,6 +1114,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1118,6 +1140,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1176,13 +1201,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1256,7 +1279,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1320,7 +1343,8 @@ static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *sh
 static void block_6(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->r23_ * known->c1 - p->r13_ * known->s1, r7 = known->c2 * r2 + p->r33_ * known->s2;
-    const double r9 = p->r33_ * known->c2 - known->s2 * r2, r15 = known->c4 * (known->c3 * r9 - known->s3 * r7);
+    const double r9 = p->r33_ * known->c2 - known->s2 * r2;
+    const double r15 = known->c4 * (known->c3 * r9 - known->s3 * r7);
     const double r16 = known->s4 * (known->c3 * r7 + known->s3 * r9);
     const double r19 = p->r21_ * known->c1 - p->r11_ * known->s1, r24 = known->c2 * r19 + p->r31_ * known->s2;
     const double r26 = p->r31_ * known->c2 - known->s2 * r19;

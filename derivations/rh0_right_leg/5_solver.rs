@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.787092354220426, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -475,10 +470,8 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: AnkleRoll.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
-    let r8 = 0.0265 * p.r22_ - (p.py - 0.112 * p.r21_);
-    let r11 = f64::abs(p.magnitude + 1.3705);
+    let before = answers.candidates; let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
+    let r8 = 0.0265 * p.r22_ - (p.py - 0.112 * p.r21_); let r11 = f64::abs(p.magnitude + 1.3705);
     let r12 = f64::abs(p.magnitude + 1.2585);
     let shared = &Shared1 { r4, r8, r11, r12 };
     chart_1_1(p, shared, answers);
@@ -492,19 +485,14 @@ struct Shared1 { r4: f64, r8: f64, r11: f64, r12: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r13 = shared.r4 * shared.r4;
-    let r14 = shared.r8 * shared.r8;
-    let r15 = r13 + r14;
+    let r13 = shared.r4 * shared.r4; let r14 = shared.r8 * shared.r8; let r15 = r13 + r14;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
     if !is_away(r15, 16.0 * r18) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r13 - r14, f64::max(r18, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r13 - r14, f64::max(r18, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r25 = 1.0 / r15;
-        let c1 = 0.0 - w1 * shared.r8 * r25;
-        let s1 = 0.0 - w1 * shared.r4 * r25;
+        let r25 = 1.0 / r15; let c1 = 0.0 - w1 * shared.r8 * r25; let s1 = 0.0 - w1 * shared.r4 * r25;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -554,8 +542,7 @@ struct Shared2 { r32: f64 }
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r32 * shared.r32 - 0.02458624, 1.4142135623730951 * known.f1);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r39 = 0.0 - 40.673157017909205 * (0.1568 * shared.r32);
-        let c3 = r39;
+        let r39 = 0.0 - 40.673157017909205 * (0.1568 * shared.r32); let c3 = r39;
         let s3 = 40.673157017909205 * (0.1568 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_3(p, &next, answers);
@@ -565,14 +552,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: AnklePitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
-    let r9 = known.c1 * (p.py - 0.112 * p.r21_ - 0.0265 * p.r22_);
-    let r11 = 0.28 * known.s3;
-    let r13 = 0.28 * (known.c3 + 1.0);
-    let r17 = p.pz - 0.112 * p.r31_ - 0.0265 * p.r32_;
-    let r18 = known.s1 * r4 - r9;
-    let r22 = f64::abs(p.magnitude + 1.2585);
+    let before = answers.candidates; let r4 = p.px - 0.112 * p.r11_ - 0.0265 * p.r12_ + 0.112;
+    let r9 = known.c1 * (p.py - 0.112 * p.r21_ - 0.0265 * p.r22_); let r11 = 0.28 * known.s3;
+    let r13 = 0.28 * (known.c3 + 1.0); let r17 = p.pz - 0.112 * p.r31_ - 0.0265 * p.r32_;
+    let r18 = known.s1 * r4 - r9; let r22 = f64::abs(p.magnitude + 1.2585);
     let r23 = f64::abs(2.0 * p.magnitude + 2.629);
     let shared = &Shared3 { r11, r13, r17, r18, r22, r23 };
     chart_3_1(p, known, shared, answers);
@@ -590,12 +573,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r26, 31.36) {
         return;
     }
-    let f2 = 1.0;
-    let r30 = shared.r11 * shared.r18 - (0.0 - shared.r13 * shared.r17);
+    let f2 = 1.0; let r30 = shared.r11 * shared.r18 - (0.0 - shared.r13 * shared.r17);
     let r33 = shared.r11 * shared.r17 - shared.r13 * shared.r18;
-    let r38 = 1.0 / f64::max(r33 * r33 + r30 * r30, 0.0).sqrt();
-    let c2 = r33 * r38;
-    let s2 = r30 * r38;
+    let r38 = 1.0 / f64::max(r33 * r33 + r30 * r30, 0.0).sqrt(); let c2 = r33 * r38; let s2 = r30 * r38;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -618,12 +598,9 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: HipPitch.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = p.r22_ * known.c1 - p.r12_ * known.s1;
-    let r7 = known.c2 * r2 + p.r32_ * known.s2;
-    let r9 = p.r32_ * known.c2 - known.s2 * r2;
-    let r13 = known.s3 * r7 - known.c3 * r9;
-    let r14 = known.c3 * r7 + known.s3 * r9;
+    let before = answers.candidates; let r2 = p.r22_ * known.c1 - p.r12_ * known.s1;
+    let r7 = known.c2 * r2 + p.r32_ * known.s2; let r9 = p.r32_ * known.c2 - known.s2 * r2;
+    let r13 = known.s3 * r7 - known.c3 * r9; let r14 = known.c3 * r7 + known.s3 * r9;
     let shared = &Shared4 { r13, r14 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -643,17 +620,13 @@ struct Shared4 { r13: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r15 = shared.r13 * shared.r13;
-    let r16 = shared.r14 * shared.r14;
-    let r17 = r15 + r16;
+    let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 3200.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r15 - r16, known.f2 * (14.142135623730951 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r24 = 1.0 / r17;
-        let c4 = 0.0 - w4 * shared.r14 * r24;
-        let s4 = w4 * shared.r13 * r24;
+        let r24 = 1.0 / r17; let c4 = 0.0 - w4 * shared.r14 * r24; let s4 = w4 * shared.r13 * r24;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -676,10 +649,8 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: HipRoll.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r22_ * known.c1 - p.r12_ * known.s1;
-    let r9 = known.c2 * r4 + p.r32_ * known.s2;
-    let r11 = p.r32_ * known.c2 - known.s2 * r4;
-    let r19 = p.r12_ * known.c1 + p.r22_ * known.s1;
+    let r4 = p.r22_ * known.c1 - p.r12_ * known.s1; let r9 = known.c2 * r4 + p.r32_ * known.s2;
+    let r11 = p.r32_ * known.c2 - known.s2 * r4; let r19 = p.r12_ * known.c1 + p.r22_ * known.s1;
     let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + known.s4 * (known.c3 * r11 - known.s3 * r9);
     let shared = &Shared5 { r19, r20 };
     chart_5_1(p, known, shared, answers);
@@ -698,10 +669,8 @@ struct Shared5 { r19: f64, r20: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19;
-    let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
-    let c5 = shared.r20 * r25;
-    let s5 = 0.0 - shared.r19 * r25;
+    let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
+    let c5 = shared.r20 * r25; let s5 = 0.0 - shared.r19 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -709,12 +678,9 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: HipYaw.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.r23_ * known.c1 - p.r13_ * known.s1;
-    let r7 = known.c2 * r2 + p.r33_ * known.s2;
-    let r9 = p.r33_ * known.c2 - known.s2 * r2;
-    let r19 = p.r21_ * known.c1 - p.r11_ * known.s1;
-    let r24 = known.c2 * r19 + p.r31_ * known.s2;
-    let r26 = p.r31_ * known.c2 - known.s2 * r19;
+    let r2 = p.r23_ * known.c1 - p.r13_ * known.s1; let r7 = known.c2 * r2 + p.r33_ * known.s2;
+    let r9 = p.r33_ * known.c2 - known.s2 * r2; let r19 = p.r21_ * known.c1 - p.r11_ * known.s1;
+    let r24 = known.c2 * r19 + p.r31_ * known.s2; let r26 = p.r31_ * known.c2 - known.s2 * r19;
     let r32 = known.c4 * (known.c3 * r26 - known.s3 * r24);
     let r33 = known.s4 * (known.c3 * r24 + known.s3 * r26);
     let r34 = known.c4 * (known.c3 * r9 - known.s3 * r7) - known.s4 * (known.c3 * r7 + known.s3 * r9);
@@ -728,11 +694,8 @@ struct Shared6 { r32: f64, r33: f64, r34: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r35 = shared.r33 - shared.r32;
-    let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
-    let r40 = 1.0 / r39;
-    let c6 = shared.r34 * r40;
-    let s6 = r35 * r40;
+    let r35 = shared.r33 - shared.r32; let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
+    let r40 = 1.0 / r39; let c6 = shared.r34 * r40; let s6 = r35 * r40;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
         known.s5, c6, s6,
@@ -754,42 +717,15 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = c1 * c2;
-    let r2 = s1 * s2;
-    let r3 = c1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2;
-    let r20 = r6 - r7;
-    let r22 = s3 * r1 + c3 * r3;
-    let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3;
-    let r35 = c4 * r16 - s4 * r18;
-    let r38 = c4 * r20 - s4 * r22;
-    let r40 = c4 * r24 - s4 * r26;
-    let r41 = s5 * r40;
-    let r42 = c1 * s5;
-    let r43 = c5 * r35;
-    let r44 = s1 * s5;
-    let r45 = c5 * r38;
-    let r46 = c5 * r40;
-    let r47 = c1 * c5 - s5 * r35;
-    let r48 = c6 * r47;
-    let r49 = s4 * r16 + c4 * r18;
-    let r50 = s6 * r49;
-    let r51 = s1 * c5 + s5 * r38;
-    let r52 = c6 * r51;
-    let r53 = s4 * r20 + c4 * r22;
-    let r54 = s6 * r53;
-    let r55 = c6 * r41;
-    let r56 = s4 * r24 + c4 * r26;
-    let r57 = s6 * r56;
+    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3; let r35 = c4 * r16 - s4 * r18; let r38 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26; let r41 = s5 * r40; let r42 = c1 * s5; let r43 = c5 * r35;
+    let r44 = s1 * s5; let r45 = c5 * r38; let r46 = c5 * r40; let r47 = c1 * c5 - s5 * r35;
+    let r48 = c6 * r47; let r49 = s4 * r16 + c4 * r18; let r50 = s6 * r49; let r51 = s1 * c5 + s5 * r38;
+    let r52 = c6 * r51; let r53 = s4 * r20 + c4 * r22; let r54 = s6 * r53; let r55 = c6 * r41;
+    let r56 = s4 * r24 + c4 * r26; let r57 = s6 * r56;
     let r70 = 0.28 * s2 + 0.28 * r8 + 0.28 * r9 + 0.112 * r55;
     let r81 = 0.28 * r1 + 0.28 * r6 - 0.28 * r7 + 0.112 * r52;
     let r87 = r81 + 0.112 * r54 - 0.0265 * r44 + 0.0265 * r45;
@@ -856,87 +792,29 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = c1 * c2;
-    let r2 = s1 * s2;
-    let r3 = c1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2;
-    let r20 = r6 - r7;
-    let r22 = s3 * r1 + c3 * r3;
-    let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3;
-    let r35 = c4 * r16 - s4 * r18;
-    let r38 = c4 * r20 - s4 * r22;
-    let r40 = c4 * r24 - s4 * r26;
-    let r41 = s5 * r40;
-    let r42 = c1 * s5;
-    let r43 = c5 * r35;
-    let r44 = s1 * s5;
-    let r45 = c5 * r38;
-    let r46 = c5 * r40;
-    let r47 = c1 * c5 - s5 * r35;
-    let r48 = c6 * r47;
-    let r49 = s4 * r16 + c4 * r18;
-    let r50 = s6 * r49;
-    let r51 = s1 * c5 + s5 * r38;
-    let r52 = c6 * r51;
-    let r53 = s4 * r20 + c4 * r22;
-    let r54 = s6 * r53;
-    let r55 = c6 * r41;
-    let r56 = s4 * r24 + c4 * r26;
-    let r57 = s6 * r56;
-    let r60 = s6 * r51;
-    let r61 = c6 * r53;
-    let r65 = 0.28 * r8;
-    let r67 = 0.28 * r9;
-    let r69 = 0.112 * r55;
-    let r71 = 0.112 * r57;
-    let r73 = 0.0265 * r46;
-    let r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73;
-    let r76 = 0.28 * r6;
-    let r78 = 0.28 * r7;
-    let r80 = 0.112 * r52;
-    let r82 = 0.112 * r54;
-    let r84 = 0.0265 * r44;
-    let r86 = 0.0265 * r45;
-    let r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86;
-    let r89 = 0.28 * r4;
-    let r91 = 0.28 * r5;
-    let r93 = 0.112 * r48;
-    let r95 = 0.112 * r50;
-    let r97 = 0.0265 * r42;
-    let r99 = 0.0265 * r43;
-    let r100 = 0.28 * r0 + r89 - r91 - r93 + r95 + r97 + r99;
-    let r101 = r42 + r43;
-    let r107 = r55 + r57;
-    let r108 = r52 + r54;
-    let r109 = r48 - r50;
-    let r118 = s6 * r41 - c6 * r56;
-    let r119 = r60 - r61;
-    let r120 = s6 * r47 + c6 * r49;
-    let r131 = r73 + (r71 + (r69 + (r65 + r67)));
+    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3; let r35 = c4 * r16 - s4 * r18; let r38 = c4 * r20 - s4 * r22;
+    let r40 = c4 * r24 - s4 * r26; let r41 = s5 * r40; let r42 = c1 * s5; let r43 = c5 * r35;
+    let r44 = s1 * s5; let r45 = c5 * r38; let r46 = c5 * r40; let r47 = c1 * c5 - s5 * r35;
+    let r48 = c6 * r47; let r49 = s4 * r16 + c4 * r18; let r50 = s6 * r49; let r51 = s1 * c5 + s5 * r38;
+    let r52 = c6 * r51; let r53 = s4 * r20 + c4 * r22; let r54 = s6 * r53; let r55 = c6 * r41;
+    let r56 = s4 * r24 + c4 * r26; let r57 = s6 * r56; let r60 = s6 * r51; let r61 = c6 * r53;
+    let r65 = 0.28 * r8; let r67 = 0.28 * r9; let r69 = 0.112 * r55; let r71 = 0.112 * r57;
+    let r73 = 0.0265 * r46; let r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73; let r76 = 0.28 * r6;
+    let r78 = 0.28 * r7; let r80 = 0.112 * r52; let r82 = 0.112 * r54; let r84 = 0.0265 * r44;
+    let r86 = 0.0265 * r45; let r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86; let r89 = 0.28 * r4;
+    let r91 = 0.28 * r5; let r93 = 0.112 * r48; let r95 = 0.112 * r50; let r97 = 0.0265 * r42;
+    let r99 = 0.0265 * r43; let r100 = 0.28 * r0 + r89 - r91 - r93 + r95 + r97 + r99; let r101 = r42 + r43;
+    let r107 = r55 + r57; let r108 = r52 + r54; let r109 = r48 - r50; let r118 = s6 * r41 - c6 * r56;
+    let r119 = r60 - r61; let r120 = s6 * r47 + c6 * r49; let r131 = r73 + (r71 + (r69 + (r65 + r67)));
     let r139 = c1 * (r86 + (r82 + (r80 + (r76 - r78)) - r84));
-    let r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93))));
-    let r147 = r73 + (r69 + r71);
-    let r152 = r86 + (r80 + r82 - r84);
-    let r156 = r93 - r95 - r97 - r99;
-    let r164 = r44 - r45;
-    let r187 = s1 * r107;
-    let r207 = 0.0 - c1 * r107;
-    let r211 = c1 * r108 - s1 * r109;
-    let r214 = s1 * r46;
-    let r226 = 0.0 - c1 * r46;
-    let r228 = s1 * r101 - c1 * r164;
-    let r231 = s1 * r118;
-    let r251 = 0.0 - c1 * r118;
-    let r255 = c1 * r119 - s1 * r120;
+    let r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93)))); let r147 = r73 + (r69 + r71);
+    let r152 = r86 + (r80 + r82 - r84); let r156 = r93 - r95 - r97 - r99; let r164 = r44 - r45;
+    let r187 = s1 * r107; let r207 = 0.0 - c1 * r107; let r211 = c1 * r108 - s1 * r109; let r214 = s1 * r46;
+    let r226 = 0.0 - c1 * r46; let r228 = s1 * r101 - c1 * r164; let r231 = s1 * r118;
+    let r251 = 0.0 - c1 * r118; let r255 = c1 * r119 - s1 * r120;
     [
         [0.0 - r87, s1 * r74, s1 * r131, s1 * r147, r56 * r152 - r53 * r147, 0.0 - (r147 * r164 + r46 * r152)],
         [0.0 - r100, 0.0 - c1 * r74, 0.0 - c1 * r131, 0.0 - c1 * r147, 0.0 - (r56 * r156 + r49 * r147), r46 * r156 + r147 * r101],
@@ -961,7 +839,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -972,20 +850,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1014,6 +893,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1356,7 +1238,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1425,12 +1311,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1441,6 +1332,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1836,8 +1730,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

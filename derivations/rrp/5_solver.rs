@@ -317,6 +317,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -342,6 +344,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -359,7 +363,7 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -375,9 +379,7 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
+    let px = target[0]; let py = target[1]; let pz = target[2];
     let magnitude = f64::max(f64::max(f64::max(1.1302692427176386, f64::abs(px)), f64::abs(py)), f64::abs(pz));
     Parameters { px, py, pz, magnitude }
 }
@@ -414,18 +416,14 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r0 = p.py * p.py;
-    let r1 = p.px * p.px;
-    let r2 = r0 + r1;
-    let r3 = p.magnitude * p.magnitude;
+    let r0 = p.py * p.py; let r1 = p.px * p.px; let r2 = r0 + r1; let r3 = p.magnitude * p.magnitude;
     let r4 = r3 + r3;
     if !is_away(r2, 16.0 * r4) {
         return;
     }
     let roots0 = square_roots(0.010000000000000002 - r0 - r1, f64::max(r4, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r15 = 1.0 / r2;
-        let c1 = (0.1 * p.py - p.px * w1) * r15;
+        let r15 = 1.0 / r2; let c1 = (0.1 * p.py - p.px * w1) * r15;
         let s1 = 0.0 - (0.1 * p.px + p.py * w1) * r15;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -436,8 +434,7 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = p.pz * p.pz + (p.px * p.px + p.py * p.py) - 0.3 * (p.px * known.c1);
-    let r13 = r8 - 0.3 * (p.py * known.s1) - 1.2 * p.pz + 0.21;
-    let r14 = 0.0 - r13;
+    let r13 = r8 - 0.3 * (p.py * known.s1) - 1.2 * p.pz + 0.21; let r14 = 0.0 - r13;
     let shared = &Shared2 { r14 };
     chart_2_1(p, known, shared, answers);
 }
@@ -459,9 +456,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Pitch.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = known.d3 + 0.4;
-    let r3 = p.pz - 0.6;
+    let before = answers.candidates; let r2 = known.d3 + 0.4; let r3 = p.pz - 0.6;
     let r5 = p.px * known.c1 + p.py * known.s1 - 0.15;
     let shared = &Shared3 { r2, r3, r5 };
     chart_3_1(p, known, shared, answers);
@@ -481,9 +476,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let r10 = 0.05 * shared.r5 - shared.r2 * shared.r3;
     let r14 = shared.r2 * shared.r5 - (0.0 - 0.05 * shared.r3);
-    let r19 = 1.0 / f64::max(r14 * r14 + r10 * r10, 0.0).sqrt();
-    let c2 = r14 * r19;
-    let s2 = r10 * r19;
+    let r19 = 1.0 / f64::max(r14 * r14 + r10 * r10, 0.0).sqrt(); let c2 = r14 * r19; let s2 = r10 * r19;
     let at = [known.c1, known.s1, c2, s2, known.d3];
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, known.free);
 }
@@ -509,9 +502,7 @@ const TIP: usize = 3;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r22 = d3 * r1 + (0.05 * (s1 * s2) + (0.4 * r1 + 0.15 * s1));
+    let r0 = c1 * c2; let r1 = s1 * c2; let r22 = d3 * r1 + (0.05 * (s1 * s2) + (0.4 * r1 + 0.15 * s1));
     let r27 = d3 * r0 + (0.05 * (c1 * s2) + (0.4 * r0 + 0.15 * c1));
     [
         r27 - 0.1 * s1,
@@ -564,17 +555,9 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r5 = d3 * r0;
-    let r6 = d3 * r1;
-    let r12 = s2 * d3 + (0.4 * s2 - 0.05 * c2);
-    let r13 = 0.4 * r1;
-    let r14 = 0.05 * (s1 * s2);
-    let r15 = 0.1 * c1;
-    let r16 = 0.4 * r0;
-    let r17 = 0.05 * (c1 * s2);
-    let r18 = 0.1 * s1;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r5 = d3 * r0; let r6 = d3 * r1;
+    let r12 = s2 * d3 + (0.4 * s2 - 0.05 * c2); let r13 = 0.4 * r1; let r14 = 0.05 * (s1 * s2);
+    let r15 = 0.1 * c1; let r16 = 0.4 * r0; let r17 = 0.05 * (c1 * s2); let r18 = 0.1 * s1;
     let r43 = 0.0 - (r15 + (r6 + (r14 + (r13 + 0.15 * s1))));
     let r46 = s1 * (r6 + (r13 + r14) + r15) + c1 * (r5 + (r16 + r17) - r18);
     [
@@ -592,7 +575,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -603,20 +586,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -645,6 +629,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -987,7 +974,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1056,12 +1047,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1072,6 +1068,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1467,8 +1466,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

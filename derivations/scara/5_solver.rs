@@ -331,6 +331,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -356,6 +358,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -375,7 +379,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -428,18 +432,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.7803652144736517, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -503,8 +498,7 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     let r13 = shared.r11 * shared.r11 - 0.031951562499999996;
     let roots0 = square_roots(r13, 1.4142135623730951);
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r17 = 0.0 - 31.297373954716615 * (0.17875 * shared.r11);
-        let c2 = r17;
+        let r17 = 0.0 - 31.297373954716615 * (0.17875 * shared.r11); let c2 = r17;
         let s2 = 31.297373954716615 * (0.17875 * w2);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c2, s2, ..*known };
         block_3(p, &next, answers);
@@ -514,11 +508,8 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 /// Block 3: Shoulder.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r0 = 0.275 * known.s2;
-    let r2 = 0.275 * known.c2 + 0.325;
-    let r3 = 0.0 - p.px;
-    let r5 = f64::abs(p.magnitude + 1.974);
+    let before = answers.candidates; let r0 = 0.275 * known.s2; let r2 = 0.275 * known.c2 + 0.325;
+    let r3 = 0.0 - p.px; let r5 = f64::abs(p.magnitude + 1.974);
     let shared = &Shared3 { r0, r2, r3, r5 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -535,11 +526,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r8, 38.69) {
         return;
     }
-    let r11 = p.py * shared.r2 - p.px * shared.r0;
-    let r15 = p.px * shared.r2 - (0.0 - p.py * shared.r0);
-    let r20 = 1.0 / f64::max(r15 * r15 + r11 * r11, 0.0).sqrt();
-    let c1 = r15 * r20;
-    let s1 = r11 * r20;
+    let r11 = p.py * shared.r2 - p.px * shared.r0; let r15 = p.px * shared.r2 - (0.0 - p.py * shared.r0);
+    let r20 = 1.0 / f64::max(r15 * r15 + r11 * r11, 0.0).sqrt(); let c1 = r15 * r20; let s1 = r11 * r20;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c1, s1, ..*known };
     block_4(p, &next, answers);
 }
@@ -548,8 +536,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
 fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r0 * shared.r0 + shared.r2 * shared.r2;
-    let r9 = 0.01 * shared.r5;
+    let r8 = shared.r0 * shared.r0 + shared.r2 * shared.r2; let r9 = 0.01 * shared.r5;
     if !(is_near(r8, 2.418125e-7, NEAR) && is_near(shared.r3, r9, NEAR) && is_near(p.py, r9, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r8, 2.418125e-7, BESIDE) && is_near(shared.r3, r9, BESIDE) && is_near(p.py, r9, BESIDE))) {
         return;
     }
@@ -565,9 +552,7 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = known.c2 * (p.r22_ * known.c1 - p.r12_ * known.s1);
     let r7 = known.s2 * (p.r12_ * known.c1 + p.r22_ * known.s1);
     let r14 = known.c2 * (p.r21_ * known.c1 - p.r11_ * known.s1);
-    let r15 = known.s2 * (p.r11_ * known.c1 + p.r21_ * known.s1);
-    let r16 = r7 - r6;
-    let r17 = r15 - r14;
+    let r15 = known.s2 * (p.r11_ * known.c1 + p.r21_ * known.s1); let r16 = r7 - r6; let r17 = r15 - r14;
     let shared = &Shared4 { r16, r17 };
     chart_4_1(p, known, shared, answers);
 }
@@ -585,10 +570,8 @@ struct Shared4 { r16: f64, r17: f64 }
 /// Chart 1 of block 4: generic.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17;
-    let r22 = 1.0 / f64::max(r20, 0.0).sqrt();
-    let c4 = shared.r16 * r22;
-    let s4 = shared.r17 * r22;
+    let r20 = shared.r16 * shared.r16 + shared.r17 * shared.r17; let r22 = 1.0 / f64::max(r20, 0.0).sqrt();
+    let c4 = shared.r16 * r22; let s4 = shared.r17 * r22;
     let at = [known.c1, known.s1, known.c2, known.s2, known.d3, c4, s4];
     answers.finish(p, known.branch, known.last, known.close, &at, known.free);
 }
@@ -600,15 +583,8 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, d3, c4, s4] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * s2;
-    let r5 = r0 - r1;
-    let r7 = r2 + r3;
-    let r8 = s4 * r7;
-    let r9 = c4 * r7;
-    let r10 = r1 - r0;
+    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = r0 - r1; let r7 = r2 + r3;
+    let r8 = s4 * r7; let r9 = c4 * r7; let r10 = r1 - r0;
     [
         0.325 * c1 + 0.275 * r0 - 0.275 * r1,
         0.325 * s1 + 0.275 * r2 + 0.275 * r3,
@@ -671,21 +647,9 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, _, c4, s4] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * s2;
-    let r5 = r0 - r1;
-    let r7 = r2 + r3;
-    let r8 = s4 * r7;
-    let r9 = c4 * r7;
-    let r10 = r1 - r0;
-    let r12 = s4 * r5;
-    let r13 = c4 * r10;
-    let r29 = r9 + s4 * r10;
-    let r30 = c4 * r5 + r8;
-    let r35 = r9 - r12;
-    let r46 = 0.0 - r29;
+    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = r0 - r1; let r7 = r2 + r3;
+    let r8 = s4 * r7; let r9 = c4 * r7; let r10 = r1 - r0; let r12 = s4 * r5; let r13 = c4 * r10;
+    let r29 = r9 + s4 * r10; let r30 = c4 * r5 + r8; let r35 = r9 - r12; let r46 = 0.0 - r29;
     let r48 = r8 - r13;
     [
         [0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0],
@@ -711,7 +675,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -722,20 +686,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -764,6 +729,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1087,7 +1055,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1156,12 +1128,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1172,6 +1149,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1567,8 +1547,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -141,6 +141,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -162,6 +164,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -181,7 +185,7 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define CONSISTENT 1e-9
 /* A factor is near zero up to this share of its scale. */
 #define NEAR 0.001
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -386,7 +390,8 @@ static double value_and_slope(const Polynomial *p, double x, double *slope)
 static double sign(const Polynomial *p, double x)
 {
     double size;
-    const double value = value_and_size(p, x, 0.0, &size), noise = ROUNDING * (double)p->degree * size;
+    const double value = value_and_size(p, x, 0.0, &size);
+    const double noise = ROUNDING * (double)p->degree * size;
     return value == 0.0 || (isfinite(noise) && fabs(value) <= noise) ? 0.0 : copysign(1.0, value);
 }
 
@@ -456,7 +461,8 @@ static Roots roots_between(const Polynomial *p, const Roots *critical, double bo
     double low = -bound, low_sign = sign(p, low);
     bool touched = false;
     for (size_t i = 0; i <= critical->count; i++) {
-        const double high = i < critical->count ? critical->values[i] : bound, high_sign = sign(p, high);
+        const double high = i < critical->count ? critical->values[i] : bound;
+        const double high_sign = sign(p, high);
         const bool crosses = low_sign * high_sign < 0.0;
         if (crosses) {
             push(&roots, root_between(p, low, high));
@@ -517,7 +523,8 @@ static int approximate_roots(const double *monic, double scale, double *roots)
     const double e = monic[0], d = monic[1], c = monic[2], b = monic[3];
     /* With y = x + b / 4 it is y^4 + p y^2 + q y + r. */
     const double quarter = 0.25 * b, square = b * b, p = c - 0.375 * square;
-    const double q = d - 0.5 * b * (c - 0.25 * square), r = e - quarter * (d - quarter * (c - 0.1875 * square));
+    const double q = d - 0.5 * b * (c - 0.25 * square);
+    const double r = e - quarter * (d - quarter * (c - 0.1875 * square));
     /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
     const double z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale), h = sqrt(z);
     const double mean = 0.5 * (p + z), half = 0.5 * q / h, f = mean - half, g = mean + half;
@@ -630,8 +637,8 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r6 = 0.6666666666666666 * s2;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r6 = 0.6666666666666666 * s2;
     const double r7 = 0.2222222222222222 * c2, r9 = r6 - r7 + 0.2222222222222222;
     const double r11 = 0.2222222222222222 - (r6 + r7), r12 = 0.3333333333333333 * s2;
     const double r13 = 0.4444444444444444 * c2, r15 = r12 - r13 + 0.4444444444444444;
@@ -653,7 +660,8 @@ static void tip(const double *at, double *reached)
     const double r100 = r22 * r95 + r30 * r79 - r35 * r83, r105 = r25 * r95 + r33 * r79 - r37 * r83;
     const double r110 = r11 * r95 + r15 * r79 - r28 * r83, r113 = 0.2653061224489796 * c3 + 0.7346938775510204;
     const double r117 = r30 * r113 - r22 * r85 + r35 * r89, r122 = r33 * r113 - r25 * r85 + r37 * r89;
-    const double r127 = r15 * r113 - r11 * r85 + r28 * r89, r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
+    const double r127 = r15 * r113 - r11 * r85 + r28 * r89;
+    const double r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
     const double r134 = r22 * r91 + r30 * r93 + r35 * r132, r139 = r25 * r91 + r33 * r93 + r37 * r132;
     const double r144 = r11 * r91 + r15 * r93 + r28 * r132;
     const double r160 = r54 + (0.25 * r22 + 0.2 * r30 + 0.6 * r35) - (0.25 * r100 + 0.2 * r117 + 0.6 * r134);
@@ -665,24 +673,33 @@ static void tip(const double *at, double *reached)
     const double r182 = 0.2222222222222222 * c4, r184 = r181 + r182 - 0.2222222222222222;
     const double r185 = 0.3333333333333333 * s4, r186 = 0.4444444444444444 * c4;
     const double r188 = r185 - r186 + 0.4444444444444444, r190 = r181 - r182 + 0.2222222222222222;
-    const double r192 = 0.4444444444444444 - (r185 + r186), r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
-    const double r199 = r100 * r194 + r117 * r184 + r134 * r188, r204 = r105 * r194 + r122 * r184 + r139 * r188;
+    const double r192 = 0.4444444444444444 - (r185 + r186);
+    const double r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    const double r199 = r100 * r194 + r117 * r184 + r134 * r188;
+    const double r204 = r105 * r194 + r122 * r184 + r139 * r188;
     const double r209 = r110 * r194 + r127 * r184 + r144 * r188;
     const double r212 = 0.8888888888888888 * c4 + 0.1111111111111111;
-    const double r216 = r117 * r212 - r100 * r190 + r134 * r184, r221 = r122 * r212 - r105 * r190 + r139 * r184;
-    const double r226 = r127 * r212 - r110 * r190 + r144 * r184, r231 = r100 * r192 - r117 * r190 + r134 * r194;
-    const double r236 = r105 * r192 - r122 * r190 + r139 * r194, r241 = r110 * r192 - r127 * r190 + r144 * r194;
-    const double r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231, r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
-    const double r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241, r263 = 0.3333333333333333 * s5;
-    const double r264 = 0.4444444444444444 * c5, r266 = 0.4444444444444444 - (r263 + r264);
-    const double r267 = 0.6666666666666666 * s5, r268 = 0.2222222222222222 * c5;
-    const double r270 = r267 - r268 + 0.2222222222222222, r272 = r263 - r264 + 0.4444444444444444;
-    const double r274 = r267 + r268 - 0.2222222222222222, r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
-    const double r281 = r199 * r276 + r216 * r266 - r231 * r270, r286 = r204 * r276 + r221 * r266 - r236 * r270;
-    const double r291 = r209 * r276 + r226 * r266 - r241 * r270, r296 = r199 * r272 + r216 * r276 + r231 * r274;
-    const double r301 = r204 * r272 + r221 * r276 + r236 * r274, r306 = r209 * r272 + r226 * r276 + r241 * r274;
+    const double r216 = r117 * r212 - r100 * r190 + r134 * r184;
+    const double r221 = r122 * r212 - r105 * r190 + r139 * r184;
+    const double r226 = r127 * r212 - r110 * r190 + r144 * r184;
+    const double r231 = r100 * r192 - r117 * r190 + r134 * r194;
+    const double r236 = r105 * r192 - r122 * r190 + r139 * r194;
+    const double r241 = r110 * r192 - r127 * r190 + r144 * r194, r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231;
+    const double r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236, r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241;
+    const double r263 = 0.3333333333333333 * s5, r264 = 0.4444444444444444 * c5;
+    const double r266 = 0.4444444444444444 - (r263 + r264), r267 = 0.6666666666666666 * s5;
+    const double r268 = 0.2222222222222222 * c5, r270 = r267 - r268 + 0.2222222222222222;
+    const double r272 = r263 - r264 + 0.4444444444444444, r274 = r267 + r268 - 0.2222222222222222;
+    const double r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    const double r281 = r199 * r276 + r216 * r266 - r231 * r270;
+    const double r286 = r204 * r276 + r221 * r266 - r236 * r270;
+    const double r291 = r209 * r276 + r226 * r266 - r241 * r270;
+    const double r296 = r199 * r272 + r216 * r276 + r231 * r274;
+    const double r301 = r204 * r272 + r221 * r276 + r236 * r274;
+    const double r306 = r209 * r272 + r226 * r276 + r241 * r274;
     const double r311 = 0.8888888888888888 * c5 + 0.1111111111111111;
-    const double r313 = r199 * r274 - r216 * r270 + r231 * r311, r318 = r204 * r274 - r221 * r270 + r236 * r311;
+    const double r313 = r199 * r274 - r216 * r270 + r231 * r311;
+    const double r318 = r204 * r274 - r221 * r270 + r236 * r311;
     const double r323 = r209 * r274 - r226 * r270 + r241 * r311, r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
     const double r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318, r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
     const double r345 = 0.6666666666666666 * s6, r346 = 0.2222222222222222 * c6;
@@ -690,12 +707,16 @@ static void tip(const double *at, double *reached)
     const double r351 = 0.3333333333333333 * s6, r352 = 0.4444444444444444 * c6;
     const double r354 = 0.4444444444444444 - (r351 + r352), r356 = r351 - r352 + 0.4444444444444444;
     const double r358 = 0.8888888888888888 * c6 + 0.1111111111111111;
-    const double r363 = r281 * r358 + r296 * r348 - r313 * r350, r368 = r286 * r358 + r301 * r348 - r318 * r350;
+    const double r363 = r281 * r358 + r296 * r348 - r313 * r350;
+    const double r368 = r286 * r358 + r301 * r348 - r318 * r350;
     const double r373 = r291 * r358 + r306 * r348 - r323 * r350;
     const double r376 = 0.5555555555555556 * c6 + 0.4444444444444444;
-    const double r380 = r296 * r376 - r281 * r350 + r313 * r354, r385 = r301 * r376 - r286 * r350 + r318 * r354;
-    const double r390 = r306 * r376 - r291 * r350 + r323 * r354, r395 = r281 * r348 + r296 * r356 + r313 * r376;
-    const double r400 = r286 * r348 + r301 * r356 + r318 * r376, r405 = r291 * r348 + r306 * r356 + r323 * r376;
+    const double r380 = r296 * r376 - r281 * r350 + r313 * r354;
+    const double r385 = r301 * r376 - r286 * r350 + r318 * r354;
+    const double r390 = r306 * r376 - r291 * r350 + r323 * r354;
+    const double r395 = r281 * r348 + r296 * r356 + r313 * r376;
+    const double r400 = r286 * r348 + r301 * r356 + r318 * r376;
+    const double r405 = r291 * r348 + r306 * r356 + r323 * r376;
     const double r421 = r328 + (r246 + (r178 - r246) - r328) - (0.6 * r363 + 0.25 * r380 + 0.8 * r395);
     const double r422 = r333 + (r251 + (r179 - r251) - r333) - (0.6 * r368 + 0.25 * r385 + 0.8 * r400);
     const double r423 = r338 + (r256 + (r180 - r256) - r338) - (0.6 * r373 + 0.25 * r390 + 0.8 * r405);
@@ -761,8 +782,8 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r2 = 0.1 * c1 + 0.05 * s1;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r2 = 0.1 * c1 + 0.05 * s1;
     const double r5 = 0.1 * s1 - 0.05 * c1, r6 = 0.6666666666666666 * s2, r7 = 0.2222222222222222 * c2;
     const double r9 = r6 - r7 + 0.2222222222222222, r11 = 0.2222222222222222 - (r6 + r7);
     const double r12 = 0.3333333333333333 * s2, r13 = 0.4444444444444444 * c2;
@@ -783,10 +804,12 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r91 = r80 + r81 - 0.12244897959183673, r93 = r86 - r87 + 0.3673469387755102;
     const double r95 = 0.9183673469387755 * c3 + 0.08163265306122448, r100 = r22 * r95 + r30 * r79 - r35 * r83;
     const double r105 = r25 * r95 + r33 * r79 - r37 * r83, r110 = r11 * r95 + r15 * r79 - r28 * r83;
-    const double r113 = 0.2653061224489796 * c3 + 0.7346938775510204, r117 = r30 * r113 - r22 * r85 + r35 * r89;
-    const double r122 = r33 * r113 - r25 * r85 + r37 * r89, r127 = r15 * r113 - r11 * r85 + r28 * r89;
-    const double r132 = 0.8163265306122449 * c3 + 0.1836734693877551, r134 = r22 * r91 + r30 * r93 + r35 * r132;
-    const double r139 = r25 * r91 + r33 * r93 + r37 * r132, r144 = r11 * r91 + r15 * r93 + r28 * r132;
+    const double r113 = 0.2653061224489796 * c3 + 0.7346938775510204;
+    const double r117 = r30 * r113 - r22 * r85 + r35 * r89, r122 = r33 * r113 - r25 * r85 + r37 * r89;
+    const double r127 = r15 * r113 - r11 * r85 + r28 * r89;
+    const double r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
+    const double r134 = r22 * r91 + r30 * r93 + r35 * r132, r139 = r25 * r91 + r33 * r93 + r37 * r132;
+    const double r144 = r11 * r91 + r15 * r93 + r28 * r132;
     const double r160 = r72 - (0.25 * r100 + 0.2 * r117 + 0.6 * r134);
     const double r161 = r73 - (0.25 * r105 + 0.2 * r122 + 0.6 * r139);
     const double r162 = r75 - (0.25 * r110 + 0.2 * r127 + 0.6 * r144);
@@ -796,25 +819,34 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r182 = 0.2222222222222222 * c4, r184 = r181 + r182 - 0.2222222222222222;
     const double r185 = 0.3333333333333333 * s4, r186 = 0.4444444444444444 * c4;
     const double r188 = r185 - r186 + 0.4444444444444444, r190 = r181 - r182 + 0.2222222222222222;
-    const double r192 = 0.4444444444444444 - (r185 + r186), r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
-    const double r199 = r100 * r194 + r117 * r184 + r134 * r188, r204 = r105 * r194 + r122 * r184 + r139 * r188;
+    const double r192 = 0.4444444444444444 - (r185 + r186);
+    const double r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    const double r199 = r100 * r194 + r117 * r184 + r134 * r188;
+    const double r204 = r105 * r194 + r122 * r184 + r139 * r188;
     const double r209 = r110 * r194 + r127 * r184 + r144 * r188;
     const double r212 = 0.8888888888888888 * c4 + 0.1111111111111111;
-    const double r216 = r117 * r212 - r100 * r190 + r134 * r184, r221 = r122 * r212 - r105 * r190 + r139 * r184;
-    const double r226 = r127 * r212 - r110 * r190 + r144 * r184, r231 = r100 * r192 - r117 * r190 + r134 * r194;
-    const double r236 = r105 * r192 - r122 * r190 + r139 * r194, r241 = r110 * r192 - r127 * r190 + r144 * r194;
-    const double r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231, r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
-    const double r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241, r260 = r246 + (r178 - r246);
-    const double r261 = r251 + (r179 - r251), r262 = r256 + (r180 - r256), r263 = 0.3333333333333333 * s5;
-    const double r264 = 0.4444444444444444 * c5, r266 = 0.4444444444444444 - (r263 + r264);
-    const double r267 = 0.6666666666666666 * s5, r268 = 0.2222222222222222 * c5;
-    const double r270 = r267 - r268 + 0.2222222222222222, r272 = r263 - r264 + 0.4444444444444444;
-    const double r274 = r267 + r268 - 0.2222222222222222, r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
-    const double r281 = r199 * r276 + r216 * r266 - r231 * r270, r286 = r204 * r276 + r221 * r266 - r236 * r270;
-    const double r291 = r209 * r276 + r226 * r266 - r241 * r270, r296 = r199 * r272 + r216 * r276 + r231 * r274;
-    const double r301 = r204 * r272 + r221 * r276 + r236 * r274, r306 = r209 * r272 + r226 * r276 + r241 * r274;
+    const double r216 = r117 * r212 - r100 * r190 + r134 * r184;
+    const double r221 = r122 * r212 - r105 * r190 + r139 * r184;
+    const double r226 = r127 * r212 - r110 * r190 + r144 * r184;
+    const double r231 = r100 * r192 - r117 * r190 + r134 * r194;
+    const double r236 = r105 * r192 - r122 * r190 + r139 * r194;
+    const double r241 = r110 * r192 - r127 * r190 + r144 * r194, r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231;
+    const double r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236, r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241;
+    const double r260 = r246 + (r178 - r246), r261 = r251 + (r179 - r251), r262 = r256 + (r180 - r256);
+    const double r263 = 0.3333333333333333 * s5, r264 = 0.4444444444444444 * c5;
+    const double r266 = 0.4444444444444444 - (r263 + r264), r267 = 0.6666666666666666 * s5;
+    const double r268 = 0.2222222222222222 * c5, r270 = r267 - r268 + 0.2222222222222222;
+    const double r272 = r263 - r264 + 0.4444444444444444, r274 = r267 + r268 - 0.2222222222222222;
+    const double r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    const double r281 = r199 * r276 + r216 * r266 - r231 * r270;
+    const double r286 = r204 * r276 + r221 * r266 - r236 * r270;
+    const double r291 = r209 * r276 + r226 * r266 - r241 * r270;
+    const double r296 = r199 * r272 + r216 * r276 + r231 * r274;
+    const double r301 = r204 * r272 + r221 * r276 + r236 * r274;
+    const double r306 = r209 * r272 + r226 * r276 + r241 * r274;
     const double r311 = 0.8888888888888888 * c5 + 0.1111111111111111;
-    const double r313 = r199 * r274 - r216 * r270 + r231 * r311, r318 = r204 * r274 - r221 * r270 + r236 * r311;
+    const double r313 = r199 * r274 - r216 * r270 + r231 * r311;
+    const double r318 = r204 * r274 - r221 * r270 + r236 * r311;
     const double r323 = r209 * r274 - r226 * r270 + r241 * r311, r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
     const double r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318, r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
     const double r342 = r328 + (r260 - r328), r343 = r333 + (r261 - r333), r344 = r338 + (r262 - r338);
@@ -826,9 +858,12 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r363 = r281 * r358 + r296 * r348 - r313 * r350, r366 = r286 * r358 + r301 * r348;
     const double r367 = r318 * r350, r368 = r366 - r367, r373 = r291 * r358 + r306 * r348 - r323 * r350;
     const double r376 = 0.5555555555555556 * c6 + 0.4444444444444444;
-    const double r380 = r296 * r376 - r281 * r350 + r313 * r354, r385 = r301 * r376 - r286 * r350 + r318 * r354;
-    const double r390 = r306 * r376 - r291 * r350 + r323 * r354, r395 = r281 * r348 + r296 * r356 + r313 * r376;
-    const double r400 = r286 * r348 + r301 * r356 + r318 * r376, r405 = r291 * r348 + r306 * r356 + r323 * r376;
+    const double r380 = r296 * r376 - r281 * r350 + r313 * r354;
+    const double r385 = r301 * r376 - r286 * r350 + r318 * r354;
+    const double r390 = r306 * r376 - r291 * r350 + r323 * r354;
+    const double r395 = r281 * r348 + r296 * r356 + r313 * r376;
+    const double r400 = r286 * r348 + r301 * r356 + r318 * r376;
+    const double r405 = r291 * r348 + r306 * r356 + r323 * r376;
     const double r421 = r342 - (0.6 * r363 + 0.25 * r380 + 0.8 * r395);
     const double r422 = r343 - (0.6 * r368 + 0.25 * r385 + 0.8 * r400);
     const double r423 = r344 - (0.6 * r373 + 0.25 * r390 + 0.8 * r405);
@@ -857,10 +892,11 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r510 = 0.6666666666666666 * r301 - 0.3333333333333333 * r286;
     const double r512 = r510 + 0.6666666666666666 * r318;
     const double r515 = 0.6666666666666666 * r306 - 0.3333333333333333 * r291;
-    const double r517 = r515 + 0.6666666666666666 * r323, r518 = r439 - r2, r519 = r440 - r5, r520 = r441 - 0.3;
-    const double r530 = r439 - r72, r531 = r440 - r73, r532 = r441 - r75, r542 = r439 - r178, r543 = r440 - r179;
-    const double r544 = r441 - r180, r554 = r439 - r260, r555 = r440 - r261, r556 = r441 - r262;
-    const double r566 = r439 - r342, r567 = r440 - r343, r568 = r441 - r344;
+    const double r517 = r515 + 0.6666666666666666 * r323, r518 = r439 - r2, r519 = r440 - r5;
+    const double r520 = r441 - 0.3, r530 = r439 - r72, r531 = r440 - r73, r532 = r441 - r75;
+    const double r542 = r439 - r178, r543 = r440 - r179, r544 = r441 - r180, r554 = r439 - r260;
+    const double r555 = r440 - r261, r556 = r441 - r262, r566 = r439 - r342, r567 = r440 - r343;
+    const double r568 = r441 - r344;
     const Jacobian result = { {
         {0.0 - r440, r459 * r520 - 0.6666666666666666 * r519, r469 * r532 - r475 * r531, r485 * r544 - r490 * r543, r498 * r556 - r502 * r555, r512 * r568 - r517 * r567},
         {r439, 0.6666666666666666 * r518 - r456 * r520, r475 * r530 - r464 * r532, r490 * r542 - r480 * r544, r502 * r554 - r494 * r556, r517 * r566 - r507 * r568},
@@ -1168,7 +1204,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -1187,6 +1224,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -1214,11 +1254,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -1250,7 +1298,7 @@ typedef struct {
     Solution *out;
     double relative[SPHERICAL_WRIST_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -1349,7 +1397,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1643,6 +1695,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1668,6 +1721,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1776,13 +1832,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1856,7 +1910,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1944,8 +1998,9 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r67 = known->c3 * (r35 + r43) - known->s3 * r51 - r43;
     const double r68 = r45 + (known->c3 * (r36 - r45) - known->s3 * r54);
     const double r69 = r47 + (known->c3 * (r37 - r47) + known->s3 * r57);
-    const double r72 = 0.6666666666666666 * r67 - 0.3333333333333333 * r68, r74 = r72 + 0.6666666666666666 * r69;
-    const double r75 = 0.6666666666666666 * r74, r77 = 0.3333333333333333 * r74, r81 = 0.6666666666666666 * r68;
+    const double r72 = 0.6666666666666666 * r67 - 0.3333333333333333 * r68;
+    const double r74 = r72 + 0.6666666666666666 * r69, r75 = 0.6666666666666666 * r74;
+    const double r77 = 0.3333333333333333 * r74, r81 = 0.6666666666666666 * r68;
     const double r89 = known->c4 * (r67 - r75) + known->s4 * (0.3333333333333333 * r69 + r81);
     const double r91 = known->s4 * (0.6666666666666666 * (r67 - r69));
     const double r95 = known->c4 * (r69 - r75) - known->s4 * (r81 + 0.3333333333333333 * r67);
@@ -2016,8 +2071,9 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r12 = 0.6666666666666666 * p->r32_ - 0.3333333333333333 * p->r31_;
     const double r14 = r12 + 0.6666666666666666 * p->r33_, r17 = known->c1 * r4 + known->s1 * r9;
     const double r20 = known->c1 * r9 - known->s1 * r4;
-    const double r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20, r25 = r23 + 0.6666666666666666 * r14;
-    const double r26 = 0.3333333333333333 * r25, r28 = 0.6666666666666666 * r25, r33 = 0.6666666666666666 * r17;
+    const double r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
+    const double r25 = r23 + 0.6666666666666666 * r14, r26 = 0.3333333333333333 * r25;
+    const double r28 = 0.6666666666666666 * r25, r33 = 0.6666666666666666 * r17;
     const double r39 = known->s2 * (0.6666666666666666 * (r14 - r20));
     const double r43 = known->c2 * (r20 - r28) - known->s2 * (r33 - 0.3333333333333333 * r14);
     const double r46 = known->c2 * (r14 - r28) - known->s2 * (0.3333333333333333 * r20 - r33);
@@ -2031,8 +2087,9 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r79 = known->c3 * (r47 + r55) - known->s3 * r63 - r55;
     const double r80 = r57 + (known->c3 * (r48 - r57) - known->s3 * r66);
     const double r81 = r59 + (known->c3 * (r49 - r59) + known->s3 * r69);
-    const double r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80, r86 = r84 + 0.6666666666666666 * r81;
-    const double r87 = 0.6666666666666666 * r86, r89 = 0.3333333333333333 * r86, r93 = 0.6666666666666666 * r80;
+    const double r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80;
+    const double r86 = r84 + 0.6666666666666666 * r81, r87 = 0.6666666666666666 * r86;
+    const double r89 = 0.3333333333333333 * r86, r93 = 0.6666666666666666 * r80;
     const double r101 = known->c4 * (r79 - r87) + known->s4 * (0.3333333333333333 * r81 + r93);
     const double r103 = known->s4 * (0.6666666666666666 * (r79 - r81));
     const double r107 = known->c4 * (r81 - r87) - known->s4 * (r93 + 0.3333333333333333 * r79);
@@ -2108,8 +2165,9 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r12 = 0.6666666666666666 * p->r32_ - 0.3333333333333333 * p->r31_;
     const double r14 = r12 + 0.6666666666666666 * p->r33_, r17 = known->c1 * r4 + known->s1 * r9;
     const double r20 = known->c1 * r9 - known->s1 * r4;
-    const double r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20, r25 = r23 + 0.6666666666666666 * r14;
-    const double r26 = 0.3333333333333333 * r25, r28 = 0.6666666666666666 * r25, r33 = 0.6666666666666666 * r17;
+    const double r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
+    const double r25 = r23 + 0.6666666666666666 * r14, r26 = 0.3333333333333333 * r25;
+    const double r28 = 0.6666666666666666 * r25, r33 = 0.6666666666666666 * r17;
     const double r39 = known->s2 * (0.6666666666666666 * (r14 - r20));
     const double r43 = known->c2 * (r20 - r28) - known->s2 * (r33 - 0.3333333333333333 * r14);
     const double r46 = known->c2 * (r14 - r28) - known->s2 * (0.3333333333333333 * r20 - r33);
@@ -2123,8 +2181,9 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r79 = known->c3 * (r47 + r55) - known->s3 * r63 - r55;
     const double r80 = r57 + (known->c3 * (r48 - r57) - known->s3 * r66);
     const double r81 = r59 + (known->c3 * (r49 - r59) + known->s3 * r69);
-    const double r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80, r86 = r84 + 0.6666666666666666 * r81;
-    const double r87 = 0.6666666666666666 * r86, r93 = 0.6666666666666666 * r80;
+    const double r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80;
+    const double r86 = r84 + 0.6666666666666666 * r81, r87 = 0.6666666666666666 * r86;
+    const double r93 = 0.6666666666666666 * r80;
     const double r100 = 0.6666666666666666 * (r79 - r87 + (r80 + 0.3333333333333333 * r86));
     const double r101 = 0.6666666666666666 * (r79 - r81) - (0.3333333333333333 * r81 + r93);
     const double r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
@@ -2558,7 +2617,8 @@ static void block_1(const Parameters *p, Answers *answers)
     const size_t before = answers->candidates;
     const double r5 = p->px - 0.12 * p->r11_ - 0.03 * p->r12_ - 0.15 * p->r13_;
     const double r12 = p->py - 0.12 * p->r21_ - 0.03 * p->r22_ - 0.15 * p->r23_;
-    const double r19 = p->pz - 0.12 * p->r31_ - 0.03 * p->r32_ - 0.15 * p->r33_, r24 = 0.5922902494331066 - r19;
+    const double r19 = p->pz - 0.12 * p->r31_ - 0.03 * p->r32_ - 0.15 * p->r33_;
+    const double r24 = 0.5922902494331066 - r19;
     const double r29 = 2.0 * (p->px * r5) + 2.0 * (p->py * r12) + 2.0 * (p->pz * r19);
     const double r32 = r29 - p->px * p->px - p->py * p->py - p->pz * p->pz, r33 = 0.597217006802721 - r32;
     const double r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24, r37 = r36 - 0.0019437631439575074;

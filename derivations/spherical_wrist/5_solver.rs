@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.339110366322714, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -477,30 +472,22 @@ const SAMPLES_1: [[f64; 2]; 16] = [
 
 /// Block 1: Axis3.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
-    let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
-    let r24 = 0.5922902494331066 - r19;
+    let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_; let r24 = 0.5922902494331066 - r19;
     let r29 = 2.0 * (p.px * r5) + 2.0 * (p.py * r12) + 2.0 * (p.pz * r19);
-    let r32 = r29 - p.px * p.px - p.py * p.py - p.pz * p.pz;
-    let r33 = 0.597217006802721 - r32;
-    let r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24;
-    let r37 = r36 - 0.0019437631439575074;
-    let r40 = 0.5047619047619047 * r24 - 0.8888888888888888 * r33;
-    let r41 = r40 + 0.011783284742468416;
+    let r32 = r29 - p.px * p.px - p.py * p.py - p.pz * p.pz; let r33 = 0.597217006802721 - r32;
+    let r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24; let r37 = r36 - 0.0019437631439575074;
+    let r40 = 0.5047619047619047 * r24 - 0.8888888888888888 * r33; let r41 = r40 + 0.011783284742468416;
     let r48 = 11.11111111111111 * (r33 * r33) + 0.5792669978044128;
-    let r49 = r24 * (5.0 * r24 - 13.333333333333334 * r33) + r48;
-    let r53 = p.magnitude + 5.268934240362812;
+    let r49 = r24 * (5.0 * r24 - 13.333333333333334 * r33) + r48; let r53 = p.magnitude + 5.268934240362812;
     let r56 = 6.0 * (p.magnitude * (p.magnitude + 3.6)) + 3.0 * (p.magnitude * p.magnitude);
-    let r57 = r56 + 13.01344739229025;
-    let r62 = 2.7560090702947844 * r53 + 5.174603174603175 * r57;
+    let r57 = r56 + 13.01344739229025; let r62 = 2.7560090702947844 * r53 + 5.174603174603175 * r57;
     let r66 = 0.5047619047619047 * r53 + 0.8888888888888888 * r57;
     let r71 = f64::abs(r24) * (10.0 * r53 + 13.333333333333334 * r57);
     let r74 = 13.333333333333334 * r53 + 22.22222222222222 * r57;
     let r77 = r71 + (f64::abs(r33) * r74 + 0.5792669978044128);
-    let r78 = f64::abs(r62 + 0.0019437631439575074);
-    let r79 = f64::abs(r66 + 0.011783284742468416);
+    let r78 = f64::abs(r62 + 0.0019437631439575074); let r79 = f64::abs(r66 + 0.011783284742468416);
     let r80 = f64::abs(r77);
     let shared = &Shared1 { r36, r37, r41, r49, r78, r79, r80 };
     match greatest(&[claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared)]) {
@@ -520,10 +507,8 @@ struct Shared1 { r36: f64, r37: f64, r41: f64, r49: f64, r78: f64, r79: f64, r80
 /// Chart 1 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = 0.0019437631439575074 - shared.r36 - shared.r49;
-    let r83 = 2.0 * shared.r41;
-    let r88 = shared.r37 - shared.r49;
-    let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    let r82 = 0.0019437631439575074 - shared.r36 - shared.r49; let r83 = 2.0 * shared.r41;
+    let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r88, 1000000000000.0 * (shared.r80 + r90)) {
         return;
     }
@@ -533,18 +518,14 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         r88,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r93 = 0.5 * shared.r37;
-        let r94 = 0.5 * shared.r49;
+        let r93 = 0.5 * shared.r37; let r94 = 0.5 * shared.r49;
         let r98 = w3 * (r93 - r94) + (-0.21819403952057012 - shared.r41);
         let r103 = 0.6526507473737795 * (w3 * r98 - (r94 + (r93 - 1.305301494747559)));
         let r108 = w3 * (r94 - r93) + (shared.r41 + 0.21819403952057012);
         let r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
         let r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
-        let r117 = 1.0 - w3 * r115;
-        let r121 = f64::max(r117 * r117 + r115 * r115, 0.0).sqrt();
-        let r122 = 1.0 / r121;
-        let c3 = r117 * r122;
-        let s3 = r115 * r122;
+        let r117 = 1.0 - w3 * r115; let r121 = f64::max(r117 * r117 + r115 * r115, 0.0).sqrt();
+        let r122 = 1.0 / r121; let c3 = r117 * r122; let s3 = r115 * r122;
         let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -552,16 +533,14 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 1 of block 1; -1 where it does not run.
 fn claim_1_1(shared: &Shared1) -> f64 {
-    let r88 = shared.r37 - shared.r49;
-    let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r88, 1000000000000.0 * (shared.r80 + r90)) { f64::abs(r88) } else { -1.0 }
 }
 
 /// Chart 2 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = shared.r49 + (shared.r41 - 0.6526507473737795);
-    let r83 = 2.0 * shared.r37;
+    let r82 = shared.r49 + (shared.r41 - 0.6526507473737795); let r83 = 2.0 * shared.r37;
     let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
@@ -573,20 +552,15 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         r89,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r94 = 0.5 * shared.r41;
-        let r96 = 0.5 * shared.r49;
-        let r97 = -0.32632537368688974 - r94 + r96;
+        let r94 = 0.5 * shared.r41; let r96 = 0.5 * shared.r49; let r97 = -0.32632537368688974 - r94 + r96;
         let r100 = w3 * r97 + (-0.21819403952057012 - shared.r37);
         let r104 = 0.0 - 0.21819403952057012 * r100 - 0.6526507473737795 * r97;
         let r107 = r96 + (r94 + 0.32632537368688974);
         let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
         let r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
-        let r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703;
-        let r119 = w3 * (1.0 - r117);
-        let r123 = f64::max(r119 * r119 + r117 * r117, 0.0).sqrt();
-        let r124 = 1.0 / r123;
-        let c3 = 0.0 - r119 * r124;
-        let s3 = 0.0 - r117 * r124;
+        let r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703; let r119 = w3 * (1.0 - r117);
+        let r123 = f64::max(r119 * r119 + r117 * r117, 0.0).sqrt(); let r124 = 1.0 / r123;
+        let c3 = 0.0 - r119 * r124; let s3 = 0.0 - r117 * r124;
         let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -602,8 +576,7 @@ fn claim_1_2(shared: &Shared1) -> f64 {
 /// Chart 3 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = 2.0 * shared.r41;
-    let r87 = shared.r37 + shared.r49;
+    let r82 = 2.0 * shared.r41; let r87 = shared.r37 + shared.r49;
     let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r87, 1000000000000.0 * (shared.r80 + r89)) {
         return;
@@ -614,18 +587,13 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         0.43638807904114024 - r82, r87,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r92 = 0.5 * shared.r37;
-        let r93 = 0.5 * shared.r49;
-        let r96 = shared.r41 - 0.21819403952057012;
+        let r92 = 0.5 * shared.r37; let r93 = 0.5 * shared.r49; let r96 = shared.r41 - 0.21819403952057012;
         let r101 = w3 * (w3 * (r92 + r93) - r96) + (r93 + (-1.305301494747559 - r92));
         let r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
         let r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
         let r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
-        let r116 = w3 * r114 + 1.0;
-        let r120 = f64::max(r116 * r116 + r114 * r114, 0.0).sqrt();
-        let r121 = 1.0 / r120;
-        let c3 = 0.0 - r116 * r121;
-        let s3 = r114 * r121;
+        let r116 = w3 * r114 + 1.0; let r120 = f64::max(r116 * r116 + r114 * r114, 0.0).sqrt();
+        let r121 = 1.0 / r120; let c3 = 0.0 - r116 * r121; let s3 = r114 * r121;
         let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -633,16 +601,14 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 
 /// The pivot of chart 3 of block 1; -1 where it does not run.
 fn claim_1_3(shared: &Shared1) -> f64 {
-    let r87 = shared.r37 + shared.r49;
-    let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    let r87 = shared.r37 + shared.r49; let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r87, 1000000000000.0 * (shared.r80 + r89)) { f64::abs(r87) } else { -1.0 }
 }
 
 /// Chart 4 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = shared.r49 + (-0.6526507473737795 - shared.r41);
-    let r83 = 2.0 * shared.r37;
+    let r82 = shared.r49 + (-0.6526507473737795 - shared.r41); let r83 = 2.0 * shared.r37;
     let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
@@ -654,20 +620,15 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         r89,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r94 = 0.5 * shared.r41;
-        let r96 = 0.5 * shared.r49;
+        let r94 = 0.5 * shared.r41; let r96 = 0.5 * shared.r49;
         let r100 = w3 * (0.32632537368688974 - r94 - r96) - (shared.r37 - 0.21819403952057012);
         let r102 = r94 - 0.32632537368688974;
-        let r105 = 0.6526507473737795 * (r96 + r102) - 0.21819403952057012 * r100;
-        let r107 = r102 - r96;
+        let r105 = 0.6526507473737795 * (r96 + r102) - 0.21819403952057012 * r100; let r107 = r102 - r96;
         let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
         let r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
-        let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
-        let r119 = w3 * (0.0 - r116 - 1.0);
-        let r123 = f64::max(r119 * r119 + r116 * r116, 0.0).sqrt();
-        let r124 = 1.0 / r123;
-        let c3 = 0.0 - r119 * r124;
-        let s3 = 0.0 - r116 * r124;
+        let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703; let r119 = w3 * (0.0 - r116 - 1.0);
+        let r123 = f64::max(r119 * r119 + r116 * r116, 0.0).sqrt(); let r124 = 1.0 / r123;
+        let c3 = 0.0 - r119 * r124; let s3 = 0.0 - r116 * r124;
         let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -683,12 +644,9 @@ fn claim_1_4(shared: &Shared1) -> f64 {
 /// Chart 5 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
 fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r81 = 1.25 * shared.r37;
-    let r83 = 1.6666666666666667 * shared.r41;
-    let r85 = 2.0833333333333335 * shared.r49;
-    let r87 = 3.3333333333333335 * shared.r37;
-    let r89 = 2.5 * shared.r41;
-    let r92 = 4.166666666666667 * shared.r49 + 1.0916139879988276;
+    let r81 = 1.25 * shared.r37; let r83 = 1.6666666666666667 * shared.r41;
+    let r85 = 2.0833333333333335 * shared.r49; let r87 = 3.3333333333333335 * shared.r37;
+    let r89 = 2.5 * shared.r41; let r92 = 4.166666666666667 * shared.r49 + 1.0916139879988276;
     let r97 = r85 + (-1.0883950360189427 - r81 - r83);
     let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r97, 1000000000000.0 * (shared.r80 + r99)) {
@@ -700,17 +658,11 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         r89 + (2.3560432767211195 - r87), r97,
     ], 1.0);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r102 = 0.24 * shared.r37;
-        let r104 = 0.32 * shared.r41;
-        let r106 = 0.4 * shared.r49;
-        let r108 = w3 * (-0.11499013929381277 - r102 - r104 + r106);
-        let r109 = 0.82 * shared.r37;
-        let r111 = 0.24 * shared.r41;
-        let r113 = 0.3 * shared.r49;
-        let r115 = r108 + (0.27996780600675647 - r109 + r111 + r113);
-        let r118 = 0.18 * shared.r37;
-        let r122 = w3 * (r111 + (r118 + 0.12530894349576566) - r113);
-        let r124 = 0.68 * shared.r41;
+        let r102 = 0.24 * shared.r37; let r104 = 0.32 * shared.r41; let r106 = 0.4 * shared.r49;
+        let r108 = w3 * (-0.11499013929381277 - r102 - r104 + r106); let r109 = 0.82 * shared.r37;
+        let r111 = 0.24 * shared.r41; let r113 = 0.3 * shared.r49;
+        let r115 = r108 + (0.27996780600675647 - r109 + r111 + r113); let r118 = 0.18 * shared.r37;
+        let r122 = w3 * (r111 + (r118 + 0.12530894349576566) - r113); let r124 = 0.68 * shared.r41;
         let r127 = r122 + (r106 + (r102 - 0.5430054218149845 - r124));
         let r129 = 0.0 - 0.21819403952057012 * r115 - 0.6526507473737795 * r127;
         let r133 = r106 + (r124 + (-0.04623375630524329 - r102));
@@ -718,12 +670,9 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
         let r141 = w3 * r129 + (0.0 - 0.21819403952057012 * r133 - r139);
         let r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
         let r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
-        let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
-        let r157 = 0.6 - w3 * (0.8 - r154);
-        let r161 = f64::max(r157 * r157 + r154 * r154, 0.0).sqrt();
-        let r162 = 1.0 / r161;
-        let c3 = r157 * r162;
-        let s3 = 0.0 - r154 * r162;
+        let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703; let r157 = 0.6 - w3 * (0.8 - r154);
+        let r161 = f64::max(r157 * r157 + r154 * r154, 0.0).sqrt(); let r162 = 1.0 / r161;
+        let c3 = r157 * r162; let s3 = 0.0 - r154 * r162;
         let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -732,8 +681,7 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// The pivot of chart 5 of block 1; -1 where it does not run.
 fn claim_1_5(shared: &Shared1) -> f64 {
     let r96 = -1.0883950360189427 - 1.25 * shared.r37 - 1.6666666666666667 * shared.r41;
-    let r97 = 2.0833333333333335 * shared.r49 + r96;
-    let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
+    let r97 = 2.0833333333333335 * shared.r49 + r96; let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r97, 1000000000000.0 * (shared.r80 + r99)) { f64::abs(r97) } else { -1.0 }
 }
 
@@ -753,8 +701,7 @@ fn chart_1_6(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 
 /// Block 2: Axis1.
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
     let r11 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
     let r17 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
     let r28 = 2.0 * (p.px * r5) + 2.0 * (p.py * r11) + 2.0 * (p.pz * r17);
@@ -763,16 +710,12 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r41 = 0.3333333333333333 * r5 + 0.6666666666666666 * r11;
     let r44 = 0.3333333333333333 * r11 - 0.6666666666666666 * r5;
     let r47 = 0.2615646258503401 * known.c3 - 0.02142857142857143 * known.s3;
-    let r50 = r47 - 0.6666666666666666 * r17 + 0.6384353741496599;
-    let r51 = 0.0 - r50;
-    let r52 = 3.3333333333333335 * (r34 - r31 + 0.6 * r17 + 0.21684285714285714);
-    let r53 = p.magnitude + 3.6;
+    let r50 = r47 - 0.6666666666666666 * r17 + 0.6384353741496599; let r51 = 0.0 - r50;
+    let r52 = 3.3333333333333335 * (r34 - r31 + 0.6 * r17 + 0.21684285714285714); let r53 = p.magnitude + 3.6;
     let r59 = 0.6666666666666666 * p.magnitude + 8.418707482993197;
     let r62 = 20.0 * (p.magnitude * r53) + 10.0 * (p.magnitude * p.magnitude);
-    let r66 = f64::abs(2.3333333333333335 * p.magnitude + 8.4);
-    let r67 = f64::abs(r53);
-    let r68 = f64::abs(r59);
-    let r69 = f64::abs(r62 + 2.0 * p.magnitude + 72.77766666666668);
+    let r66 = f64::abs(2.3333333333333335 * p.magnitude + 8.4); let r67 = f64::abs(r53);
+    let r68 = f64::abs(r59); let r69 = f64::abs(r62 + 2.0 * p.magnitude + 72.77766666666668);
     let shared = &Shared2 { r41, r44, r50, r51, r52, r66, r67, r68, r69 };
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);
@@ -797,12 +740,9 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     if !is_away(r72, 16.0 * r75) {
         return;
     }
-    let f1 = 1.0;
-    let r79 = shared.r44 * shared.r50 - shared.r41 * shared.r52;
+    let f1 = 1.0; let r79 = shared.r44 * shared.r50 - shared.r41 * shared.r52;
     let r83 = shared.r44 * shared.r52 - (0.0 - shared.r41 * shared.r50);
-    let r88 = 1.0 / f64::max(r83 * r83 + r79 * r79, 0.0).sqrt();
-    let c1 = r83 * r88;
-    let s1 = r79 * r88;
+    let r88 = 1.0 / f64::max(r83 * r83 + r79 * r79, 0.0).sqrt(); let c1 = r83 * r88; let s1 = r79 * r88;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c1, s1, f1, ..*known };
     block_3(p, &next, answers);
 }
@@ -826,24 +766,19 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: Axis2.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
-    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
-    let r14 = known.c1 * r12;
-    let r15 = known.s1 * r5;
-    let r18 = 0.16224489795918368 * known.c3 - 0.5214285714285715 * known.s3;
+    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
+    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_; let r14 = known.c1 * r12;
+    let r15 = known.s1 * r5; let r18 = 0.16224489795918368 * known.c3 - 0.5214285714285715 * known.s3;
     let r19 = r18 + 0.03775510204081633;
     let r22 = 0.4064625850340136 * known.c3 + 0.2357142857142857 * known.s3;
-    let r23 = 0.006462585034013605 - r22;
-    let r29 = r14 - r15 - p.pz + 0.12 * p.r31_ + 0.03 * p.r32_;
+    let r23 = 0.006462585034013605 - r22; let r29 = r14 - r15 - p.pz + 0.12 * p.r31_ + 0.03 * p.r32_;
     let r32 = r29 + 0.15 * p.r33_ + 0.35;
     let r35 = 1.3333333333333333 * (known.c1 * r5) + 1.3333333333333333 * (known.s1 * r12);
     let r39 = r35 - 0.3333333333333333 * r14 + 0.3333333333333333 * r15;
     let r43 = r39 - 0.3333333333333333 * p.pz + 0.04 * p.r31_;
     let r48 = 0.05 - (r43 + 0.01 * p.r32_ + 0.05 * p.r33_);
     let r52 = 4.333333333333333 * p.magnitude + 21.4369992441421;
-    let r53 = f64::abs(5.0 * p.magnitude + 26.730498866213154);
-    let r54 = f64::abs(r52);
+    let r53 = f64::abs(5.0 * p.magnitude + 26.730498866213154); let r54 = f64::abs(r52);
     let shared = &Shared3 { r19, r23, r32, r48, r53, r54 };
     chart_3_1(p, known, shared, answers);
     chart_3_2(p, known, shared, before, answers);
@@ -867,12 +802,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     if !is_away(r57, 4959.93558445298) {
         return;
     }
-    let f2 = 1.0;
-    let r60 = shared.r23 * shared.r32 + shared.r19 * shared.r48;
+    let f2 = 1.0; let r60 = shared.r23 * shared.r32 + shared.r19 * shared.r48;
     let r63 = shared.r23 * shared.r48 - shared.r19 * shared.r32;
-    let r68 = 1.0 / f64::max(r63 * r63 + r60 * r60, 0.0).sqrt();
-    let c2 = r63 * r68;
-    let s2 = 0.0 - r60 * r68;
+    let r68 = 1.0 / f64::max(r63 * r63 + r60 * r60, 0.0).sqrt(); let c2 = r63 * r68; let s2 = 0.0 - r60 * r68;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
     block_4(p, &next, answers);
 }
@@ -895,46 +827,33 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
 /// Block 4: Wrist1.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r2 = 0.6666666666666666 * p.r12_ - 0.3333333333333333 * p.r11_;
+    let before = answers.candidates; let r2 = 0.6666666666666666 * p.r12_ - 0.3333333333333333 * p.r11_;
     let r4 = r2 + 0.6666666666666666 * p.r13_;
     let r7 = 0.6666666666666666 * p.r22_ - 0.3333333333333333 * p.r21_;
     let r9 = r7 + 0.6666666666666666 * p.r23_;
     let r12 = 0.6666666666666666 * p.r32_ - 0.3333333333333333 * p.r31_;
-    let r14 = r12 + 0.6666666666666666 * p.r33_;
-    let r17 = known.c1 * r4 + known.s1 * r9;
-    let r20 = known.c1 * r9 - known.s1 * r4;
-    let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
-    let r25 = r23 + 0.6666666666666666 * r14;
-    let r26 = 0.3333333333333333 * r25;
-    let r28 = 0.6666666666666666 * r25;
-    let r33 = 0.6666666666666666 * r17;
+    let r14 = r12 + 0.6666666666666666 * p.r33_; let r17 = known.c1 * r4 + known.s1 * r9;
+    let r20 = known.c1 * r9 - known.s1 * r4; let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
+    let r25 = r23 + 0.6666666666666666 * r14; let r26 = 0.3333333333333333 * r25;
+    let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
     let r39 = known.s2 * (0.6666666666666666 * (r14 - r20));
     let r43 = known.c2 * (r20 - r28) - known.s2 * (r33 - 0.3333333333333333 * r14);
     let r46 = known.c2 * (r14 - r28) - known.s2 * (0.3333333333333333 * r20 - r33);
-    let r47 = r26 + (known.c2 * (r17 - r26) - r39);
-    let r48 = r28 + r43;
-    let r49 = r28 + r46;
-    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47;
-    let r54 = r52 + 0.42857142857142855 * r49;
-    let r55 = 0.2857142857142857 * r54;
-    let r57 = 0.8571428571428571 * r54;
-    let r59 = 0.42857142857142855 * r54;
-    let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
+    let r47 = r26 + (known.c2 * (r17 - r26) - r39); let r48 = r28 + r43; let r49 = r28 + r46;
+    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47; let r54 = r52 + 0.42857142857142855 * r49;
+    let r55 = 0.2857142857142857 * r54; let r57 = 0.8571428571428571 * r54;
+    let r59 = 0.42857142857142855 * r54; let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
     let r66 = 0.42857142857142855 * r47 + 0.2857142857142857 * r49;
     let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47;
     let r79 = known.c3 * (r47 + r55) - known.s3 * r63 - r55;
     let r80 = r57 + (known.c3 * (r48 - r57) - known.s3 * r66);
     let r81 = r59 + (known.c3 * (r49 - r59) + known.s3 * r69);
-    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80;
-    let r86 = r84 + 0.6666666666666666 * r81;
-    let r87 = 0.6666666666666666 * r86;
-    let r93 = 0.6666666666666666 * r80;
+    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80; let r86 = r84 + 0.6666666666666666 * r81;
+    let r87 = 0.6666666666666666 * r86; let r93 = 0.6666666666666666 * r80;
     let r100 = 0.6666666666666666 * (r79 - r87 + (r80 + 0.3333333333333333 * r86));
     let r101 = 0.6666666666666666 * (r79 - r81) - (0.3333333333333333 * r81 + r93);
     let r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
-    let r105 = 0.3333333333333333 * (r81 - r87) - r100;
-    let r106 = 0.6666666666666666 * r101 - r104;
+    let r105 = 0.3333333333333333 * (r81 - r87) - r100; let r106 = 0.6666666666666666 * r101 - r104;
     let shared = &Shared4 { r105, r106 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -954,18 +873,14 @@ struct Shared4 { r105: f64, r106: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r107 = shared.r105 * shared.r105;
-    let r108 = shared.r106 * shared.r106;
-    let r109 = r107 + r108;
+    let r107 = shared.r105 * shared.r105; let r108 = shared.r106 * shared.r106; let r109 = r107 + r108;
     if !is_away(r109, 711231.7843257814) {
         return;
     }
     let r114 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));
     let roots0 = square_roots(0.0 - r107 - r108, r114);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r117 = 1.0 / r109;
-        let c4 = 0.0 - w4 * shared.r106 * r117;
-        let s4 = w4 * shared.r105 * r117;
+        let r117 = 1.0 / r109; let c4 = 0.0 - w4 * shared.r106 * r117; let s4 = w4 * shared.r105 * r117;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -993,44 +908,29 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r7 = 0.6666666666666666 * p.r22_ - 0.3333333333333333 * p.r21_;
     let r9 = r7 + 0.6666666666666666 * p.r23_;
     let r12 = 0.6666666666666666 * p.r32_ - 0.3333333333333333 * p.r31_;
-    let r14 = r12 + 0.6666666666666666 * p.r33_;
-    let r17 = known.c1 * r4 + known.s1 * r9;
-    let r20 = known.c1 * r9 - known.s1 * r4;
-    let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
-    let r25 = r23 + 0.6666666666666666 * r14;
-    let r26 = 0.3333333333333333 * r25;
-    let r28 = 0.6666666666666666 * r25;
-    let r33 = 0.6666666666666666 * r17;
+    let r14 = r12 + 0.6666666666666666 * p.r33_; let r17 = known.c1 * r4 + known.s1 * r9;
+    let r20 = known.c1 * r9 - known.s1 * r4; let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
+    let r25 = r23 + 0.6666666666666666 * r14; let r26 = 0.3333333333333333 * r25;
+    let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
     let r39 = known.s2 * (0.6666666666666666 * (r14 - r20));
     let r43 = known.c2 * (r20 - r28) - known.s2 * (r33 - 0.3333333333333333 * r14);
     let r46 = known.c2 * (r14 - r28) - known.s2 * (0.3333333333333333 * r20 - r33);
-    let r47 = r26 + (known.c2 * (r17 - r26) - r39);
-    let r48 = r28 + r43;
-    let r49 = r28 + r46;
-    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47;
-    let r54 = r52 + 0.42857142857142855 * r49;
-    let r55 = 0.2857142857142857 * r54;
-    let r57 = 0.8571428571428571 * r54;
-    let r59 = 0.42857142857142855 * r54;
-    let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
+    let r47 = r26 + (known.c2 * (r17 - r26) - r39); let r48 = r28 + r43; let r49 = r28 + r46;
+    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47; let r54 = r52 + 0.42857142857142855 * r49;
+    let r55 = 0.2857142857142857 * r54; let r57 = 0.8571428571428571 * r54;
+    let r59 = 0.42857142857142855 * r54; let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
     let r66 = 0.42857142857142855 * r47 + 0.2857142857142857 * r49;
     let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47;
     let r79 = known.c3 * (r47 + r55) - known.s3 * r63 - r55;
     let r80 = r57 + (known.c3 * (r48 - r57) - known.s3 * r66);
     let r81 = r59 + (known.c3 * (r49 - r59) + known.s3 * r69);
-    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80;
-    let r86 = r84 + 0.6666666666666666 * r81;
-    let r87 = 0.6666666666666666 * r86;
-    let r89 = 0.3333333333333333 * r86;
-    let r93 = 0.6666666666666666 * r80;
+    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80; let r86 = r84 + 0.6666666666666666 * r81;
+    let r87 = 0.6666666666666666 * r86; let r89 = 0.3333333333333333 * r86; let r93 = 0.6666666666666666 * r80;
     let r101 = known.c4 * (r79 - r87) + known.s4 * (0.3333333333333333 * r81 + r93);
     let r103 = known.s4 * (0.6666666666666666 * (r79 - r81));
-    let r107 = known.c4 * (r81 - r87) - known.s4 * (r93 + 0.3333333333333333 * r79);
-    let r108 = r87 + r101;
-    let r109 = known.c4 * (r80 + r89) - r103 - r89;
-    let r111 = r108 - r109;
-    let r114 = 0.0 - 0.3333333333333333 * (r108 + r109);
-    let r115 = 1.3333333333333333 * (r87 + r107);
+    let r107 = known.c4 * (r81 - r87) - known.s4 * (r93 + 0.3333333333333333 * r79); let r108 = r87 + r101;
+    let r109 = known.c4 * (r80 + r89) - r103 - r89; let r111 = r108 - r109;
+    let r114 = 0.0 - 0.3333333333333333 * (r108 + r109); let r115 = 1.3333333333333333 * (r87 + r107);
     let shared = &Shared5 { r108, r109, r111, r114, r115 };
     chart_5_1(p, known, shared, answers);
 }
@@ -1048,13 +948,9 @@ struct Shared5 { r108: f64, r109: f64, r111: f64, r114: f64, r115: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r117 = shared.r115 - shared.r114;
-    let r118 = r117 - (shared.r109 - shared.r108);
-    let r119 = r117 - shared.r111;
-    let r123 = f64::max(r119 * r119 + r118 * r118, 0.0).sqrt();
-    let r124 = 1.0 / r123;
-    let c5 = r119 * r124;
-    let s5 = r118 * r124;
+    let r117 = shared.r115 - shared.r114; let r118 = r117 - (shared.r109 - shared.r108);
+    let r119 = r117 - shared.r111; let r123 = f64::max(r119 * r119 + r118 * r118, 0.0).sqrt();
+    let r124 = 1.0 / r123; let c5 = r119 * r124; let s5 = r118 * r124;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -1062,69 +958,47 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 /// Block 6: Wrist3.
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.r12_ - p.r13_;
-    let r1 = p.r22_ - p.r23_;
-    let r2 = p.r32_ - p.r33_;
-    let r5 = known.c1 * r0 + known.s1 * r1;
-    let r8 = known.c1 * r1 - known.s1 * r0;
-    let r11 = 0.3333333333333333 * r5 + 0.6666666666666666 * r8;
-    let r13 = r11 + 0.6666666666666666 * r2;
-    let r14 = 0.3333333333333333 * r13;
-    let r16 = 0.6666666666666666 * r13;
-    let r21 = 0.6666666666666666 * r5;
+    let r0 = p.r12_ - p.r13_; let r1 = p.r22_ - p.r23_; let r2 = p.r32_ - p.r33_;
+    let r5 = known.c1 * r0 + known.s1 * r1; let r8 = known.c1 * r1 - known.s1 * r0;
+    let r11 = 0.3333333333333333 * r5 + 0.6666666666666666 * r8; let r13 = r11 + 0.6666666666666666 * r2;
+    let r14 = 0.3333333333333333 * r13; let r16 = 0.6666666666666666 * r13; let r21 = 0.6666666666666666 * r5;
     let r28 = known.c2 * (r5 - r14) - known.s2 * (0.6666666666666666 * (r2 - r8));
     let r31 = known.c2 * (r8 - r16) - known.s2 * (r21 - 0.3333333333333333 * r2);
-    let r34 = known.c2 * (r2 - r16) - known.s2 * (0.3333333333333333 * r8 - r21);
-    let r35 = r14 + r28;
-    let r36 = r16 + r31;
-    let r37 = r16 + r34;
-    let r40 = 0.8571428571428571 * r36 - 0.2857142857142857 * r35;
-    let r42 = r40 + 0.42857142857142855 * r37;
-    let r43 = 0.2857142857142857 * r42;
-    let r45 = 0.8571428571428571 * r42;
-    let r47 = 0.42857142857142855 * r42;
+    let r34 = known.c2 * (r2 - r16) - known.s2 * (0.3333333333333333 * r8 - r21); let r35 = r14 + r28;
+    let r36 = r16 + r31; let r37 = r16 + r34; let r40 = 0.8571428571428571 * r36 - 0.2857142857142857 * r35;
+    let r42 = r40 + 0.42857142857142855 * r37; let r43 = 0.2857142857142857 * r42;
+    let r45 = 0.8571428571428571 * r42; let r47 = 0.42857142857142855 * r42;
     let r51 = 0.8571428571428571 * r37 - 0.42857142857142855 * r36;
     let r54 = 0.42857142857142855 * r35 + 0.2857142857142857 * r37;
     let r57 = 0.2857142857142857 * r36 + 0.8571428571428571 * r35;
     let r67 = known.c3 * (r35 + r43) - known.s3 * r51 - r43;
     let r68 = r45 + (known.c3 * (r36 - r45) - known.s3 * r54);
     let r69 = r47 + (known.c3 * (r37 - r47) + known.s3 * r57);
-    let r72 = 0.6666666666666666 * r67 - 0.3333333333333333 * r68;
-    let r74 = r72 + 0.6666666666666666 * r69;
-    let r75 = 0.6666666666666666 * r74;
-    let r77 = 0.3333333333333333 * r74;
-    let r81 = 0.6666666666666666 * r68;
+    let r72 = 0.6666666666666666 * r67 - 0.3333333333333333 * r68; let r74 = r72 + 0.6666666666666666 * r69;
+    let r75 = 0.6666666666666666 * r74; let r77 = 0.3333333333333333 * r74; let r81 = 0.6666666666666666 * r68;
     let r89 = known.c4 * (r67 - r75) + known.s4 * (0.3333333333333333 * r69 + r81);
     let r91 = known.s4 * (0.6666666666666666 * (r67 - r69));
     let r95 = known.c4 * (r69 - r75) - known.s4 * (r81 + 0.3333333333333333 * r67);
-    let r99 = r75 + r89 + (known.c4 * (r68 + r77) - r91 - r77);
-    let r100 = 0.6666666666666666 * r99;
-    let r101 = 0.3333333333333333 * (r75 + r95);
-    let r102 = r100 - r101;
+    let r99 = r75 + r89 + (known.c4 * (r68 + r77) - r91 - r77); let r100 = 0.6666666666666666 * r99;
+    let r101 = 0.3333333333333333 * (r75 + r95); let r102 = r100 - r101;
     let r105 = 1.3333333333333333 * p.r11_ + 0.3333333333333333 * p.r12_;
     let r108 = 0.0 - r105 - 0.3333333333333333 * p.r13_;
     let r111 = 1.3333333333333333 * p.r21_ + 0.3333333333333333 * p.r22_;
     let r114 = 0.0 - r111 - 0.3333333333333333 * p.r23_;
     let r117 = 1.3333333333333333 * p.r31_ + 0.3333333333333333 * p.r32_;
-    let r120 = 0.0 - r117 - 0.3333333333333333 * p.r33_;
-    let r123 = known.c1 * r108 + known.s1 * r114;
+    let r120 = 0.0 - r117 - 0.3333333333333333 * p.r33_; let r123 = known.c1 * r108 + known.s1 * r114;
     let r126 = known.c1 * r114 - known.s1 * r108;
     let r129 = 0.3333333333333333 * r123 + 0.6666666666666666 * r126;
-    let r131 = r129 + 0.6666666666666666 * r120;
-    let r132 = 0.3333333333333333 * r131;
-    let r134 = 0.6666666666666666 * r131;
-    let r139 = 0.6666666666666666 * r123;
+    let r131 = r129 + 0.6666666666666666 * r120; let r132 = 0.3333333333333333 * r131;
+    let r134 = 0.6666666666666666 * r131; let r139 = 0.6666666666666666 * r123;
     let r145 = known.s2 * (0.6666666666666666 * (r120 - r126));
     let r148 = known.s2 * (r139 - 0.3333333333333333 * r120);
     let r151 = known.s2 * (0.3333333333333333 * r126 - r139);
-    let r153 = r132 + (known.c2 * (r123 - r132) - r145);
-    let r154 = r134 + (known.c2 * (r126 - r134) - r148);
+    let r153 = r132 + (known.c2 * (r123 - r132) - r145); let r154 = r134 + (known.c2 * (r126 - r134) - r148);
     let r155 = r134 + (known.c2 * (r120 - r134) - r151);
     let r158 = 0.8571428571428571 * r154 - 0.2857142857142857 * r153;
-    let r160 = r158 + 0.42857142857142855 * r155;
-    let r161 = 0.2857142857142857 * r160;
-    let r163 = 0.8571428571428571 * r160;
-    let r165 = 0.42857142857142855 * r160;
+    let r160 = r158 + 0.42857142857142855 * r155; let r161 = 0.2857142857142857 * r160;
+    let r163 = 0.8571428571428571 * r160; let r165 = 0.42857142857142855 * r160;
     let r169 = 0.8571428571428571 * r155 - 0.42857142857142855 * r154;
     let r172 = 0.42857142857142855 * r153 + 0.2857142857142857 * r155;
     let r175 = 0.2857142857142857 * r154 + 0.8571428571428571 * r153;
@@ -1132,10 +1006,8 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r186 = r163 + (known.c3 * (r154 - r163) - known.s3 * r172);
     let r187 = r165 + (known.c3 * (r155 - r165) + known.s3 * r175);
     let r190 = 0.6666666666666666 * r185 - 0.3333333333333333 * r186;
-    let r192 = r190 + 0.6666666666666666 * r187;
-    let r193 = 0.6666666666666666 * r192;
-    let r195 = 0.3333333333333333 * r192;
-    let r199 = 0.6666666666666666 * r186;
+    let r192 = r190 + 0.6666666666666666 * r187; let r193 = 0.6666666666666666 * r192;
+    let r195 = 0.3333333333333333 * r192; let r199 = 0.6666666666666666 * r186;
     let r206 = known.s4 * (0.3333333333333333 * r187 + r199);
     let r209 = known.s4 * (0.6666666666666666 * (r185 - r187));
     let r212 = known.s4 * (r199 + 0.3333333333333333 * r185);
@@ -1152,11 +1024,8 @@ struct Shared6 { r100: f64, r101: f64, r102: f64, r220: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r221 = shared.r220 - shared.r102;
-    let r223 = shared.r220 - (shared.r101 - shared.r100);
-    let r227 = f64::max(r223 * r223 + r221 * r221, 0.0).sqrt();
-    let r228 = 1.0 / r227;
-    let c6 = r223 * r228;
+    let r221 = shared.r220 - shared.r102; let r223 = shared.r220 - (shared.r101 - shared.r100);
+    let r227 = f64::max(r223 * r223 + r221 * r221, 0.0).sqrt(); let r228 = 1.0 / r227; let c6 = r223 * r228;
     let s6 = r221 * r228;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
@@ -1183,122 +1052,70 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r6 = 0.6666666666666666 * s2;
-    let r7 = 0.2222222222222222 * c2;
-    let r9 = r6 - r7 + 0.2222222222222222;
-    let r11 = 0.2222222222222222 - (r6 + r7);
-    let r12 = 0.3333333333333333 * s2;
-    let r13 = 0.4444444444444444 * c2;
-    let r15 = r12 - r13 + 0.4444444444444444;
-    let r17 = 0.4444444444444444 - (r12 + r13);
-    let r19 = 0.8888888888888888 * c2 + 0.1111111111111111;
-    let r21 = s1 * r9;
-    let r22 = c1 * r19 - r21;
-    let r24 = c1 * r9;
-    let r25 = s1 * r19 + r24;
-    let r28 = 0.5555555555555556 * c2 + 0.4444444444444444;
-    let r30 = c1 * r11 - s1 * r28;
-    let r33 = s1 * r11 + c1 * r28;
-    let r35 = r24 - s1 * r17;
-    let r37 = r21 + c1 * r17;
+    let r6 = 0.6666666666666666 * s2; let r7 = 0.2222222222222222 * c2; let r9 = r6 - r7 + 0.2222222222222222;
+    let r11 = 0.2222222222222222 - (r6 + r7); let r12 = 0.3333333333333333 * s2;
+    let r13 = 0.4444444444444444 * c2; let r15 = r12 - r13 + 0.4444444444444444;
+    let r17 = 0.4444444444444444 - (r12 + r13); let r19 = 0.8888888888888888 * c2 + 0.1111111111111111;
+    let r21 = s1 * r9; let r22 = c1 * r19 - r21; let r24 = c1 * r9; let r25 = s1 * r19 + r24;
+    let r28 = 0.5555555555555556 * c2 + 0.4444444444444444; let r30 = c1 * r11 - s1 * r28;
+    let r33 = s1 * r11 + c1 * r28; let r35 = r24 - s1 * r17; let r37 = r21 + c1 * r17;
     let r52 = 0.1 * r11 - 0.05 * r15 + 0.16666666666666666 * c2;
     let r54 = 0.1 * c1 + 0.05 * s1 - (0.1 * r22 - 0.05 * r30 + 0.3 * r35);
     let r55 = 0.1 * s1 - 0.05 * c1 - (0.1 * r25 - 0.05 * r33 + 0.3 * r37);
     let r70 = 0.25 * r11 + 0.2 * r15 + 0.3333333333333333 * c2;
-    let r74 = r52 + 0.13333333333333333 - (r70 + 0.26666666666666666);
-    let r76 = 0.42857142857142855 * s3;
-    let r77 = 0.24489795918367346 * c3;
-    let r79 = r76 + r77 - 0.24489795918367346;
-    let r80 = 0.8571428571428571 * s3;
-    let r81 = 0.12244897959183673 * c3;
-    let r83 = r80 - r81 + 0.12244897959183673;
-    let r85 = r76 - r77 + 0.24489795918367346;
-    let r86 = 0.2857142857142857 * s3;
-    let r87 = 0.3673469387755102 * c3;
-    let r89 = 0.3673469387755102 - (r86 + r87);
-    let r91 = r80 + r81 - 0.12244897959183673;
-    let r93 = r86 - r87 + 0.3673469387755102;
-    let r95 = 0.9183673469387755 * c3 + 0.08163265306122448;
-    let r100 = r22 * r95 + r30 * r79 - r35 * r83;
-    let r105 = r25 * r95 + r33 * r79 - r37 * r83;
-    let r110 = r11 * r95 + r15 * r79 - r28 * r83;
-    let r113 = 0.2653061224489796 * c3 + 0.7346938775510204;
-    let r117 = r30 * r113 - r22 * r85 + r35 * r89;
-    let r122 = r33 * r113 - r25 * r85 + r37 * r89;
-    let r127 = r15 * r113 - r11 * r85 + r28 * r89;
-    let r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
-    let r134 = r22 * r91 + r30 * r93 + r35 * r132;
-    let r139 = r25 * r91 + r33 * r93 + r37 * r132;
+    let r74 = r52 + 0.13333333333333333 - (r70 + 0.26666666666666666); let r76 = 0.42857142857142855 * s3;
+    let r77 = 0.24489795918367346 * c3; let r79 = r76 + r77 - 0.24489795918367346;
+    let r80 = 0.8571428571428571 * s3; let r81 = 0.12244897959183673 * c3;
+    let r83 = r80 - r81 + 0.12244897959183673; let r85 = r76 - r77 + 0.24489795918367346;
+    let r86 = 0.2857142857142857 * s3; let r87 = 0.3673469387755102 * c3;
+    let r89 = 0.3673469387755102 - (r86 + r87); let r91 = r80 + r81 - 0.12244897959183673;
+    let r93 = r86 - r87 + 0.3673469387755102; let r95 = 0.9183673469387755 * c3 + 0.08163265306122448;
+    let r100 = r22 * r95 + r30 * r79 - r35 * r83; let r105 = r25 * r95 + r33 * r79 - r37 * r83;
+    let r110 = r11 * r95 + r15 * r79 - r28 * r83; let r113 = 0.2653061224489796 * c3 + 0.7346938775510204;
+    let r117 = r30 * r113 - r22 * r85 + r35 * r89; let r122 = r33 * r113 - r25 * r85 + r37 * r89;
+    let r127 = r15 * r113 - r11 * r85 + r28 * r89; let r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
+    let r134 = r22 * r91 + r30 * r93 + r35 * r132; let r139 = r25 * r91 + r33 * r93 + r37 * r132;
     let r144 = r11 * r91 + r15 * r93 + r28 * r132;
     let r160 = r54 + (0.25 * r22 + 0.2 * r30 + 0.6 * r35) - (0.25 * r100 + 0.2 * r117 + 0.6 * r134);
     let r161 = r55 + (0.25 * r25 + 0.2 * r33 + 0.6 * r37) - (0.25 * r105 + 0.2 * r122 + 0.6 * r139);
     let r162 = 0.3 - r74 - (0.25 * r110 + 0.2 * r127 + 0.6 * r144);
     let r178 = r160 + (0.6 * r100 + 0.25 * r117 + 0.8 * r134);
     let r179 = r161 + (0.6 * r105 + 0.25 * r122 + 0.8 * r139);
-    let r180 = r162 + (0.6 * r110 + 0.25 * r127 + 0.8 * r144);
-    let r181 = 0.6666666666666666 * s4;
-    let r182 = 0.2222222222222222 * c4;
-    let r184 = r181 + r182 - 0.2222222222222222;
-    let r185 = 0.3333333333333333 * s4;
-    let r186 = 0.4444444444444444 * c4;
-    let r188 = r185 - r186 + 0.4444444444444444;
-    let r190 = r181 - r182 + 0.2222222222222222;
-    let r192 = 0.4444444444444444 - (r185 + r186);
-    let r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
-    let r199 = r100 * r194 + r117 * r184 + r134 * r188;
-    let r204 = r105 * r194 + r122 * r184 + r139 * r188;
+    let r180 = r162 + (0.6 * r110 + 0.25 * r127 + 0.8 * r144); let r181 = 0.6666666666666666 * s4;
+    let r182 = 0.2222222222222222 * c4; let r184 = r181 + r182 - 0.2222222222222222;
+    let r185 = 0.3333333333333333 * s4; let r186 = 0.4444444444444444 * c4;
+    let r188 = r185 - r186 + 0.4444444444444444; let r190 = r181 - r182 + 0.2222222222222222;
+    let r192 = 0.4444444444444444 - (r185 + r186); let r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    let r199 = r100 * r194 + r117 * r184 + r134 * r188; let r204 = r105 * r194 + r122 * r184 + r139 * r188;
     let r209 = r110 * r194 + r127 * r184 + r144 * r188;
     let r212 = 0.8888888888888888 * c4 + 0.1111111111111111;
-    let r216 = r117 * r212 - r100 * r190 + r134 * r184;
-    let r221 = r122 * r212 - r105 * r190 + r139 * r184;
-    let r226 = r127 * r212 - r110 * r190 + r144 * r184;
-    let r231 = r100 * r192 - r117 * r190 + r134 * r194;
-    let r236 = r105 * r192 - r122 * r190 + r139 * r194;
-    let r241 = r110 * r192 - r127 * r190 + r144 * r194;
-    let r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231;
-    let r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
-    let r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241;
-    let r263 = 0.3333333333333333 * s5;
-    let r264 = 0.4444444444444444 * c5;
-    let r266 = 0.4444444444444444 - (r263 + r264);
-    let r267 = 0.6666666666666666 * s5;
-    let r268 = 0.2222222222222222 * c5;
-    let r270 = r267 - r268 + 0.2222222222222222;
-    let r272 = r263 - r264 + 0.4444444444444444;
-    let r274 = r267 + r268 - 0.2222222222222222;
-    let r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
-    let r281 = r199 * r276 + r216 * r266 - r231 * r270;
-    let r286 = r204 * r276 + r221 * r266 - r236 * r270;
-    let r291 = r209 * r276 + r226 * r266 - r241 * r270;
-    let r296 = r199 * r272 + r216 * r276 + r231 * r274;
-    let r301 = r204 * r272 + r221 * r276 + r236 * r274;
-    let r306 = r209 * r272 + r226 * r276 + r241 * r274;
+    let r216 = r117 * r212 - r100 * r190 + r134 * r184; let r221 = r122 * r212 - r105 * r190 + r139 * r184;
+    let r226 = r127 * r212 - r110 * r190 + r144 * r184; let r231 = r100 * r192 - r117 * r190 + r134 * r194;
+    let r236 = r105 * r192 - r122 * r190 + r139 * r194; let r241 = r110 * r192 - r127 * r190 + r144 * r194;
+    let r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231; let r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
+    let r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241; let r263 = 0.3333333333333333 * s5;
+    let r264 = 0.4444444444444444 * c5; let r266 = 0.4444444444444444 - (r263 + r264);
+    let r267 = 0.6666666666666666 * s5; let r268 = 0.2222222222222222 * c5;
+    let r270 = r267 - r268 + 0.2222222222222222; let r272 = r263 - r264 + 0.4444444444444444;
+    let r274 = r267 + r268 - 0.2222222222222222; let r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    let r281 = r199 * r276 + r216 * r266 - r231 * r270; let r286 = r204 * r276 + r221 * r266 - r236 * r270;
+    let r291 = r209 * r276 + r226 * r266 - r241 * r270; let r296 = r199 * r272 + r216 * r276 + r231 * r274;
+    let r301 = r204 * r272 + r221 * r276 + r236 * r274; let r306 = r209 * r272 + r226 * r276 + r241 * r274;
     let r311 = 0.8888888888888888 * c5 + 0.1111111111111111;
-    let r313 = r199 * r274 - r216 * r270 + r231 * r311;
-    let r318 = r204 * r274 - r221 * r270 + r236 * r311;
-    let r323 = r209 * r274 - r226 * r270 + r241 * r311;
-    let r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
-    let r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318;
-    let r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
-    let r345 = 0.6666666666666666 * s6;
-    let r346 = 0.2222222222222222 * c6;
-    let r348 = r345 + r346 - 0.2222222222222222;
-    let r350 = r345 - r346 + 0.2222222222222222;
-    let r351 = 0.3333333333333333 * s6;
-    let r352 = 0.4444444444444444 * c6;
-    let r354 = 0.4444444444444444 - (r351 + r352);
-    let r356 = r351 - r352 + 0.4444444444444444;
+    let r313 = r199 * r274 - r216 * r270 + r231 * r311; let r318 = r204 * r274 - r221 * r270 + r236 * r311;
+    let r323 = r209 * r274 - r226 * r270 + r241 * r311; let r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
+    let r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318; let r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
+    let r345 = 0.6666666666666666 * s6; let r346 = 0.2222222222222222 * c6;
+    let r348 = r345 + r346 - 0.2222222222222222; let r350 = r345 - r346 + 0.2222222222222222;
+    let r351 = 0.3333333333333333 * s6; let r352 = 0.4444444444444444 * c6;
+    let r354 = 0.4444444444444444 - (r351 + r352); let r356 = r351 - r352 + 0.4444444444444444;
     let r358 = 0.8888888888888888 * c6 + 0.1111111111111111;
-    let r363 = r281 * r358 + r296 * r348 - r313 * r350;
-    let r368 = r286 * r358 + r301 * r348 - r318 * r350;
+    let r363 = r281 * r358 + r296 * r348 - r313 * r350; let r368 = r286 * r358 + r301 * r348 - r318 * r350;
     let r373 = r291 * r358 + r306 * r348 - r323 * r350;
     let r376 = 0.5555555555555556 * c6 + 0.4444444444444444;
-    let r380 = r296 * r376 - r281 * r350 + r313 * r354;
-    let r385 = r301 * r376 - r286 * r350 + r318 * r354;
-    let r390 = r306 * r376 - r291 * r350 + r323 * r354;
-    let r395 = r281 * r348 + r296 * r356 + r313 * r376;
-    let r400 = r286 * r348 + r301 * r356 + r318 * r376;
-    let r405 = r291 * r348 + r306 * r356 + r323 * r376;
+    let r380 = r296 * r376 - r281 * r350 + r313 * r354; let r385 = r301 * r376 - r286 * r350 + r318 * r354;
+    let r390 = r306 * r376 - r291 * r350 + r323 * r354; let r395 = r281 * r348 + r296 * r356 + r313 * r376;
+    let r400 = r286 * r348 + r301 * r356 + r318 * r376; let r405 = r291 * r348 + r306 * r356 + r323 * r376;
     let r421 = r328 + (r246 + (r178 - r246) - r328) - (0.6 * r363 + 0.25 * r380 + 0.8 * r395);
     let r422 = r333 + (r251 + (r179 - r251) - r333) - (0.6 * r368 + 0.25 * r385 + 0.8 * r400);
     let r423 = r338 + (r256 + (r180 - r256) - r338) - (0.6 * r373 + 0.25 * r390 + 0.8 * r405);
@@ -1366,133 +1183,73 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r2 = 0.1 * c1 + 0.05 * s1;
-    let r5 = 0.1 * s1 - 0.05 * c1;
-    let r6 = 0.6666666666666666 * s2;
-    let r7 = 0.2222222222222222 * c2;
-    let r9 = r6 - r7 + 0.2222222222222222;
-    let r11 = 0.2222222222222222 - (r6 + r7);
-    let r12 = 0.3333333333333333 * s2;
-    let r13 = 0.4444444444444444 * c2;
-    let r15 = r12 - r13 + 0.4444444444444444;
-    let r17 = 0.4444444444444444 - (r12 + r13);
-    let r19 = 0.8888888888888888 * c2 + 0.1111111111111111;
-    let r21 = s1 * r9;
-    let r22 = c1 * r19 - r21;
-    let r24 = c1 * r9;
-    let r25 = s1 * r19 + r24;
-    let r28 = 0.5555555555555556 * c2 + 0.4444444444444444;
-    let r30 = c1 * r11 - s1 * r28;
-    let r33 = s1 * r11 + c1 * r28;
-    let r35 = r24 - s1 * r17;
-    let r37 = r21 + c1 * r17;
+    let r2 = 0.1 * c1 + 0.05 * s1; let r5 = 0.1 * s1 - 0.05 * c1; let r6 = 0.6666666666666666 * s2;
+    let r7 = 0.2222222222222222 * c2; let r9 = r6 - r7 + 0.2222222222222222;
+    let r11 = 0.2222222222222222 - (r6 + r7); let r12 = 0.3333333333333333 * s2;
+    let r13 = 0.4444444444444444 * c2; let r15 = r12 - r13 + 0.4444444444444444;
+    let r17 = 0.4444444444444444 - (r12 + r13); let r19 = 0.8888888888888888 * c2 + 0.1111111111111111;
+    let r21 = s1 * r9; let r22 = c1 * r19 - r21; let r24 = c1 * r9; let r25 = s1 * r19 + r24;
+    let r28 = 0.5555555555555556 * c2 + 0.4444444444444444; let r30 = c1 * r11 - s1 * r28;
+    let r33 = s1 * r11 + c1 * r28; let r35 = r24 - s1 * r17; let r37 = r21 + c1 * r17;
     let r52 = 0.1 * r11 - 0.05 * r15 + 0.16666666666666666 * c2;
     let r70 = 0.25 * r11 + 0.2 * r15 + 0.3333333333333333 * c2;
     let r72 = r2 - (0.1 * r22 - 0.05 * r30 + 0.3 * r35) + (0.25 * r22 + 0.2 * r30 + 0.6 * r35);
     let r73 = r5 - (0.1 * r25 - 0.05 * r33 + 0.3 * r37) + (0.25 * r25 + 0.2 * r33 + 0.6 * r37);
-    let r74 = r52 + 0.13333333333333333 - (r70 + 0.26666666666666666);
-    let r75 = 0.3 - r74;
-    let r76 = 0.42857142857142855 * s3;
-    let r77 = 0.24489795918367346 * c3;
-    let r79 = r76 + r77 - 0.24489795918367346;
-    let r80 = 0.8571428571428571 * s3;
-    let r81 = 0.12244897959183673 * c3;
-    let r83 = r80 - r81 + 0.12244897959183673;
-    let r85 = r76 - r77 + 0.24489795918367346;
-    let r86 = 0.2857142857142857 * s3;
-    let r87 = 0.3673469387755102 * c3;
-    let r89 = 0.3673469387755102 - (r86 + r87);
-    let r91 = r80 + r81 - 0.12244897959183673;
-    let r93 = r86 - r87 + 0.3673469387755102;
-    let r95 = 0.9183673469387755 * c3 + 0.08163265306122448;
-    let r100 = r22 * r95 + r30 * r79 - r35 * r83;
-    let r105 = r25 * r95 + r33 * r79 - r37 * r83;
-    let r110 = r11 * r95 + r15 * r79 - r28 * r83;
-    let r113 = 0.2653061224489796 * c3 + 0.7346938775510204;
-    let r117 = r30 * r113 - r22 * r85 + r35 * r89;
-    let r122 = r33 * r113 - r25 * r85 + r37 * r89;
-    let r127 = r15 * r113 - r11 * r85 + r28 * r89;
-    let r132 = 0.8163265306122449 * c3 + 0.1836734693877551;
-    let r134 = r22 * r91 + r30 * r93 + r35 * r132;
-    let r139 = r25 * r91 + r33 * r93 + r37 * r132;
-    let r144 = r11 * r91 + r15 * r93 + r28 * r132;
+    let r74 = r52 + 0.13333333333333333 - (r70 + 0.26666666666666666); let r75 = 0.3 - r74;
+    let r76 = 0.42857142857142855 * s3; let r77 = 0.24489795918367346 * c3;
+    let r79 = r76 + r77 - 0.24489795918367346; let r80 = 0.8571428571428571 * s3;
+    let r81 = 0.12244897959183673 * c3; let r83 = r80 - r81 + 0.12244897959183673;
+    let r85 = r76 - r77 + 0.24489795918367346; let r86 = 0.2857142857142857 * s3;
+    let r87 = 0.3673469387755102 * c3; let r89 = 0.3673469387755102 - (r86 + r87);
+    let r91 = r80 + r81 - 0.12244897959183673; let r93 = r86 - r87 + 0.3673469387755102;
+    let r95 = 0.9183673469387755 * c3 + 0.08163265306122448; let r100 = r22 * r95 + r30 * r79 - r35 * r83;
+    let r105 = r25 * r95 + r33 * r79 - r37 * r83; let r110 = r11 * r95 + r15 * r79 - r28 * r83;
+    let r113 = 0.2653061224489796 * c3 + 0.7346938775510204; let r117 = r30 * r113 - r22 * r85 + r35 * r89;
+    let r122 = r33 * r113 - r25 * r85 + r37 * r89; let r127 = r15 * r113 - r11 * r85 + r28 * r89;
+    let r132 = 0.8163265306122449 * c3 + 0.1836734693877551; let r134 = r22 * r91 + r30 * r93 + r35 * r132;
+    let r139 = r25 * r91 + r33 * r93 + r37 * r132; let r144 = r11 * r91 + r15 * r93 + r28 * r132;
     let r160 = r72 - (0.25 * r100 + 0.2 * r117 + 0.6 * r134);
     let r161 = r73 - (0.25 * r105 + 0.2 * r122 + 0.6 * r139);
     let r162 = r75 - (0.25 * r110 + 0.2 * r127 + 0.6 * r144);
     let r178 = r160 + (0.6 * r100 + 0.25 * r117 + 0.8 * r134);
     let r179 = r161 + (0.6 * r105 + 0.25 * r122 + 0.8 * r139);
-    let r180 = r162 + (0.6 * r110 + 0.25 * r127 + 0.8 * r144);
-    let r181 = 0.6666666666666666 * s4;
-    let r182 = 0.2222222222222222 * c4;
-    let r184 = r181 + r182 - 0.2222222222222222;
-    let r185 = 0.3333333333333333 * s4;
-    let r186 = 0.4444444444444444 * c4;
-    let r188 = r185 - r186 + 0.4444444444444444;
-    let r190 = r181 - r182 + 0.2222222222222222;
-    let r192 = 0.4444444444444444 - (r185 + r186);
-    let r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
-    let r199 = r100 * r194 + r117 * r184 + r134 * r188;
-    let r204 = r105 * r194 + r122 * r184 + r139 * r188;
+    let r180 = r162 + (0.6 * r110 + 0.25 * r127 + 0.8 * r144); let r181 = 0.6666666666666666 * s4;
+    let r182 = 0.2222222222222222 * c4; let r184 = r181 + r182 - 0.2222222222222222;
+    let r185 = 0.3333333333333333 * s4; let r186 = 0.4444444444444444 * c4;
+    let r188 = r185 - r186 + 0.4444444444444444; let r190 = r181 - r182 + 0.2222222222222222;
+    let r192 = 0.4444444444444444 - (r185 + r186); let r194 = 0.5555555555555556 * c4 + 0.4444444444444444;
+    let r199 = r100 * r194 + r117 * r184 + r134 * r188; let r204 = r105 * r194 + r122 * r184 + r139 * r188;
     let r209 = r110 * r194 + r127 * r184 + r144 * r188;
     let r212 = 0.8888888888888888 * c4 + 0.1111111111111111;
-    let r216 = r117 * r212 - r100 * r190 + r134 * r184;
-    let r221 = r122 * r212 - r105 * r190 + r139 * r184;
-    let r226 = r127 * r212 - r110 * r190 + r144 * r184;
-    let r231 = r100 * r192 - r117 * r190 + r134 * r194;
-    let r236 = r105 * r192 - r122 * r190 + r139 * r194;
-    let r241 = r110 * r192 - r127 * r190 + r144 * r194;
-    let r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231;
-    let r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
-    let r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241;
-    let r260 = r246 + (r178 - r246);
-    let r261 = r251 + (r179 - r251);
-    let r262 = r256 + (r180 - r256);
-    let r263 = 0.3333333333333333 * s5;
-    let r264 = 0.4444444444444444 * c5;
-    let r266 = 0.4444444444444444 - (r263 + r264);
-    let r267 = 0.6666666666666666 * s5;
-    let r268 = 0.2222222222222222 * c5;
-    let r270 = r267 - r268 + 0.2222222222222222;
-    let r272 = r263 - r264 + 0.4444444444444444;
-    let r274 = r267 + r268 - 0.2222222222222222;
-    let r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
-    let r281 = r199 * r276 + r216 * r266 - r231 * r270;
-    let r286 = r204 * r276 + r221 * r266 - r236 * r270;
-    let r291 = r209 * r276 + r226 * r266 - r241 * r270;
-    let r296 = r199 * r272 + r216 * r276 + r231 * r274;
-    let r301 = r204 * r272 + r221 * r276 + r236 * r274;
-    let r306 = r209 * r272 + r226 * r276 + r241 * r274;
+    let r216 = r117 * r212 - r100 * r190 + r134 * r184; let r221 = r122 * r212 - r105 * r190 + r139 * r184;
+    let r226 = r127 * r212 - r110 * r190 + r144 * r184; let r231 = r100 * r192 - r117 * r190 + r134 * r194;
+    let r236 = r105 * r192 - r122 * r190 + r139 * r194; let r241 = r110 * r192 - r127 * r190 + r144 * r194;
+    let r246 = 0.6 * r199 + 0.25 * r216 + 0.8 * r231; let r251 = 0.6 * r204 + 0.25 * r221 + 0.8 * r236;
+    let r256 = 0.6 * r209 + 0.25 * r226 + 0.8 * r241; let r260 = r246 + (r178 - r246);
+    let r261 = r251 + (r179 - r251); let r262 = r256 + (r180 - r256); let r263 = 0.3333333333333333 * s5;
+    let r264 = 0.4444444444444444 * c5; let r266 = 0.4444444444444444 - (r263 + r264);
+    let r267 = 0.6666666666666666 * s5; let r268 = 0.2222222222222222 * c5;
+    let r270 = r267 - r268 + 0.2222222222222222; let r272 = r263 - r264 + 0.4444444444444444;
+    let r274 = r267 + r268 - 0.2222222222222222; let r276 = 0.5555555555555556 * c5 + 0.4444444444444444;
+    let r281 = r199 * r276 + r216 * r266 - r231 * r270; let r286 = r204 * r276 + r221 * r266 - r236 * r270;
+    let r291 = r209 * r276 + r226 * r266 - r241 * r270; let r296 = r199 * r272 + r216 * r276 + r231 * r274;
+    let r301 = r204 * r272 + r221 * r276 + r236 * r274; let r306 = r209 * r272 + r226 * r276 + r241 * r274;
     let r311 = 0.8888888888888888 * c5 + 0.1111111111111111;
-    let r313 = r199 * r274 - r216 * r270 + r231 * r311;
-    let r318 = r204 * r274 - r221 * r270 + r236 * r311;
-    let r323 = r209 * r274 - r226 * r270 + r241 * r311;
-    let r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
-    let r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318;
-    let r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
-    let r342 = r328 + (r260 - r328);
-    let r343 = r333 + (r261 - r333);
-    let r344 = r338 + (r262 - r338);
-    let r345 = 0.6666666666666666 * s6;
-    let r346 = 0.2222222222222222 * c6;
-    let r348 = r345 + r346 - 0.2222222222222222;
-    let r350 = r345 - r346 + 0.2222222222222222;
-    let r351 = 0.3333333333333333 * s6;
-    let r352 = 0.4444444444444444 * c6;
-    let r354 = 0.4444444444444444 - (r351 + r352);
-    let r356 = r351 - r352 + 0.4444444444444444;
+    let r313 = r199 * r274 - r216 * r270 + r231 * r311; let r318 = r204 * r274 - r221 * r270 + r236 * r311;
+    let r323 = r209 * r274 - r226 * r270 + r241 * r311; let r328 = 0.6 * r281 + 0.25 * r296 + 0.8 * r313;
+    let r333 = 0.6 * r286 + 0.25 * r301 + 0.8 * r318; let r338 = 0.6 * r291 + 0.25 * r306 + 0.8 * r323;
+    let r342 = r328 + (r260 - r328); let r343 = r333 + (r261 - r333); let r344 = r338 + (r262 - r338);
+    let r345 = 0.6666666666666666 * s6; let r346 = 0.2222222222222222 * c6;
+    let r348 = r345 + r346 - 0.2222222222222222; let r350 = r345 - r346 + 0.2222222222222222;
+    let r351 = 0.3333333333333333 * s6; let r352 = 0.4444444444444444 * c6;
+    let r354 = 0.4444444444444444 - (r351 + r352); let r356 = r351 - r352 + 0.4444444444444444;
     let r358 = 0.8888888888888888 * c6 + 0.1111111111111111;
-    let r363 = r281 * r358 + r296 * r348 - r313 * r350;
-    let r366 = r286 * r358 + r301 * r348;
-    let r367 = r318 * r350;
-    let r368 = r366 - r367;
-    let r373 = r291 * r358 + r306 * r348 - r323 * r350;
+    let r363 = r281 * r358 + r296 * r348 - r313 * r350; let r366 = r286 * r358 + r301 * r348;
+    let r367 = r318 * r350; let r368 = r366 - r367; let r373 = r291 * r358 + r306 * r348 - r323 * r350;
     let r376 = 0.5555555555555556 * c6 + 0.4444444444444444;
-    let r380 = r296 * r376 - r281 * r350 + r313 * r354;
-    let r385 = r301 * r376 - r286 * r350 + r318 * r354;
-    let r390 = r306 * r376 - r291 * r350 + r323 * r354;
-    let r395 = r281 * r348 + r296 * r356 + r313 * r376;
-    let r400 = r286 * r348 + r301 * r356 + r318 * r376;
-    let r405 = r291 * r348 + r306 * r356 + r323 * r376;
+    let r380 = r296 * r376 - r281 * r350 + r313 * r354; let r385 = r301 * r376 - r286 * r350 + r318 * r354;
+    let r390 = r306 * r376 - r291 * r350 + r323 * r354; let r395 = r281 * r348 + r296 * r356 + r313 * r376;
+    let r400 = r286 * r348 + r301 * r356 + r318 * r376; let r405 = r291 * r348 + r306 * r356 + r323 * r376;
     let r421 = r342 - (0.6 * r363 + 0.25 * r380 + 0.8 * r395);
     let r422 = r343 - (0.6 * r368 + 0.25 * r385 + 0.8 * r400);
     let r423 = r344 - (0.6 * r373 + 0.25 * r390 + 0.8 * r405);
@@ -1521,21 +1278,10 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r510 = 0.6666666666666666 * r301 - 0.3333333333333333 * r286;
     let r512 = r510 + 0.6666666666666666 * r318;
     let r515 = 0.6666666666666666 * r306 - 0.3333333333333333 * r291;
-    let r517 = r515 + 0.6666666666666666 * r323;
-    let r518 = r439 - r2;
-    let r519 = r440 - r5;
-    let r520 = r441 - 0.3;
-    let r530 = r439 - r72;
-    let r531 = r440 - r73;
-    let r532 = r441 - r75;
-    let r542 = r439 - r178;
-    let r543 = r440 - r179;
-    let r544 = r441 - r180;
-    let r554 = r439 - r260;
-    let r555 = r440 - r261;
-    let r556 = r441 - r262;
-    let r566 = r439 - r342;
-    let r567 = r440 - r343;
+    let r517 = r515 + 0.6666666666666666 * r323; let r518 = r439 - r2; let r519 = r440 - r5;
+    let r520 = r441 - 0.3; let r530 = r439 - r72; let r531 = r440 - r73; let r532 = r441 - r75;
+    let r542 = r439 - r178; let r543 = r440 - r179; let r544 = r441 - r180; let r554 = r439 - r260;
+    let r555 = r440 - r261; let r556 = r441 - r262; let r566 = r439 - r342; let r567 = r440 - r343;
     let r568 = r441 - r344;
     [
         [0.0 - r440, r459 * r520 - 0.6666666666666666 * r519, r469 * r532 - r475 * r531, r485 * r544 - r490 * r543, r498 * r556 - r502 * r555, r512 * r568 - r517 * r567],
@@ -1561,7 +1307,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -1572,20 +1318,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -1614,6 +1361,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1956,7 +1706,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -2025,12 +1779,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -2041,6 +1800,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -2356,8 +2118,7 @@ fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
     if !(lead.abs() > 0.01 * largest && largest < f64::INFINITY) {
         return None;
     }
-    let inverse = 1.0 / lead;
-    let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
+    let inverse = 1.0 / lead; let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
     let (mut x, count) = approximate_roots(&monic, scale)?;
     for x in &mut x {
         *x = settled(&monic, *x, scale);
@@ -2381,8 +2142,7 @@ fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
 fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<([f64; 4], usize)> {
     // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
     let (quarter, square) = (0.25 * b, b * b);
-    let p = c - 0.375 * square;
-    let q = d - 0.5 * b * (c - 0.25 * square);
+    let p = c - 0.375 * square; let q = d - 0.5 * b * (c - 0.25 * square);
     let r = e - quarter * (d - quarter * (c - 0.1875 * square));
     // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
     let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
@@ -2414,8 +2174,7 @@ fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
     let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
     let mut z = f64::max(typical, 0.5 * (falling + (falling * falling + 4.0 * (under + w / typical)).sqrt()));
     for _ in 0..24 {
-        let value = ((z + u) * z + v) * z - w;
-        let slope = (3.0 * z + 2.0 * u) * z + v;
+        let value = ((z + u) * z + v) * z - w; let slope = (3.0 * z + 2.0 * u) * z + v;
         let step = value / slope;
         z -= step;
         if step.abs() <= 1e-5 * z {
@@ -2487,8 +2246,7 @@ impl Polynomial {
     fn quadratic_roots(&self) -> Roots {
         let mut roots = Roots::NONE;
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c;
-        let size = b * b + (4.0 * a * c).abs();
+        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
         let typical = 2.0 * a * self.scale;
         if discriminant < -TANGENT * f64::max(size, typical * typical) {
             return roots;
@@ -2756,8 +2514,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

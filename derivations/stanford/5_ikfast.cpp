@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -142,7 +146,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -217,10 +221,10 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
-    const double s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2;
-    const double r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3, r26 = s5 * r0;
-    const double r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6];
+    const double c5 = at[7], s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
+    const double r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3;
+    const double r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
     const double r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19, r37 = c2 * c5 - s5 * r15;
     const double r39 = s1 * c4 + s4 * r3, r41 = c5 * r1 - s5 * r24;
     const double r71 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29 + 0.66;
@@ -284,20 +288,20 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
-    const double s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2;
-    const double r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3, r26 = s5 * r0;
-    const double r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6];
+    const double c5 = at[7], s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
+    const double r3 = c1 * c2, r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3;
+    const double r26 = s5 * r0, r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
     const double r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19, r37 = c2 * c5 - s5 * r15;
     const double r39 = s1 * c4 + s4 * r3, r40 = c6 * r39, r41 = c5 * r1 - s5 * r24, r42 = s6 * r41;
     const double r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
     const double r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
     const double r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31, r68 = r30 + r31, r69 = r28 + r29;
-    const double r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41, r96 = c2 * r68;
-    const double r97 = r1 * r69, r98 = r26 - r27, r99 = r1 * r98, r100 = r0 * r68, r101 = r0 * r69;
-    const double r102 = c2 * r98, r107 = r32 * r69, r108 = r10 * r98, r112 = r10 * r68 + r39 * r69;
-    const double r120 = r39 * r98 + r32 * r68, r131 = r40 - r42, r165 = s6 * r10 - c6 * r37;
-    const double r167 = s6 * r32 - c6 * r34;
+    const double r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41;
+    const double r96 = c2 * r68, r97 = r1 * r69, r98 = r26 - r27, r99 = r1 * r98, r100 = r0 * r68;
+    const double r101 = r0 * r69, r102 = c2 * r98, r107 = r32 * r69, r108 = r10 * r98;
+    const double r112 = r10 * r68 + r39 * r69, r120 = r39 * r98 + r32 * r68, r131 = r40 - r42;
+    const double r165 = s6 * r10 - c6 * r37, r167 = s6 * r32 - c6 * r34;
     const Jacobian result = { {
         {r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0},
         {0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0},
@@ -607,7 +611,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -626,6 +631,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -653,11 +661,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -689,7 +705,7 @@ typedef struct {
     Solution *out;
     double relative[STANFORD_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[5][3];
@@ -784,7 +800,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1078,6 +1098,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1103,6 +1124,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1161,13 +1185,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 4, at[9], at[10]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1241,7 +1263,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.06, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -475,9 +470,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderYaw.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r1 = 0.2 * p.r13_ - p.px;
-    let r3 = p.pz - 0.2 * p.r33_;
+    let before = answers.candidates; let r1 = 0.2 * p.r13_ - p.px; let r3 = p.pz - 0.2 * p.r33_;
     let r5 = f64::abs(p.magnitude + 1.92);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
@@ -491,20 +484,14 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
-    let f1 = 1.0;
-    let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
+    let f1 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r17 = 1.0 / r8;
-        let c1 = 0.0 - w1 * shared.r3 * r17;
-        let s1 = w1 * shared.r1 * r17;
+        let r17 = 1.0 / r8; let c1 = 0.0 - w1 * shared.r3 * r17; let s1 = w1 * shared.r1 * r17;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, f1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
     }
@@ -514,8 +501,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderYaw.
 fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3;
-    let r9 = shared.r5 * shared.r5;
+    let r8 = shared.r1 * shared.r1 + shared.r3 * shared.r3; let r9 = shared.r5 * shared.r5;
     if !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE)) {
         return;
     }
@@ -531,8 +517,7 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates;
     let r6 = known.c1 * (p.pz - 0.2 * p.r33_) + known.s1 * (p.px - 0.2 * p.r13_);
-    let r9 = 0.66 - (p.py - 0.2 * p.r23_);
-    let r14 = f64::abs(2.0 * p.magnitude + 3.84);
+    let r9 = 0.66 - (p.py - 0.2 * p.r23_); let r14 = f64::abs(2.0 * p.magnitude + 3.84);
     let r15 = f64::abs(3.0 * p.magnitude + 9.06);
     let shared = &Shared2 { r6, r9, r14, r15 };
     chart_2_1(p, known, shared, answers);
@@ -553,19 +538,14 @@ struct Shared2 { r6: f64, r9: f64, r14: f64, r15: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r16 = shared.r6 * shared.r6;
-    let r17 = shared.r9 * shared.r9;
-    let r18 = r16 + r17;
+    let r16 = shared.r6 * shared.r6; let r17 = shared.r9 * shared.r9; let r18 = r16 + r17;
     let r21 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
     if !is_away(r18, 16.0 * r21) {
         return;
     }
-    let f2 = 1.0;
-    let roots0 = square_roots(0.0 - r16 - r17, known.f1 * f64::max(r21, 0.0).sqrt());
+    let f2 = 1.0; let roots0 = square_roots(0.0 - r16 - r17, known.f1 * f64::max(r21, 0.0).sqrt());
     for (i0, &w2) in roots0.as_slice().iter().enumerate() {
-        let r29 = 1.0 / r18;
-        let c2 = 0.0 - w2 * shared.r9 * r29;
-        let s2 = w2 * shared.r6 * r29;
+        let r29 = 1.0 / r18; let c2 = 0.0 - w2 * shared.r9 * r29; let s2 = w2 * shared.r6 * r29;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c2, s2, f2, ..*known };
         block_3(p, &next, answers);
     }
@@ -591,8 +571,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r10 = known.c1 * (p.pz - 0.2 * p.r33_) + known.s1 * (p.px - 0.2 * p.r13_);
-    let r12 = known.c2 * (p.py - 0.2 * p.r23_ - 0.66) + known.s2 * r10;
-    let r13 = r12 - 0.2;
+    let r12 = known.c2 * (p.py - 0.2 * p.r23_ - 0.66) + known.s2 * r10; let r13 = r12 - 0.2;
     let shared = &Shared3 { r13 };
     chart_3_1(p, known, shared, answers);
 }
@@ -618,10 +597,8 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: WristYaw.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r5 = known.c2 * (p.r33_ * known.c1 + p.r13_ * known.s1);
-    let r7 = p.r33_ * known.s1 - p.r13_ * known.c1;
-    let r8 = r5 - p.r23_ * known.s2;
+    let before = answers.candidates; let r5 = known.c2 * (p.r33_ * known.c1 + p.r13_ * known.s1);
+    let r7 = p.r33_ * known.s1 - p.r13_ * known.c1; let r8 = r5 - p.r23_ * known.s2;
     let shared = &Shared4 { r7, r8 };
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);
@@ -634,17 +611,13 @@ struct Shared4 { r7: f64, r8: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r9 = shared.r7 * shared.r7;
-    let r10 = shared.r8 * shared.r8;
-    let r11 = r9 + r10;
+    let r9 = shared.r7 * shared.r7; let r10 = shared.r8 * shared.r8; let r11 = r9 + r10;
     if !is_away(r11, 976.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r9 - r10, known.f2 * (7.810249675906654 * known.f1));
     for (i0, &w4) in roots0.as_slice().iter().enumerate().take(1) {
-        let r18 = 1.0 / r11;
-        let c4 = 0.0 - w4 * shared.r8 * r18;
-        let s4 = w4 * shared.r7 * r18;
+        let r18 = 1.0 / r11; let c4 = 0.0 - w4 * shared.r8 * r18; let s4 = w4 * shared.r7 * r18;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c4, s4, ..*known };
         block_5(p, &next, answers);
     }
@@ -667,10 +640,8 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 /// Block 5: WristPitch.
 #[inline(always)]
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1;
-    let r11 = known.c4 * (known.c2 * r5 - p.r23_ * known.s2);
-    let r12 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1);
-    let r13 = p.r23_ * known.c2 + known.s2 * r5;
+    let r5 = p.r33_ * known.c1 + p.r13_ * known.s1; let r11 = known.c4 * (known.c2 * r5 - p.r23_ * known.s2);
+    let r12 = known.s4 * (p.r13_ * known.c1 - p.r33_ * known.s1); let r13 = p.r23_ * known.c2 + known.s2 * r5;
     let r14 = r11 + r12;
     let shared = &Shared5 { r13, r14 };
     chart_5_1(p, known, shared, answers);
@@ -689,10 +660,8 @@ struct Shared5 { r13: f64, r14: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r17 = shared.r14 * shared.r14 + shared.r13 * shared.r13;
-    let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
-    let c5 = shared.r14 * r19;
-    let s5 = 0.0 - shared.r13 * r19;
+    let r17 = shared.r14 * shared.r14 + shared.r13 * shared.r13; let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
+    let c5 = shared.r14 * r19; let s5 = 0.0 - shared.r13 * r19;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_6(p, &next, answers);
 }
@@ -701,8 +670,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = known.c2 * (p.r32_ * known.c1 + p.r12_ * known.s1);
-    let r8 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1);
-    let r10 = known.s4 * (r5 - p.r22_ * known.s2);
+    let r8 = known.c4 * (p.r12_ * known.c1 - p.r32_ * known.s1); let r10 = known.s4 * (r5 - p.r22_ * known.s2);
     let r16 = known.c2 * (p.r31_ * known.c1 + p.r11_ * known.s1);
     let r19 = known.c4 * (p.r11_ * known.c1 - p.r31_ * known.s1);
     let r22 = r19 - known.s4 * (r16 - p.r21_ * known.s2);
@@ -716,11 +684,8 @@ struct Shared6 { r8: f64, r10: f64, r22: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r23 = shared.r10 - shared.r8;
-    let r27 = f64::max(shared.r22 * shared.r22 + r23 * r23, 0.0).sqrt();
-    let r28 = 1.0 / r27;
-    let c6 = shared.r22 * r28;
-    let s6 = r23 * r28;
+    let r23 = shared.r10 - shared.r8; let r27 = f64::max(shared.r22 * shared.r22 + r23 * r23, 0.0).sqrt();
+    let r28 = 1.0 / r27; let c6 = shared.r22 * r28; let s6 = r23 * r28;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.d3, known.c4, known.s4, known.c5, known.s5, c6, s6,
     ];
@@ -741,25 +706,11 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r10 = s2 * s4;
-    let r15 = s2 * c4;
-    let r19 = c1 * s4 + c4 * r2;
-    let r24 = s1 * s4 - c4 * r3;
-    let r26 = s5 * r0;
-    let r27 = c5 * r19;
-    let r28 = c2 * s5;
-    let r29 = c5 * r15;
-    let r30 = s5 * r1;
-    let r31 = c5 * r24;
-    let r32 = c1 * c4 - s4 * r2;
-    let r34 = c5 * r0 + s5 * r19;
-    let r37 = c2 * c5 - s5 * r15;
-    let r39 = s1 * c4 + s4 * r3;
-    let r41 = c5 * r1 - s5 * r24;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r10 = s2 * s4;
+    let r15 = s2 * c4; let r19 = c1 * s4 + c4 * r2; let r24 = s1 * s4 - c4 * r3; let r26 = s5 * r0;
+    let r27 = c5 * r19; let r28 = c2 * s5; let r29 = c5 * r15; let r30 = s5 * r1; let r31 = c5 * r24;
+    let r32 = c1 * c4 - s4 * r2; let r34 = c5 * r0 + s5 * r19; let r37 = c2 * c5 - s5 * r15;
+    let r39 = s1 * c4 + s4 * r3; let r41 = c5 * r1 - s5 * r24;
     let r71 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29 + 0.66;
     [
         d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27,
@@ -824,49 +775,18 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r10 = s2 * s4;
-    let r15 = s2 * c4;
-    let r19 = c1 * s4 + c4 * r2;
-    let r24 = s1 * s4 - c4 * r3;
-    let r26 = s5 * r0;
-    let r27 = c5 * r19;
-    let r28 = c2 * s5;
-    let r29 = c5 * r15;
-    let r30 = s5 * r1;
-    let r31 = c5 * r24;
-    let r32 = c1 * c4 - s4 * r2;
-    let r34 = c5 * r0 + s5 * r19;
-    let r37 = c2 * c5 - s5 * r15;
-    let r39 = s1 * c4 + s4 * r3;
-    let r40 = c6 * r39;
-    let r41 = c5 * r1 - s5 * r24;
-    let r42 = s6 * r41;
-    let r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29;
-    let r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
-    let r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31;
-    let r68 = r30 + r31;
-    let r69 = r28 + r29;
-    let r74 = c6 * r10 + s6 * r37;
-    let r75 = c6 * r32 + s6 * r34;
-    let r80 = s6 * r39 + c6 * r41;
-    let r96 = c2 * r68;
-    let r97 = r1 * r69;
-    let r98 = r26 - r27;
-    let r99 = r1 * r98;
-    let r100 = r0 * r68;
-    let r101 = r0 * r69;
-    let r102 = c2 * r98;
-    let r107 = r32 * r69;
-    let r108 = r10 * r98;
-    let r112 = r10 * r68 + r39 * r69;
-    let r120 = r39 * r98 + r32 * r68;
-    let r131 = r40 - r42;
-    let r165 = s6 * r10 - c6 * r37;
-    let r167 = s6 * r32 - c6 * r34;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r10 = s2 * s4;
+    let r15 = s2 * c4; let r19 = c1 * s4 + c4 * r2; let r24 = s1 * s4 - c4 * r3; let r26 = s5 * r0;
+    let r27 = c5 * r19; let r28 = c2 * s5; let r29 = c5 * r15; let r30 = s5 * r1; let r31 = c5 * r24;
+    let r32 = c1 * c4 - s4 * r2; let r34 = c5 * r0 + s5 * r19; let r37 = c2 * c5 - s5 * r15;
+    let r39 = s1 * c4 + s4 * r3; let r40 = c6 * r39; let r41 = c5 * r1 - s5 * r24; let r42 = s6 * r41;
+    let r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29; let r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
+    let r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31; let r68 = r30 + r31; let r69 = r28 + r29;
+    let r74 = c6 * r10 + s6 * r37; let r75 = c6 * r32 + s6 * r34; let r80 = s6 * r39 + c6 * r41;
+    let r96 = c2 * r68; let r97 = r1 * r69; let r98 = r26 - r27; let r99 = r1 * r98; let r100 = r0 * r68;
+    let r101 = r0 * r69; let r102 = c2 * r98; let r107 = r32 * r69; let r108 = r10 * r98;
+    let r112 = r10 * r68 + r39 * r69; let r120 = r39 * r98 + r32 * r68; let r131 = r40 - r42;
+    let r165 = s6 * r10 - c6 * r37; let r167 = s6 * r32 - c6 * r34;
     [
         [r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0],
         [0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0],
@@ -891,7 +811,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -902,20 +822,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -944,6 +865,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1289,7 +1213,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1358,12 +1286,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1374,6 +1307,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1769,8 +1705,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

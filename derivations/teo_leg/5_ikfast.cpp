@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -142,7 +146,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -217,15 +221,15 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const double r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3;
-    const double r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10, r18 = s1 * c3 + s3 * r3;
-    const double r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8;
-    const double r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25, r34 = c4 * r18 - s4 * r20;
-    const double r36 = r26 + r27, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r49 = s5 * r30 + c5 * r32;
-    const double r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49;
-    const double r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2;
+    const double r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3;
+    const double r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10;
+    const double r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18;
+    const double r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25;
+    const double r34 = c4 * r18 - s4 * r20, r36 = r26 + r27, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29;
+    const double r49 = s5 * r30 + c5 * r32, r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40;
+    const double r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55;
     const double r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
     const double r80 = 0.33 * r11 - 0.33 * r12 + 0.0175 * r1 + 0.3 * r26;
     const double r86 = r80 + 0.3 * r27 - 0.123005 * r59 + 0.123005 * r60;
@@ -291,18 +295,19 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const double r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3;
-    const double r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10, r18 = s1 * c3 + s3 * r3;
-    const double r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8;
-    const double r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25, r34 = c4 * r18 - s4 * r20;
-    const double r35 = c5 * r34, r36 = r26 + r27, r37 = s5 * r36, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29;
-    const double r48 = c6 * r0, r49 = s5 * r30 + c5 * r32, r50 = s6 * r49, r52 = s5 * r34 + c5 * r36;
-    const double r55 = s5 * r38 + c5 * r40, r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52;
-    const double r61 = s2 * s6, r62 = c6 * r55, r64 = 0.0175 * s2, r66 = 0.3 * r28, r68 = 0.3 * r29;
-    const double r70 = 0.123005 * r61, r72 = 0.123005 * r62, r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72;
-    const double r77 = 0.0175 * r1, r79 = 0.3 * r26, r81 = 0.3 * r27, r83 = 0.123005 * r59;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2;
+    const double r2 = s1 * s2, r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3;
+    const double r12 = c3 * r3, r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10;
+    const double r18 = s1 * c3 + s3 * r3, r20 = r11 - r12, r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18;
+    const double r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13, r30 = c4 * r14 - s4 * r16, r32 = r24 + r25;
+    const double r34 = c4 * r18 - s4 * r20, r35 = c5 * r34, r36 = r26 + r27, r37 = s5 * r36;
+    const double r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r48 = c6 * r0, r49 = s5 * r30 + c5 * r32;
+    const double r50 = s6 * r49, r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40, r57 = s6 * r0;
+    const double r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55;
+    const double r64 = 0.0175 * s2, r66 = 0.3 * r28, r68 = 0.3 * r29, r70 = 0.123005 * r61;
+    const double r72 = 0.123005 * r62, r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72, r77 = 0.0175 * r1;
+    const double r79 = 0.3 * r26, r81 = 0.3 * r27, r83 = 0.123005 * r59;
     const double r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83, r85 = 0.123005 * r60, r86 = r84 + r85;
     const double r90 = 0.0175 * r0, r92 = 0.3 * r24, r94 = 0.3 * r25, r96 = 0.123005 * r57;
     const double r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96, r98 = 0.123005 * r58, r99 = r97 + r98;
@@ -622,7 +627,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -641,6 +647,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -668,11 +677,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -704,7 +721,7 @@ typedef struct {
     Solution *out;
     double relative[TEO_LEG_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -800,7 +817,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1094,6 +1115,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1119,6 +1141,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1177,13 +1202,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1257,7 +1280,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1419,7 +1442,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
 static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
     const size_t before = answers->candidates;
-    const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6, r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
+    const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6;
+    const double r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
     const Shared4 own = { r4, r5 }, *const shared = &own;
     chart_4_1(p, known, shared, answers);
     chart_4_2(p, known, shared, before, answers);

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.926083810044118, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -492,8 +487,7 @@ struct Shared1 { r28: f64 }
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r28 * shared.r28 - 0.039204, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 25.50760126517702 * (0.198 * shared.r28);
-        let c4 = r34;
+        let r34 = 0.0 - 25.50760126517702 * (0.198 * shared.r28); let c4 = r34;
         let s4 = 25.50760126517702 * (0.198 * w4);
         let next = Known { branch: i0, last: 2, close: roots0.close, c4, s4, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -503,11 +497,8 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: AnklePitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r3 = 0.33 * known.s4;
-    let r5 = 0.33 * known.c4 + 0.3;
-    let r9 = 0.146 * p.r21_ - 0.092 * p.r31_ - p.px * p.r11_;
-    let r11 = p.pz * p.r31_ - (r9 - p.py * p.r21_);
+    let before = answers.candidates; let r3 = 0.33 * known.s4; let r5 = 0.33 * known.c4 + 0.3;
+    let r9 = 0.146 * p.r21_ - 0.092 * p.r31_ - p.px * p.r11_; let r11 = p.pz * p.r31_ - (r9 - p.py * p.r21_);
     let r14 = f64::abs(3.0 * p.magnitude + 0.238);
     let shared = &Shared2 { r3, r5, r11, r14 };
     chart_2_1(p, known, shared, answers);
@@ -521,20 +512,14 @@ struct Shared2 { r3: f64, r5: f64, r11: f64, r14: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r15 = shared.r3 * shared.r3;
-    let r16 = shared.r5 * shared.r5;
-    let r17 = r15 + r16;
+    let r15 = shared.r3 * shared.r3; let r16 = shared.r5 * shared.r5; let r17 = r15 + r16;
     if !is_away(r17, 48.210559999999994) {
         return;
     }
-    let f5 = 1.0;
-    let roots0 = square_roots(shared.r11 * shared.r11 - r15 - r16, 1.7358456152549973);
+    let f5 = 1.0; let roots0 = square_roots(shared.r11 * shared.r11 - r15 - r16, 1.7358456152549973);
     for (i0, &w5) in roots0.as_slice().iter().enumerate() {
-        let r27 = shared.r3 * shared.r11 - (0.0 - w5 * shared.r5);
-        let r28 = 1.0 / r17;
-        let r30 = (shared.r5 * shared.r11 - w5 * shared.r3) * r28;
-        let c5 = r27 * r28;
-        let s5 = r30;
+        let r27 = shared.r3 * shared.r11 - (0.0 - w5 * shared.r5); let r28 = 1.0 / r17;
+        let r30 = (shared.r5 * shared.r11 - w5 * shared.r3) * r28; let c5 = r27 * r28; let s5 = r30;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c5, s5, f5, ..*known };
         block_3(p, &next, answers);
     }
@@ -558,15 +543,11 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 /// Block 3: AnkleRoll.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r11 = 0.146 * p.r22_ - 0.092 * p.r32_ - p.px * p.r12_;
-    let r13 = p.pz * p.r32_ - (r11 - p.py * p.r22_);
+    let r11 = 0.146 * p.r22_ - 0.092 * p.r32_ - p.px * p.r12_; let r13 = p.pz * p.r32_ - (r11 - p.py * p.r22_);
     let r17 = 0.146 * p.r23_ - 0.092 * p.r33_ - p.px * p.r13_;
     let r20 = 0.123005 - (r17 - p.py * p.r23_ - p.pz * p.r33_);
-    let r23 = 0.33 * (known.c4 * known.c5) - 0.33 * (known.s4 * known.s5);
-    let r25 = r23 + 0.3 * known.c5;
-    let r26 = 3.0 * p.magnitude;
-    let r29 = f64::abs(r26 + 0.495);
-    let r30 = f64::abs(r26 + 1.805005);
+    let r23 = 0.33 * (known.c4 * known.c5) - 0.33 * (known.s4 * known.s5); let r25 = r23 + 0.3 * known.c5;
+    let r26 = 3.0 * p.magnitude; let r29 = f64::abs(r26 + 0.495); let r30 = f64::abs(r26 + 1.805005);
     let shared = &Shared3 { r13, r20, r25, r29, r30 };
     chart_3_1(p, known, shared, answers);
 }
@@ -592,9 +573,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
     let r40 = 0.0175 * shared.r20 - shared.r13 * shared.r25;
     let r43 = 0.0175 * shared.r13 + shared.r20 * shared.r25;
-    let r48 = 1.0 / f64::max(r43 * r43 + r40 * r40, 0.0).sqrt();
-    let c6 = 0.0 - r43 * r48;
-    let s6 = r40 * r48;
+    let r48 = 1.0 / f64::max(r43 * r43 + r40 * r40, 0.0).sqrt(); let c6 = 0.0 - r43 * r48; let s6 = r40 * r48;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c6, s6, ..*known };
     block_4(p, &next, answers);
 }
@@ -602,8 +581,7 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: HipYaw.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r13_ * known.s6 - p.r12_ * known.c6;
+    let before = answers.candidates; let r4 = p.r13_ * known.s6 - p.r12_ * known.c6;
     let r5 = p.r23_ * known.s6 - p.r22_ * known.c6;
     let shared = &Shared4 { r4, r5 };
     chart_4_1(p, known, shared, answers);
@@ -617,17 +595,13 @@ struct Shared4 { r4: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r6 = shared.r4 * shared.r4;
-    let r7 = shared.r5 * shared.r5;
-    let r8 = r6 + r7;
+    let r6 = shared.r4 * shared.r4; let r7 = shared.r5 * shared.r5; let r8 = r6 + r7;
     if !is_away(r8, 128.0) {
         return;
     }
     let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903 * known.f5);
     for (i0, &w1) in roots0.as_slice().iter().enumerate().take(1) {
-        let r14 = 1.0 / r8;
-        let c1 = 0.0 - w1 * shared.r5 * r14;
-        let s1 = w1 * shared.r4 * r14;
+        let r14 = 1.0 / r8; let c1 = 0.0 - w1 * shared.r5 * r14; let s1 = w1 * shared.r4 * r14;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, c1, s1, ..*known };
         block_5(p, &next, answers);
     }
@@ -652,8 +626,7 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = known.c1 * (p.r22_ * known.c6 - p.r23_ * known.s6);
     let r9 = known.s1 * (p.r12_ * known.c6 - p.r13_ * known.s6);
-    let r10 = p.r32_ * known.c6 - p.r33_ * known.s6;
-    let r11 = r8 - r9;
+    let r10 = p.r32_ * known.c6 - p.r33_ * known.s6; let r11 = r8 - r9;
     let shared = &Shared5 { r10, r11 };
     chart_5_1(p, known, shared, answers);
 }
@@ -671,10 +644,8 @@ struct Shared5 { r10: f64, r11: f64 }
 /// Chart 1 of block 5: generic.
 #[inline(always)]
 fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10;
-    let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
-    let c2 = shared.r11 * r16;
-    let s2 = shared.r10 * r16;
+    let r14 = shared.r11 * shared.r11 + shared.r10 * shared.r10; let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
+    let c2 = shared.r11 * r16; let s2 = shared.r10 * r16;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -683,13 +654,10 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = 0.0175 * known.c6 + 0.3 * (known.c5 * known.s6);
-    let r9 = 0.3 * (known.c5 * known.c6) - 0.0175 * known.s6;
-    let r10 = r9 + 0.123005;
+    let r9 = 0.3 * (known.c5 * known.c6) - 0.0175 * known.s6; let r10 = r9 + 0.123005;
     let r17 = p.r12_ * r5 + (p.px - 0.3 * (p.r11_ * known.s5));
     let r22 = p.r22_ * r5 + (p.py - 0.3 * (p.r21_ * known.s5));
-    let r30 = known.s4 * known.c5 + known.c4 * known.s5;
-    let r31 = known.s6 * r30;
-    let r32 = known.c6 * r30;
+    let r30 = known.s4 * known.c5 + known.c4 * known.s5; let r31 = known.s6 * r30; let r32 = known.c6 * r30;
     let r33 = known.c4 * known.c5 - known.s4 * known.s5;
     let r42 = known.c1 * (p.r13_ * r32 + (p.r11_ * r33 + p.r12_ * r31));
     let r45 = known.s1 * (p.r23_ * r32 + (p.r21_ * r33 + p.r22_ * r31));
@@ -705,11 +673,8 @@ struct Shared6 { r46: f64, r48: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r49 = 0.33 * shared.r46;
-    let r50 = 0.33 * shared.r48;
-    let r55 = 1.0 / f64::max(r50 * r50 + r49 * r49, 0.0).sqrt();
-    let c3 = r50 * r55;
-    let s3 = 0.0 - r49 * r55;
+    let r49 = 0.33 * shared.r46; let r50 = 0.33 * shared.r48;
+    let r55 = 1.0 / f64::max(r50 * r50 + r49 * r49, 0.0).sqrt(); let c3 = r50 * r55; let s3 = 0.0 - r49 * r55;
     let at = [
         known.c1, known.s1, known.c2, known.s2, c3, s3, known.c4, known.s4, known.c5, known.s5, known.c6,
         known.s6,
@@ -731,41 +696,14 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = c1 * c2;
-    let r2 = s1 * s2;
-    let r3 = c1 * s2;
-    let r8 = c2 * s3;
-    let r9 = c1 * s3;
-    let r10 = c3 * r2;
-    let r11 = s1 * s3;
-    let r12 = c3 * r3;
-    let r13 = c2 * c3;
-    let r14 = c1 * c3 - s3 * r2;
-    let r16 = r9 + r10;
-    let r18 = s1 * c3 + s3 * r3;
-    let r20 = r11 - r12;
-    let r24 = s4 * r14;
-    let r25 = c4 * r16;
-    let r26 = s4 * r18;
-    let r27 = c4 * r20;
-    let r28 = s4 * r8;
-    let r29 = c4 * r13;
-    let r30 = c4 * r14 - s4 * r16;
-    let r32 = r24 + r25;
-    let r34 = c4 * r18 - s4 * r20;
-    let r36 = r26 + r27;
-    let r38 = c4 * r8 + s4 * r13;
-    let r40 = r28 - r29;
-    let r49 = s5 * r30 + c5 * r32;
-    let r52 = s5 * r34 + c5 * r36;
-    let r55 = s5 * r38 + c5 * r40;
-    let r57 = s6 * r0;
-    let r58 = c6 * r49;
-    let r59 = s6 * r1;
-    let r60 = c6 * r52;
-    let r61 = s2 * s6;
-    let r62 = c6 * r55;
+    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r8 = c2 * s3; let r9 = c1 * s3;
+    let r10 = c3 * r2; let r11 = s1 * s3; let r12 = c3 * r3; let r13 = c2 * c3; let r14 = c1 * c3 - s3 * r2;
+    let r16 = r9 + r10; let r18 = s1 * c3 + s3 * r3; let r20 = r11 - r12; let r24 = s4 * r14;
+    let r25 = c4 * r16; let r26 = s4 * r18; let r27 = c4 * r20; let r28 = s4 * r8; let r29 = c4 * r13;
+    let r30 = c4 * r14 - s4 * r16; let r32 = r24 + r25; let r34 = c4 * r18 - s4 * r20; let r36 = r26 + r27;
+    let r38 = c4 * r8 + s4 * r13; let r40 = r28 - r29; let r49 = s5 * r30 + c5 * r32;
+    let r52 = s5 * r34 + c5 * r36; let r55 = s5 * r38 + c5 * r40; let r57 = s6 * r0; let r58 = c6 * r49;
+    let r59 = s6 * r1; let r60 = c6 * r52; let r61 = s2 * s6; let r62 = c6 * r55;
     let r69 = 0.33 * r13 + 0.0175 * s2 - 0.3 * r28 + 0.3 * r29;
     let r80 = 0.33 * r11 - 0.33 * r12 + 0.0175 * r1 + 0.3 * r26;
     let r86 = r80 + 0.3 * r27 - 0.123005 * r59 + 0.123005 * r60;
@@ -833,92 +771,30 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2;
-    let r1 = c1 * c2;
-    let r2 = s1 * s2;
-    let r3 = c1 * s2;
-    let r8 = c2 * s3;
-    let r9 = c1 * s3;
-    let r10 = c3 * r2;
-    let r11 = s1 * s3;
-    let r12 = c3 * r3;
-    let r13 = c2 * c3;
-    let r14 = c1 * c3 - s3 * r2;
-    let r16 = r9 + r10;
-    let r18 = s1 * c3 + s3 * r3;
-    let r20 = r11 - r12;
-    let r24 = s4 * r14;
-    let r25 = c4 * r16;
-    let r26 = s4 * r18;
-    let r27 = c4 * r20;
-    let r28 = s4 * r8;
-    let r29 = c4 * r13;
-    let r30 = c4 * r14 - s4 * r16;
-    let r32 = r24 + r25;
-    let r34 = c4 * r18 - s4 * r20;
-    let r35 = c5 * r34;
-    let r36 = r26 + r27;
-    let r37 = s5 * r36;
-    let r38 = c4 * r8 + s4 * r13;
-    let r40 = r28 - r29;
-    let r48 = c6 * r0;
-    let r49 = s5 * r30 + c5 * r32;
-    let r50 = s6 * r49;
-    let r52 = s5 * r34 + c5 * r36;
-    let r55 = s5 * r38 + c5 * r40;
-    let r57 = s6 * r0;
-    let r58 = c6 * r49;
-    let r59 = s6 * r1;
-    let r60 = c6 * r52;
-    let r61 = s2 * s6;
-    let r62 = c6 * r55;
-    let r64 = 0.0175 * s2;
-    let r66 = 0.3 * r28;
-    let r68 = 0.3 * r29;
-    let r70 = 0.123005 * r61;
-    let r72 = 0.123005 * r62;
-    let r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72;
-    let r77 = 0.0175 * r1;
-    let r79 = 0.3 * r26;
-    let r81 = 0.3 * r27;
-    let r83 = 0.123005 * r59;
-    let r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
-    let r85 = 0.123005 * r60;
-    let r86 = r84 + r85;
-    let r90 = 0.0175 * r0;
-    let r92 = 0.3 * r24;
-    let r94 = 0.3 * r25;
-    let r96 = 0.123005 * r57;
-    let r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
-    let r98 = 0.123005 * r58;
-    let r99 = r97 + r98;
-    let r100 = r61 + r62;
-    let r101 = r57 + r58;
-    let r102 = r35 - r37;
-    let r103 = c5 * r30 - s5 * r32;
-    let r115 = s2 * c6 - s6 * r55;
-    let r116 = c6 * r1 + s6 * r52;
-    let r139 = r68 + (r64 - r66) - r70 - r72;
-    let r144 = r85 + (r81 + (r77 + r79) - r83);
-    let r149 = r90 - r92 - r94 - r96 - r98;
-    let r154 = r1 * r100;
-    let r155 = r59 - r60;
-    let r156 = s2 * r155;
-    let r162 = c5 * r38 - s5 * r40;
-    let r164 = r101 * r162;
-    let r165 = r100 * r103;
-    let r173 = r100 * r102 + r155 * r162;
-    let r178 = s2 * r101 - r0 * r100;
-    let r186 = r0 * r155 - r1 * r101;
-    let r189 = r155 * r103 + r101 * r102;
-    let r204 = 0.0 - (r1 * r162 + s2 * r102);
-    let r205 = s2 * r103 - r0 * r162;
-    let r208 = 0.0 - (r0 * r102 + r1 * r103);
-    let r212 = r48 - r50;
-    let r227 = r1 * r115 - s2 * r116;
-    let r230 = r0 * r115 - s2 * r212;
-    let r233 = r1 * r212 - r0 * r116;
-    let r240 = r156 - r154;
+    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r8 = c2 * s3; let r9 = c1 * s3;
+    let r10 = c3 * r2; let r11 = s1 * s3; let r12 = c3 * r3; let r13 = c2 * c3; let r14 = c1 * c3 - s3 * r2;
+    let r16 = r9 + r10; let r18 = s1 * c3 + s3 * r3; let r20 = r11 - r12; let r24 = s4 * r14;
+    let r25 = c4 * r16; let r26 = s4 * r18; let r27 = c4 * r20; let r28 = s4 * r8; let r29 = c4 * r13;
+    let r30 = c4 * r14 - s4 * r16; let r32 = r24 + r25; let r34 = c4 * r18 - s4 * r20; let r35 = c5 * r34;
+    let r36 = r26 + r27; let r37 = s5 * r36; let r38 = c4 * r8 + s4 * r13; let r40 = r28 - r29;
+    let r48 = c6 * r0; let r49 = s5 * r30 + c5 * r32; let r50 = s6 * r49; let r52 = s5 * r34 + c5 * r36;
+    let r55 = s5 * r38 + c5 * r40; let r57 = s6 * r0; let r58 = c6 * r49; let r59 = s6 * r1;
+    let r60 = c6 * r52; let r61 = s2 * s6; let r62 = c6 * r55; let r64 = 0.0175 * s2; let r66 = 0.3 * r28;
+    let r68 = 0.3 * r29; let r70 = 0.123005 * r61; let r72 = 0.123005 * r62;
+    let r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72; let r77 = 0.0175 * r1; let r79 = 0.3 * r26;
+    let r81 = 0.3 * r27; let r83 = 0.123005 * r59; let r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
+    let r85 = 0.123005 * r60; let r86 = r84 + r85; let r90 = 0.0175 * r0; let r92 = 0.3 * r24;
+    let r94 = 0.3 * r25; let r96 = 0.123005 * r57; let r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
+    let r98 = 0.123005 * r58; let r99 = r97 + r98; let r100 = r61 + r62; let r101 = r57 + r58;
+    let r102 = r35 - r37; let r103 = c5 * r30 - s5 * r32; let r115 = s2 * c6 - s6 * r55;
+    let r116 = c6 * r1 + s6 * r52; let r139 = r68 + (r64 - r66) - r70 - r72;
+    let r144 = r85 + (r81 + (r77 + r79) - r83); let r149 = r90 - r92 - r94 - r96 - r98; let r154 = r1 * r100;
+    let r155 = r59 - r60; let r156 = s2 * r155; let r162 = c5 * r38 - s5 * r40; let r164 = r101 * r162;
+    let r165 = r100 * r103; let r173 = r100 * r102 + r155 * r162; let r178 = s2 * r101 - r0 * r100;
+    let r186 = r0 * r155 - r1 * r101; let r189 = r155 * r103 + r101 * r102;
+    let r204 = 0.0 - (r1 * r162 + s2 * r102); let r205 = s2 * r103 - r0 * r162;
+    let r208 = 0.0 - (r0 * r102 + r1 * r103); let r212 = r48 - r50; let r227 = r1 * r115 - s2 * r116;
+    let r230 = r0 * r115 - s2 * r212; let r233 = r1 * r212 - r0 * r116; let r240 = r156 - r154;
     [
         [r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173],
         [0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)],
@@ -943,7 +819,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -954,20 +830,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -996,6 +873,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1338,7 +1218,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1407,12 +1291,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1423,6 +1312,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1818,8 +1710,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -142,7 +146,7 @@ static const int STAGES = 4;
 static const double CONSISTENT = 1e-9;
 /* A factor is near zero up to this share of its scale. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold as they were found. */
+/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -217,16 +221,16 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
-    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20;
-    const double r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = c4 * r16 - s4 * r18;
-    const double r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40, r42 = s5 * r34;
-    const double r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = c5 * r34 + s1 * s5;
-    const double r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r53 = r30 + r31, r56 = r32 + r33;
-    const double r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7;
+    const double r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26;
+    const double r41 = c5 * r40, r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r53 = r30 + r31;
+    const double r56 = r32 + r33, r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
     const double r81 = 0.425 * r1 + 0.39225 * r6 - 0.39225 * r7 + 0.10915 * c1;
     const double r87 = r81 - 0.09465 * r30 - 0.09465 * r31 + 0.0823 * r44;
     const double r96 = 0.425 * r0 + 0.39225 * r4 - 0.39225 * r5 - 0.10915 * s1;
@@ -291,21 +295,22 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3;
-    const double r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20;
-    const double r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = c4 * r16 - s4 * r18;
-    const double r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26, r41 = c5 * r40, r42 = s5 * r34;
-    const double r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = c5 * r34 + s1 * s5;
-    const double r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r52 = c6 * r51, r53 = r30 + r31, r54 = s6 * r53;
-    const double r56 = r32 + r33, r65 = 0.39225 * r8, r67 = 0.39225 * r9, r69 = 0.09465 * r32;
-    const double r71 = 0.09465 * r33, r73 = 0.0823 * r46, r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73;
-    const double r76 = 0.39225 * r6, r78 = 0.39225 * r7, r80 = 0.10915 * c1, r82 = 0.09465 * r30;
-    const double r84 = 0.09465 * r31, r86 = 0.0823 * r44, r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86;
-    const double r88 = 0.0823 * r45, r89 = r87 + r88, r91 = 0.39225 * r4, r93 = 0.39225 * r5, r95 = 0.10915 * s1;
-    const double r97 = 0.09465 * r28, r99 = 0.09465 * r29, r101 = 0.0823 * r42;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7;
+    const double r22 = s3 * r1 + c3 * r3, r24 = r8 + r9, r26 = s2 * s3 - c2 * c3, r28 = s4 * r16;
+    const double r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26;
+    const double r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22, r40 = c4 * r24 - s4 * r26;
+    const double r41 = c5 * r40, r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40;
+    const double r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5, r52 = c6 * r51;
+    const double r53 = r30 + r31, r54 = s6 * r53, r56 = r32 + r33, r65 = 0.39225 * r8, r67 = 0.39225 * r9;
+    const double r69 = 0.09465 * r32, r71 = 0.09465 * r33, r73 = 0.0823 * r46;
+    const double r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73, r76 = 0.39225 * r6, r78 = 0.39225 * r7;
+    const double r80 = 0.10915 * c1, r82 = 0.09465 * r30, r84 = 0.09465 * r31, r86 = 0.0823 * r44;
+    const double r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86, r88 = 0.0823 * r45, r89 = r87 + r88;
+    const double r91 = 0.39225 * r4, r93 = 0.39225 * r5, r95 = 0.10915 * s1, r97 = 0.09465 * r28;
+    const double r99 = 0.09465 * r29, r101 = 0.0823 * r42;
     const double r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101, r103 = 0.0823 * r43, r104 = r44 + r45;
     const double r111 = c6 * r41 - s6 * r56, r112 = r52 - r54, r113 = c6 * r47 - s6 * r49;
     const double r117 = s6 * r41 + c6 * r56, r118 = s6 * r51 + c6 * r53, r119 = s6 * r47 + c6 * r49;
@@ -313,9 +318,9 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103), r158 = r69 + r71 - r73;
     const double r174 = r82 + r84 - r86 - r88, r178 = r103 + (r97 + r99 - r101), r183 = r42 - r43;
     const double r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
-    const double r211 = 0.0 - c1 * r111, r214 = 0.0 - s1 * r111, r217 = s1 * r112 + c1 * r113, r220 = c1 * r117;
-    const double r221 = s1 * r117, r241 = 0.0 - (s1 * r118 + c1 * r119), r244 = c1 * r46, r245 = s1 * r46;
-    const double r257 = 0.0 - (s1 * r104 + c1 * r183);
+    const double r211 = 0.0 - c1 * r111, r214 = 0.0 - s1 * r111, r217 = s1 * r112 + c1 * r113;
+    const double r220 = c1 * r117, r221 = s1 * r117, r241 = 0.0 - (s1 * r118 + c1 * r119), r244 = c1 * r46;
+    const double r245 = s1 * r46, r257 = 0.0 - (s1 * r104 + c1 * r183);
     const Jacobian result = { {
         {r89, c1 * r74, c1 * r140, 0.0 - c1 * r158, r53 * r158 - r56 * r174, 0.0},
         {r103 - r102, s1 * r74, s1 * r140, 0.0 - s1 * r158, r56 * r178 - r49 * r158, 0.0},
@@ -623,7 +628,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -642,6 +648,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -669,11 +678,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -705,7 +722,7 @@ typedef struct {
     Solution *out;
     double relative[UR5_CAPACITY];
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold as it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates, unsound;
     /* By angle: the sizes of the last candidate's cosine and sine, and their angle. */
     double last[6][3];
@@ -801,7 +818,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -1095,6 +1116,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
     Fit fit = measure(p, q);
     const double missed = fit.relative;
     if (!is_isolated(free)) {
+        answers->unsound = answers->candidates;
         if (has_member(answers, branch, free)) {
             return;
         }
@@ -1120,6 +1142,9 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         return;
     }
     polish(p, q, &fit, NONE_FREE);
+    if (!(fit.accepted && fit.relative < RESOLUTION && farthest_of(candidate, q) <= MERGE)) {
+        answers->unsound = answers->candidates;
+    }
     if (RESOLUTION <= fit.relative && fit.relative <= SPLIT) {
         around(p, branch, last, q, &fit, fit.relative, free, answers);
     } else if (RESOLUTION <= missed && missed <= SPLIT && farthest_of(candidate, q) > LEVER * sqrt(missed)) {
@@ -1178,13 +1203,11 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 5, at[10], at[11]),
     };
     if (!is_isolated(free) || close) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
         return;
     }
     const Fit fit = measure_at(p, at, q);
     if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        answers->unsound = answers->candidates;
         refine(p, branch, last, q, free, answers);
     } else if (is_apart(answers, branch, q)) {
         Solution *answer = &answers->out[answers->count];
@@ -1258,7 +1281,7 @@ static bool is_near(double value, double scale, double share)
     return fabs(value) <= share * scale;
 }
 
-/* Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum. */
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
 static bool suffice_since(const Answers *answers, size_t candidates)
 {
     return answers->candidates > candidates && answers->unsound <= candidates;
@@ -1398,8 +1421,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
 {
     const Roots roots0 = square_roots(shared->r46 * shared->r46 - 0.11116389515625, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
-        const double w3 = roots0.values[i0], r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared->r46), c3 = r53;
-        const double s3 = 8.99572652248662 * (0.3334125 * w3);
+        const double w3 = roots0.values[i0], r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared->r46);
+        const double c3 = r53, s3 = 8.99572652248662 * (0.3334125 * w3);
         Known next = *known;
         next.branch = 2 * known->branch + i0;
         next.last = 2 * known->last;
@@ -1513,7 +1536,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
 static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const size_t before = answers->candidates;
-    const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1, r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
+    const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1;
+    const double r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
     const Shared2 own = { r4, r5 }, *const shared = &own;
     chart_2_1(p, known, shared, answers);
     chart_2_2(p, known, shared, before, answers);

@@ -334,6 +334,8 @@ const MERGE: f64 = 1e-7;
 const BLUR: f64 = 0.05;
 /// Half-way between two that are one the equations hold within this share.
 const ALIKE: f64 = 2.5e-15;
+/// Where no pivot is below this share of the largest, an answer is a root of its own.
+const DISTINCT: f64 = 0.0001;
 /// What rounding leaves of an equation that holds, as a share of its size.
 const RESOLUTION: f64 = 1e-14;
 /// Newton steps for each answer, at most.
@@ -359,6 +361,8 @@ const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished.
 const POLISHED: f64 = 1e-15;
+/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
+const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
 /// An isolated answer that a candidate for a member of a family has led to holds within this share.
@@ -378,7 +382,7 @@ const STAGES: usize = 4;
 const CONSISTENT: f64 = 1e-9;
 /// A factor is near zero up to this share of its scale.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold as they were found.
+/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
@@ -431,18 +435,9 @@ struct Parameters {
 }
 
 fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0];
-    let py = target[1];
-    let pz = target[2];
-    let r11_ = target[3];
-    let r12_ = target[4];
-    let r13_ = target[5];
-    let r21_ = target[6];
-    let r22_ = target[7];
-    let r23_ = target[8];
-    let r31_ = target[9];
-    let r32_ = target[10];
-    let r33_ = target[11];
+    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
+    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
+    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
     let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.192509, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
     Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
 }
@@ -473,8 +468,7 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: ShoulderPan.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = p.py - 0.0823 * p.r23_;
-    let r3 = 0.0823 * p.r13_ - p.px;
+    let r1 = p.py - 0.0823 * p.r23_; let r3 = 0.0823 * p.r13_ - p.px;
     let r5 = f64::abs(p.magnitude + 1.946082);
     let shared = &Shared1 { r1, r3, r5 };
     chart_1_1(p, shared, answers);
@@ -487,19 +481,14 @@ struct Shared1 { r1: f64, r3: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1;
-    let r7 = shared.r3 * shared.r3;
-    let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5;
-    let r10 = r9 + r9;
+    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
+    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
     if !is_away(r8, 16.0 * r10) {
         return;
     }
     let roots0 = square_roots(0.0119137225 - r6 - r7, f64::max(r10, 0.0).sqrt());
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r21 = 1.0 / r8;
-        let r23 = 0.0 - (w1 * shared.r3 + 0.10915 * shared.r1) * r21;
-        let c1 = r23;
+        let r21 = 1.0 / r8; let r23 = 0.0 - (w1 * shared.r3 + 0.10915 * shared.r1) * r21; let c1 = r23;
         let s1 = (w1 * shared.r1 - 0.10915 * shared.r3) * r21;
         let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
         block_2(p, &next, answers);
@@ -509,8 +498,7 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 /// Block 2: Wrist3.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r4 = p.r12_ * known.s1 - p.r22_ * known.c1;
+    let before = answers.candidates; let r4 = p.r12_ * known.s1 - p.r22_ * known.c1;
     let r5 = p.r11_ * known.s1 - p.r21_ * known.c1;
     let shared = &Shared2 { r4, r5 };
     chart_2_1(p, known, shared, answers);
@@ -524,18 +512,13 @@ struct Shared2 { r4: f64, r5: f64 }
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
 fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r6 = shared.r4 * shared.r4;
-    let r7 = shared.r5 * shared.r5;
-    let r8 = r6 + r7;
+    let r6 = shared.r4 * shared.r4; let r7 = shared.r5 * shared.r5; let r8 = r6 + r7;
     if !is_away(r8, 128.0) {
         return;
     }
-    let f6 = 1.0;
-    let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
+    let f6 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
     for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r13 = 1.0 / r8;
-        let c6 = 0.0 - w6 * shared.r5 * r13;
-        let s6 = w6 * shared.r4 * r13;
+        let r13 = 1.0 / r8; let c6 = 0.0 - w6 * shared.r5 * r13; let s6 = w6 * shared.r4 * r13;
         let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
         block_3(p, &next, answers);
     }
@@ -561,8 +544,7 @@ fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, ans
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = known.c1 * (p.r21_ * known.c6 - p.r22_ * known.s6);
     let r9 = known.s1 * (p.r11_ * known.c6 - p.r12_ * known.s6);
-    let r10 = p.r13_ * known.s1 - p.r23_ * known.c1;
-    let r11 = r9 - r8;
+    let r10 = p.r13_ * known.s1 - p.r23_ * known.c1; let r11 = r9 - r8;
     let shared = &Shared3 { r10, r11 };
     chart_3_1(p, known, shared, answers);
 }
@@ -580,10 +562,8 @@ struct Shared3 { r10: f64, r11: f64 }
 /// Chart 1 of block 3: generic.
 #[inline(always)]
 fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11;
-    let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
-    let c5 = shared.r10 * r16;
-    let s5 = shared.r11 * r16;
+    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11; let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
+    let c5 = shared.r10 * r16; let s5 = shared.r11 * r16;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
     block_4(p, &next, answers);
 }
@@ -591,16 +571,14 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 /// Block 4: Elbow.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r31_ * known.s6;
-    let r5 = p.r32_ * known.c6;
+    let r4 = p.r31_ * known.s6; let r5 = p.r32_ * known.c6;
     let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
     let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
     let r25 = p.pz + 0.09465 * r4 + 0.09465 * r5 - 0.0823 * p.r33_;
     let r32 = 2.0 * (p.px * (r9 - 0.0823 * p.r13_)) + 2.0 * (p.py * (r16 - 0.0823 * p.r23_));
     let r36 = r32 + 2.0 * (p.pz * r25) - p.px * p.px - p.py * p.py;
     let r41 = r36 - p.pz * p.pz - 0.178318 * p.pz - 0.0168777987 * r4;
-    let r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p.r33_;
-    let r46 = 0.322717545219 - r45;
+    let r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p.r33_; let r46 = 0.322717545219 - r45;
     let shared = &Shared4 { r46 };
     chart_4_1(p, known, shared, answers);
 }
@@ -613,8 +591,7 @@ struct Shared4 { r46: f64 }
 fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r46 * shared.r46 - 0.11116389515625, 1.4142135623730951 * known.f6);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared.r46);
-        let c3 = r53;
+        let r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared.r46); let c3 = r53;
         let s3 = 8.99572652248662 * (0.3334125 * w3);
         let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
         block_5(p, &next, answers);
@@ -627,14 +604,11 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates;
     let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
     let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
-    let r20 = 0.39225 * known.s3;
-    let r22 = 0.39225 * known.c3 + 0.425;
+    let r20 = 0.39225 * known.s3; let r22 = 0.39225 * known.c3 + 0.425;
     let r26 = p.pz + 0.09465 * (p.r31_ * known.s6) + 0.09465 * (p.r32_ * known.c6);
     let r29 = r26 - 0.0823 * p.r33_ - 0.089159;
-    let r30 = known.c1 * (r9 - 0.0823 * p.r13_) + known.s1 * (r16 - 0.0823 * p.r23_);
-    let r31 = 0.0 - r30;
-    let r35 = f64::abs(p.magnitude + 6.148441);
-    let r36 = f64::abs(2.0 * p.magnitude + 12.118564);
+    let r30 = known.c1 * (r9 - 0.0823 * p.r13_) + known.s1 * (r16 - 0.0823 * p.r23_); let r31 = 0.0 - r30;
+    let r35 = f64::abs(p.magnitude + 6.148441); let r36 = f64::abs(2.0 * p.magnitude + 12.118564);
     let shared = &Shared5 { r20, r22, r29, r30, r31, r35, r36 };
     chart_5_1(p, known, shared, answers);
     chart_5_2(p, known, shared, before, answers);
@@ -653,9 +627,7 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     }
     let r42 = shared.r20 * shared.r30 - shared.r22 * shared.r29;
     let r45 = shared.r20 * shared.r29 + shared.r22 * shared.r30;
-    let r50 = 1.0 / f64::max(r45 * r45 + r42 * r42, 0.0).sqrt();
-    let c2 = 0.0 - r45 * r50;
-    let s2 = r42 * r50;
+    let r50 = 1.0 / f64::max(r45 * r45 + r42 * r42, 0.0).sqrt(); let c2 = 0.0 - r45 * r50; let s2 = r42 * r50;
     let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, ..*known };
     block_6(p, &next, answers);
 }
@@ -678,10 +650,8 @@ fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, ans
 #[inline(always)]
 fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = known.c1 * (p.px - 0.0823 * p.r13_) + known.s1 * (p.py - 0.0823 * p.r23_);
-    let r10 = p.pz - 0.0823 * p.r33_ - 0.089159;
-    let r15 = known.c2 * r6 + known.s2 * r10 + 0.425;
-    let r17 = known.c2 * r10 - known.s2 * r6;
-    let r21 = known.c3 * r17 - known.s3 * r15;
+    let r10 = p.pz - 0.0823 * p.r33_ - 0.089159; let r15 = known.c2 * r6 + known.s2 * r10 + 0.425;
+    let r17 = known.c2 * r10 - known.s2 * r6; let r21 = known.c3 * r17 - known.s3 * r15;
     let r23 = known.c3 * r15 + known.s3 * r17 + 0.39225;
     let shared = &Shared6 { r21, r23 };
     chart_6_1(p, known, shared, answers);
@@ -700,11 +670,8 @@ struct Shared6 { r21: f64, r23: f64 }
 /// Chart 1 of block 6: generic.
 #[inline(always)]
 fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r24 = 0.09465 * shared.r23;
-    let r25 = 0.09465 * shared.r21;
-    let r30 = 1.0 / f64::max(r25 * r25 + r24 * r24, 0.0).sqrt();
-    let c4 = 0.0 - r25 * r30;
-    let s4 = r24 * r30;
+    let r24 = 0.09465 * shared.r23; let r25 = 0.09465 * shared.r21;
+    let r30 = 1.0 / f64::max(r25 * r25 + r24 * r24, 0.0).sqrt(); let c4 = 0.0 - r25 * r30; let s4 = r24 * r30;
     let at = [
         known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, c4, s4, known.c5, known.s5, known.c6,
         known.s6,
@@ -719,42 +686,14 @@ const TIP: usize = 12;
 #[inline(always)]
 fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2;
-    let r20 = r6 - r7;
-    let r22 = s3 * r1 + c3 * r3;
-    let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3;
-    let r28 = s4 * r16;
-    let r29 = c4 * r18;
-    let r30 = s4 * r20;
-    let r31 = c4 * r22;
-    let r32 = s4 * r24;
-    let r33 = c4 * r26;
-    let r34 = c4 * r16 - s4 * r18;
-    let r37 = c4 * r20 - s4 * r22;
-    let r40 = c4 * r24 - s4 * r26;
-    let r41 = c5 * r40;
-    let r42 = s5 * r34;
-    let r43 = s1 * c5;
-    let r44 = s5 * r37;
-    let r45 = c1 * c5;
-    let r46 = s5 * r40;
-    let r47 = c5 * r34 + s1 * s5;
-    let r49 = r28 + r29;
-    let r51 = c5 * r37 - c1 * s5;
-    let r53 = r30 + r31;
-    let r56 = r32 + r33;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3; let r28 = s4 * r16; let r29 = c4 * r18; let r30 = s4 * r20;
+    let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = c4 * r16 - s4 * r18;
+    let r37 = c4 * r20 - s4 * r22; let r40 = c4 * r24 - s4 * r26; let r41 = c5 * r40; let r42 = s5 * r34;
+    let r43 = s1 * c5; let r44 = s5 * r37; let r45 = c1 * c5; let r46 = s5 * r40; let r47 = c5 * r34 + s1 * s5;
+    let r49 = r28 + r29; let r51 = c5 * r37 - c1 * s5; let r53 = r30 + r31; let r56 = r32 + r33;
     let r70 = 0.425 * s2 + 0.39225 * r8 + 0.39225 * r9 - 0.09465 * r32;
     let r81 = 0.425 * r1 + 0.39225 * r6 - 0.39225 * r7 + 0.10915 * c1;
     let r87 = r81 - 0.09465 * r30 - 0.09465 * r31 + 0.0823 * r44;
@@ -822,91 +761,31 @@ fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
 /// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
 fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2;
-    let r1 = s1 * c2;
-    let r2 = c1 * s2;
-    let r3 = s1 * s2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c3 * r1;
-    let r7 = s3 * r3;
-    let r8 = s2 * c3;
-    let r9 = c2 * s3;
-    let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2;
-    let r20 = r6 - r7;
-    let r22 = s3 * r1 + c3 * r3;
-    let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3;
-    let r28 = s4 * r16;
-    let r29 = c4 * r18;
-    let r30 = s4 * r20;
-    let r31 = c4 * r22;
-    let r32 = s4 * r24;
-    let r33 = c4 * r26;
-    let r34 = c4 * r16 - s4 * r18;
-    let r37 = c4 * r20 - s4 * r22;
-    let r40 = c4 * r24 - s4 * r26;
-    let r41 = c5 * r40;
-    let r42 = s5 * r34;
-    let r43 = s1 * c5;
-    let r44 = s5 * r37;
-    let r45 = c1 * c5;
-    let r46 = s5 * r40;
-    let r47 = c5 * r34 + s1 * s5;
-    let r49 = r28 + r29;
-    let r51 = c5 * r37 - c1 * s5;
-    let r52 = c6 * r51;
-    let r53 = r30 + r31;
-    let r54 = s6 * r53;
-    let r56 = r32 + r33;
-    let r65 = 0.39225 * r8;
-    let r67 = 0.39225 * r9;
-    let r69 = 0.09465 * r32;
-    let r71 = 0.09465 * r33;
-    let r73 = 0.0823 * r46;
-    let r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73;
-    let r76 = 0.39225 * r6;
-    let r78 = 0.39225 * r7;
-    let r80 = 0.10915 * c1;
-    let r82 = 0.09465 * r30;
-    let r84 = 0.09465 * r31;
-    let r86 = 0.0823 * r44;
-    let r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86;
-    let r88 = 0.0823 * r45;
-    let r89 = r87 + r88;
-    let r91 = 0.39225 * r4;
-    let r93 = 0.39225 * r5;
-    let r95 = 0.10915 * s1;
-    let r97 = 0.09465 * r28;
-    let r99 = 0.09465 * r29;
-    let r101 = 0.0823 * r42;
-    let r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101;
-    let r103 = 0.0823 * r43;
-    let r104 = r44 + r45;
-    let r111 = c6 * r41 - s6 * r56;
-    let r112 = r52 - r54;
-    let r113 = c6 * r47 - s6 * r49;
-    let r117 = s6 * r41 + c6 * r56;
-    let r118 = s6 * r51 + c6 * r53;
-    let r119 = s6 * r47 + c6 * r49;
-    let r140 = r73 + (r65 + r67 - r69 - r71);
-    let r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
-    let r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103);
-    let r158 = r69 + r71 - r73;
-    let r174 = r82 + r84 - r86 - r88;
-    let r178 = r103 + (r97 + r99 - r101);
-    let r183 = r42 - r43;
+    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
+    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
+    let r26 = s2 * s3 - c2 * c3; let r28 = s4 * r16; let r29 = c4 * r18; let r30 = s4 * r20;
+    let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = c4 * r16 - s4 * r18;
+    let r37 = c4 * r20 - s4 * r22; let r40 = c4 * r24 - s4 * r26; let r41 = c5 * r40; let r42 = s5 * r34;
+    let r43 = s1 * c5; let r44 = s5 * r37; let r45 = c1 * c5; let r46 = s5 * r40; let r47 = c5 * r34 + s1 * s5;
+    let r49 = r28 + r29; let r51 = c5 * r37 - c1 * s5; let r52 = c6 * r51; let r53 = r30 + r31;
+    let r54 = s6 * r53; let r56 = r32 + r33; let r65 = 0.39225 * r8; let r67 = 0.39225 * r9;
+    let r69 = 0.09465 * r32; let r71 = 0.09465 * r33; let r73 = 0.0823 * r46;
+    let r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73; let r76 = 0.39225 * r6; let r78 = 0.39225 * r7;
+    let r80 = 0.10915 * c1; let r82 = 0.09465 * r30; let r84 = 0.09465 * r31; let r86 = 0.0823 * r44;
+    let r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86; let r88 = 0.0823 * r45; let r89 = r87 + r88;
+    let r91 = 0.39225 * r4; let r93 = 0.39225 * r5; let r95 = 0.10915 * s1; let r97 = 0.09465 * r28;
+    let r99 = 0.09465 * r29; let r101 = 0.0823 * r42;
+    let r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101; let r103 = 0.0823 * r43; let r104 = r44 + r45;
+    let r111 = c6 * r41 - s6 * r56; let r112 = r52 - r54; let r113 = c6 * r47 - s6 * r49;
+    let r117 = s6 * r41 + c6 * r56; let r118 = s6 * r51 + c6 * r53; let r119 = s6 * r47 + c6 * r49;
+    let r140 = r73 + (r65 + r67 - r69 - r71); let r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
+    let r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103); let r158 = r69 + r71 - r73;
+    let r174 = r82 + r84 - r86 - r88; let r178 = r103 + (r97 + r99 - r101); let r183 = r42 - r43;
     let r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
-    let r211 = 0.0 - c1 * r111;
-    let r214 = 0.0 - s1 * r111;
-    let r217 = s1 * r112 + c1 * r113;
-    let r220 = c1 * r117;
-    let r221 = s1 * r117;
-    let r241 = 0.0 - (s1 * r118 + c1 * r119);
-    let r244 = c1 * r46;
-    let r245 = s1 * r46;
-    let r257 = 0.0 - (s1 * r104 + c1 * r183);
+    let r211 = 0.0 - c1 * r111; let r214 = 0.0 - s1 * r111; let r217 = s1 * r112 + c1 * r113;
+    let r220 = c1 * r117; let r221 = s1 * r117; let r241 = 0.0 - (s1 * r118 + c1 * r119); let r244 = c1 * r46;
+    let r245 = s1 * r46; let r257 = 0.0 - (s1 * r104 + c1 * r183);
     [
         [r89, c1 * r74, c1 * r140, 0.0 - c1 * r158, r53 * r158 - r56 * r174, 0.0],
         [r103 - r102, s1 * r74, s1 * r140, 0.0 - s1 * r158, r56 * r178 - r49 * r158, 0.0],
@@ -931,7 +810,7 @@ struct Answers<'a> {
     usual: bool,
     relative: [f64; CAPACITY],
     count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold as it was found.
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     unsound: usize,
     /// By place: the numbers of candidates that wait to be measured.
@@ -942,20 +821,21 @@ struct Answers<'a> {
 }
 
 impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held as it was found: then none is lost beside a stratum.
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
         self.flush(p);
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
     /// A member of a family is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
+    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
         let mut end = (q, measure(p, &q));
         if free != NONE_FREE {
+            self.unsound = number;
             if self.has_member(branch, &free) {
                 return;
             }
@@ -984,6 +864,9 @@ impl Answers<'_> {
         let missed = end.1.relative;
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
+        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
+            self.unsound = number;
+        }
         if RESOLUTION <= miss && miss <= SPLIT {
             self.around(p, branch, last, &end, miss, free);
         } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
@@ -1326,7 +1209,11 @@ fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
 /// they hold half-way too, as well as at the worse of the two.
 fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
     let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    are_joined(p, &a.answer.q, &b.answer.q, bound, &NONE_FREE)
+    let (a, b) = (&a.answer.q, &b.answer.q);
+    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
+        return false;
+    }
+    are_joined(p, a, b, bound, &NONE_FREE)
 }
 
 /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
@@ -1395,12 +1282,17 @@ fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) ->
         }
         let Some(next) = improved(p, &end, held) else { return end };
         slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
+        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
         end = next;
+        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
+            return end;
+        }
     }
     end
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
     let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -1411,6 +1303,9 @@ fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINT
         let next = (next, measure(p, &next));
         if next.1.relative < enough {
             return Some(next);
+        }
+        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
+            return None;
         }
         if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
             let end = returned(p, next.0, fit.relative, held);
@@ -1806,8 +1701,7 @@ impl Answers<'_> {
             if holds {
                 self.keep(p, branch, last, (q, fit), free);
             } else {
-                self.unsound = self.candidates + 1 + k - waiting;
-                self.refine(p, branch, last, q, free);
+                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
             }
         }
     }

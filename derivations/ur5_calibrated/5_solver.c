@@ -140,6 +140,8 @@ int ur5_calibrated_nearest(const ur5_calibrated_solution *list, int count, const
 #define BLUR 0.05
 /* Half-way between two that are one the equations hold within this share. */
 #define ALIKE 2.5e-15
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+#define DISTINCT 0.0001
 /* What rounding leaves of an equation that holds, as a share of its size. */
 #define RESOLUTION 1e-14
 /* Newton steps for each answer, at most. */
@@ -161,6 +163,8 @@ int ur5_calibrated_nearest(const ur5_calibrated_solution *list, int count, const
 #define STIFF 1e-6
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 #define POLISHED 1e-15
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+#define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -207,8 +211,8 @@ static Parameters parameters(const double *target)
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.9999999026558433 * c1 + 9.734415672156137e-8;
     const double r3 = 0.9999994916302745 * c2 + 5.083697255015524e-7, r5 = 0.9999998049871671 * s1;
     const double r6 = 1.6879227175116893e-7 * c1, r8 = r5 - r6 + 1.6879227175116893e-7;
@@ -262,8 +266,8 @@ static void tip(const double *at, double *reached)
     const double r241 = 0.0002750000710925395 * c4, r243 = r240 + r241 - 0.0002750000710925395;
     const double r245 = 0.9999996292589648 * s4, r246 = 2.244002824117946e-7 * c4;
     const double r248 = r245 - r246 + 2.244002824117946e-7, r251 = r146 * r238 + r169 * r243 - r190 * r248;
-    const double r256 = r151 * r238 + r174 * r243 - r195 * r248, r261 = r156 * r238 + r179 * r243 - r200 * r248;
-    const double r263 = r240 - r241 + 0.0002750000710925395;
+    const double r256 = r151 * r238 + r174 * r243 - r195 * r248;
+    const double r261 = r156 * r238 + r179 * r243 - r200 * r248, r263 = r240 - r241 + 0.0002750000710925395;
     const double r266 = 7.414819331683596e-7 * c4 + 0.9999992585180668, r268 = 0.0002750001730463884 * s4;
     const double r269 = 0.0008160002109509535 * c4, r271 = r268 + r269 - 0.0008160002109509535;
     const double r274 = r190 * r271 + (r146 * r263 - r169 * r266);
@@ -303,8 +307,8 @@ static void tip(const double *at, double *reached)
     const double r451 = 8.700006646341924e-5 * c6, r453 = r450 + r451 - 8.700006646341924e-5;
     const double r455 = 0.9999998819732848 * s6, r456 = 4.158607335558775e-8 * c6;
     const double r458 = r455 - r456 + 4.158607335558775e-8, r461 = r356 * r448 - r379 * r453 - r400 * r458;
-    const double r466 = r361 * r448 - r384 * r453 - r405 * r458, r471 = r366 * r448 - r389 * r453 - r410 * r458;
-    const double r473 = r450 - r451 + 8.700006646341924e-5;
+    const double r466 = r361 * r448 - r384 * r453 - r405 * r458;
+    const double r471 = r366 * r448 - r389 * r453 - r410 * r458, r473 = r450 - r451 + 8.700006646341924e-5;
     const double r476 = 2.3605341638547962e-7 * c6 + 0.9999997639465836, r478 = 8.70000767317525e-5 * s6;
     const double r479 = 0.0004780003651668321 * c6, r481 = r478 + r479 - 0.0004780003651668321;
     const double r484 = r400 * r481 + (r356 * r473 + r379 * r476);
@@ -383,8 +387,8 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
     const double r1 = 0.9999999026558433 * c1 + 9.734415672156137e-8;
     const double r3 = 0.9999994916302745 * c2 + 5.083697255015524e-7, r5 = 0.9999998049871671 * s1;
     const double r6 = 1.6879227175116893e-7 * c1, r8 = r5 - r6 + 1.6879227175116893e-7;
@@ -439,8 +443,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r241 = 0.0002750000710925395 * c4, r243 = r240 + r241 - 0.0002750000710925395;
     const double r245 = 0.9999996292589648 * s4, r246 = 2.244002824117946e-7 * c4;
     const double r248 = r245 - r246 + 2.244002824117946e-7, r251 = r146 * r238 + r169 * r243 - r190 * r248;
-    const double r256 = r151 * r238 + r174 * r243 - r195 * r248, r261 = r156 * r238 + r179 * r243 - r200 * r248;
-    const double r263 = r240 - r241 + 0.0002750000710925395;
+    const double r256 = r151 * r238 + r174 * r243 - r195 * r248;
+    const double r261 = r156 * r238 + r179 * r243 - r200 * r248, r263 = r240 - r241 + 0.0002750000710925395;
     const double r266 = 7.414819331683596e-7 * c4 + 0.9999992585180668, r268 = 0.0002750001730463884 * s4;
     const double r269 = 0.0008160002109509535 * c4, r271 = r268 + r269 - 0.0008160002109509535;
     const double r274 = r190 * r271 + (r146 * r263 - r169 * r266);
@@ -485,8 +489,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r451 = 8.700006646341924e-5 * c6, r453 = r450 + r451 - 8.700006646341924e-5;
     const double r455 = 0.9999998819732848 * s6, r456 = 4.158607335558775e-8 * c6;
     const double r458 = r455 - r456 + 4.158607335558775e-8, r461 = r356 * r448 - r379 * r453 - r400 * r458;
-    const double r466 = r361 * r448 - r384 * r453 - r405 * r458, r471 = r366 * r448 - r389 * r453 - r410 * r458;
-    const double r473 = r450 - r451 + 8.700006646341924e-5;
+    const double r466 = r361 * r448 - r384 * r453 - r405 * r458;
+    const double r471 = r366 * r448 - r389 * r453 - r410 * r458, r473 = r450 - r451 + 8.700006646341924e-5;
     const double r476 = 2.3605341638547962e-7 * c6 + 0.9999997639465836, r478 = 8.70000767317525e-5 * s6;
     const double r479 = 0.0004780003651668321 * c6, r481 = r478 + r479 - 0.0004780003651668321;
     const double r484 = r400 * r481 + (r356 * r473 + r379 * r476);
@@ -528,12 +532,12 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r664 = r663 - 1.5538755447666092e-7;
     const double r668 = 0.00031161442820022163 * s1 + 0.000541222730391743 * c1;
     const double r669 = r668 - 0.00028722254914807105;
-    const double r674 = 0.0007129108952417379 * c1 + 0.9999996559584821 * s1, r675 = r674 + 8.961352494772311e-8;
-    const double r680 = r552 - r100 - r121, r682 = r553 - r108 - r126, r684 = r554 - r116 - r131;
-    const double r692 = r552 - r217 - r226, r694 = r553 - r219 - r231, r696 = r554 - r221 - r236;
-    const double r704 = r552 - r322 - r331, r706 = r553 - r324 - r336, r708 = r554 - r326 - r341;
-    const double r716 = r552 - r427 - r436, r718 = r553 - r429 - r441, r720 = r554 - r431 - r446;
-    const double r730 = 1.0000007118777602e-6 * (r576 * r684 - r581 * r682);
+    const double r674 = 0.0007129108952417379 * c1 + 0.9999996559584821 * s1;
+    const double r675 = r674 + 8.961352494772311e-8, r680 = r552 - r100 - r121, r682 = r553 - r108 - r126;
+    const double r684 = r554 - r116 - r131, r692 = r552 - r217 - r226, r694 = r553 - r219 - r231;
+    const double r696 = r554 - r221 - r236, r704 = r552 - r322 - r331, r706 = r553 - r324 - r336;
+    const double r708 = r554 - r326 - r341, r716 = r552 - r427 - r436, r718 = r553 - r429 - r441;
+    const double r720 = r554 - r431 - r446, r730 = 1.0000007118777602e-6 * (r576 * r684 - r581 * r682);
     const double r732 = 1.000000629259594e-6 * (r591 * r696 - r596 * r694);
     const double r734 = 3.000002197965915e-6 * (r606 * r708 - r611 * r706);
     const double r736 = 1.0000008819741667e-6 * (r621 * r720 - r626 * r718);
@@ -901,7 +905,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -920,6 +925,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -947,11 +955,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -1075,7 +1091,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2748,7 +2768,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2852,7 +2873,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -3252,7 +3274,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

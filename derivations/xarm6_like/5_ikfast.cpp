@@ -102,6 +102,8 @@ static const double MERGE = 1e-7;
 static const double BLUR = 0.05;
 /* Half-way between two that are one the equations hold within this share. */
 static const double ALIKE = 2.5e-15;
+/* Where no pivot is below this share of the largest, an answer is a root of its own. */
+static const double DISTINCT = 0.0001;
 /* What rounding leaves of an equation that holds, as a share of its size. */
 static const double RESOLUTION = 1e-14;
 /* Newton steps for each answer, at most. */
@@ -123,6 +125,8 @@ static const int RETURNS = 4;
 static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished. */
 static const double POLISHED = 1e-15;
+/* A Newton step within this is the last where the equations hold within RESOLUTION. */
+static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
 /* An isolated answer that a candidate for a member of a family has led to holds within this share. */
@@ -165,16 +169,16 @@ static const int TIP = 12;
 /* The tip, as the equations compare it. */
 static void tip(const double *at, double *reached)
 {
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22;
-    const double r29 = c4 * r16 - s1 * s4, r30 = c5 * r29, r31 = r10 + r11, r32 = s5 * r31;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22;
+    const double r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r30 = c5 * r29, r31 = r10 + r11, r32 = s5 * r31;
     const double r33 = c4 * r19 + c1 * s4, r34 = c5 * r33, r35 = r12 + r13, r36 = s5 * r35, r37 = c5 * r23;
-    const double r38 = r14 - r15, r39 = s5 * r38, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r35;
-    const double r44 = s5 * r23, r45 = c5 * r38, r46 = r30 - r32, r48 = s4 * r16 + s1 * c4, r50 = r34 - r36;
-    const double r52 = s4 * r19 - c1 * c4, r54 = r37 - r39;
+    const double r38 = r14 - r15, r39 = s5 * r38, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33;
+    const double r43 = c5 * r35, r44 = s5 * r23, r45 = c5 * r38, r46 = r30 - r32, r48 = s4 * r16 + s1 * c4;
+    const double r50 = r34 - r36, r52 = s4 * r19 - c1 * c4, r54 = r37 - r39;
     const double r69 = 0.2845 * c2 - 0.053 * s2 - 0.0775 * r8 - 0.0775 * r9;
     const double r75 = r69 + 0.3425 * r14 - 0.3425 * r15 - 0.076 * r37;
     const double r81 = r75 + 0.076 * r39 + 0.097 * r44 + 0.097 * r45;
@@ -243,17 +247,17 @@ typedef struct {
 static Jacobian jacobian(const Parameters *p, const double *at)
 {
     (void)p;
-    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const double c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const double r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3;
-    const double r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3;
-    const double r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22;
-    const double r29 = c4 * r16 - s1 * s4, r30 = c5 * r29, r31 = r10 + r11, r32 = s5 * r31;
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2;
+    const double r2 = c1 * s2, r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3;
+    const double r8 = s2 * c3, r9 = c2 * s3, r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3;
+    const double r14 = s2 * s3, r15 = c2 * c3, r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22;
+    const double r28 = s4 * r22, r29 = c4 * r16 - s1 * s4, r30 = c5 * r29, r31 = r10 + r11, r32 = s5 * r31;
     const double r33 = c4 * r19 + c1 * s4, r34 = c5 * r33, r35 = r12 + r13, r36 = s5 * r35, r37 = c5 * r23;
-    const double r38 = r14 - r15, r39 = s5 * r38, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r35;
-    const double r44 = s5 * r23, r45 = c5 * r38, r46 = r30 - r32, r48 = s4 * r16 + s1 * c4, r50 = r34 - r36;
-    const double r51 = c6 * r50, r52 = s4 * r19 - c1 * c4, r53 = s6 * r52, r54 = r37 - r39, r66 = 0.0775 * r8;
-    const double r68 = 0.0775 * r9, r70 = 0.3425 * r14, r72 = 0.3425 * r15;
+    const double r38 = r14 - r15, r39 = s5 * r38, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33;
+    const double r43 = c5 * r35, r44 = s5 * r23, r45 = c5 * r38, r46 = r30 - r32, r48 = s4 * r16 + s1 * c4;
+    const double r50 = r34 - r36, r51 = c6 * r50, r52 = s4 * r19 - c1 * c4, r53 = s6 * r52, r54 = r37 - r39;
+    const double r66 = 0.0775 * r8, r68 = 0.0775 * r9, r70 = 0.3425 * r14, r72 = 0.3425 * r15;
     const double r73 = 0.2845 * c2 - 0.053 * s2 - r66 - r68 + r70 - r72, r74 = 0.076 * r37, r76 = 0.076 * r39;
     const double r78 = 0.097 * r44, r80 = 0.097 * r45, r81 = r73 - r74 + r76 + r78 + r80, r85 = 0.0775 * r6;
     const double r87 = 0.0775 * r7, r89 = 0.3425 * r12, r91 = 0.3425 * r13;
@@ -267,7 +271,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r155 = r74 + (r72 + (r66 + r68 - r70)) - r76 - r78 - r80;
     const double r164 = r93 + (r85 - r87 - r89 - r91) - r95 - r97 - r99;
     const double r171 = r112 + (r104 - r106 - r108 - r110) - r114 - r116;
-    const double r178 = r80 + (r78 + (r76 + (r70 - r72 - r74))), r184 = r99 + (r97 + (r95 + (r89 + r91 - r93)));
+    const double r178 = r80 + (r78 + (r76 + (r70 - r72 - r74)));
+    const double r184 = r99 + (r97 + (r95 + (r89 + r91 - r93)));
     const double r190 = r118 + (r116 + (r114 + (r108 + r110 - r112))), r197 = r74 - r76 - r78 - r80;
     const double r201 = r93 - r95 - r97 - r99, r205 = r112 - r114 - r116 - r118, r223 = c6 * r54 - s6 * r28;
     const double r247 = 0.0 - c1 * r223, r251 = 0.0 - s1 * r223, r256 = 0.0 - (s1 * r127 + c1 * r128);
@@ -584,7 +589,8 @@ static bool returned(const Parameters *p, const double *start, double *q, Fit *f
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. */
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+ * Where it is rounding and a plain step is short, that is the last. */
 static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     static const double dampings[] = { 0.0, 1e-12, 1e-9, 1e-6, 0.001 };
@@ -603,6 +609,9 @@ static bool improve(const Parameters *p, double *q, Fit *fit, const bool *held)
             copy(next, q);
             *fit = next_fit;
             return true;
+        }
+        if (d == 0 && fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return false;
         }
         if (leaps && d == 0 && is_isolated(held) && next_fit.relative <= OVERSHOT * fit->relative
             && returned(p, next, q, fit, held)) {
@@ -630,11 +639,19 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
 {
     int slow = 0;
     for (int i = 0; i < POLISH_STEPS && !(fit->relative <= POLISHED) && slow < PATIENCE; i++) {
+        double start[JOINTS], step[JOINTS];
         const double before = fit->relative;
+        copy(q, start);
         if (!improve(p, q, fit, held)) {
             return;
         }
         slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        for (size_t k = 0; k < JOINTS; k++) {
+            step[k] = q[k] - start[k];
+        }
+        if (fit->relative < RESOLUTION && longest_way(step) <= SHORT) {
+            return;
+        }
     }
 }
 
@@ -758,7 +775,11 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    return are_joined(p, a->q, b->q, fmax(fmax(a_relative, b_relative), ALIKE), NONE_FREE);
+    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
+        return false;
+    }
+    return are_joined(p, a->q, b->q, bound, NONE_FREE);
 }
 
 /* Polishes joints of which the free ones stay where they are. */
@@ -2431,7 +2452,8 @@ static bool six_newton(const SixChain *chain, const SixReach *reach, const doubl
     if (!six_solve_one(matrix, step)) {
         return false;
     }
-    const double longest = six_greatest(step), share = longest > 0.5 ? 0.5 / longest : 1.0;
+    const double longest = six_greatest(step);
+    const double share = longest > 0.5 ? 0.5 / longest : 1.0;
     for (size_t k = 0; k < 6; k++) {
         step[k] = share * step[k];
     }
@@ -2535,7 +2557,8 @@ static double six_distance(const double *a, const double *b, const bool *slides)
 {
     double most = 0.0;
     for (size_t joint = 0; joint < 6; joint++) {
-        const double way = a[joint] - b[joint], turns = slides[joint] ? 0.0 : round(way / TAU);
+        const double way = a[joint] - b[joint];
+        const double turns = slides[joint] ? 0.0 : round(way / TAU);
         most = six_more(most, fabs(way - TAU * turns));
     }
     return most;
@@ -2935,7 +2958,8 @@ static const double SIX_DISTURBANCES[SIX_RUNS] = {0.0, 0.0, 0.0, 0.0, 0.0001, 0.
 static SixRigid six_aside(double size, size_t attempt)
 {
     const double w[3] = {0.48, 0.6, 0.64};
-    const double sign = attempt % 2 == 0 ? size : -size, s = sin(sign), c = cos(sign);
+    const double sign = attempt % 2 == 0 ? size : -size;
+    const double s = sin(sign), c = cos(sign);
     SixRigid motion;
     for (size_t j = 0; j < 3; j++) {
         double v[3] = {0.0, 0.0, 0.0};

@@ -1,5 +1,6 @@
 //! C99: one file that is a translation unit, or the declarations alone.
 
+use super::joined::Declaration;
 use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, negation, spread};
 use super::single::single;
@@ -18,8 +19,7 @@ const RESERVED: &str = "auto break case char const continue default do double el
     float_t double_t math_errhandling signgam linux unix i386 \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
 
-/// The longest line of joined declarations, in characters.
-const LINE: usize = 112;
+const CONSTANTS: Declaration = Declaration { head: "const double ", glue: ", " };
 
 const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
 
@@ -27,46 +27,23 @@ const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "
 ///
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
-    joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
+    CONSTANTS.joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
 }
 
 /// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
 /// near singular configurations fewer are told apart than in double precision.
 pub fn emit_single(program: &Program) -> String {
-    single(&joined(&super::fill(SKELETON, &Outline::single(program, &C99))))
+    single(&CONSTANTS.joined(&super::fill(SKELETON, &Outline::single(program, &C99))))
 }
 
 /// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
 pub(super) fn engine(program: &Program) -> String {
-    let text = joined(&super::fill(SKELETON, &Outline::engine(program, &C99)));
+    let text = CONSTANTS.joined(&super::fill(SKELETON, &Outline::engine(program, &C99)));
     let limits = |line: String| {
         line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
             .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")
     };
     text.lines().map(|line| limits(constant(line)) + "\n").collect()
-}
-
-/// The text with constants that are declared one after the other on one line, as far as that is not long.
-fn joined(text: &str) -> String {
-    let mut lines: Vec<String> = Vec::new();
-    for line in text.lines() {
-        let earlier = lines.last_mut().zip(declared(line));
-        match earlier.and_then(|(last, (indent, rest))| Some((declared(last)?.0 == indent, last, rest))) {
-            Some((true, last, rest)) if last.len() + rest.len() <= LINE => {
-                last.pop();
-                *last += &format!(", {rest}");
-            }
-            _ => lines.push(line.to_owned()),
-        }
-    }
-    lines.join("\n") + "\n"
-}
-
-/// The indentation of a line that declares constant numbers, and what it declares.
-fn declared(line: &str) -> Option<(&str, &str)> {
-    let rest = line.trim_start().strip_prefix("const double ")?;
-    let plain = rest.ends_with(';') && rest.contains(" = ") && !rest.contains('{') && !rest.starts_with('*');
-    plain.then(|| (&line[..line.len() - line.trim_start().len()], rest))
 }
 
 /// A line, a definition of a macro as one of a constant.

@@ -14,6 +14,7 @@ mod blocks;
 mod body;
 mod demand;
 mod forward;
+mod joined;
 mod lanes;
 mod mirror;
 mod names;

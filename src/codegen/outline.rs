@@ -343,7 +343,7 @@ impl Needs {
             polynomials: root_steps(program).any(|(_, polynomials)| square(polynomials).is_none()),
             angles: angles > 0,
             lengths: angles < program.joints.len(),
-            sort: program.capacity > 2,
+            sort: program.capacity > 1,
             frames: program.conditions.as_slice() == [Condition::Rotation(3)],
         }
     }

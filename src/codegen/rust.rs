@@ -1,6 +1,7 @@
 //! Rust: a file on `core` alone.
 
 use super::batch;
+use super::joined::Declaration;
 use super::outline::Outline;
 use super::printer::{Finish, INDENT, Language, State, negation, spread};
 use crate::solver::Program;
@@ -17,18 +18,20 @@ const RESERVED: &str = "as async await break const continue crate dyn else enum 
     become box do final macro override priv try typeof unsized virtual yield union None Some Ok Err f64 usize bool str \
     core std libm";
 
+const NUMBERS: Declaration = Declaration { head: "let ", glue: "; let " };
+
 /// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2021 or 2024, Rust 1.89 or later).
 ///
 /// It is a module or the root of a crate, allocates nothing and needs no dependency. Its head says how it is used.
 pub fn emit(program: &Program) -> String {
-    super::fill(SKELETON, &Outline::new(program, &Rust { batch: false }))
+    NUMBERS.joined(&super::fill(SKELETON, &Outline::new(program, &Rust { batch: false })))
 }
 
 /// The same with a function `solve_batch` that solves several targets at once, in the lanes of vector registers; none for a program of
 /// which the charts that run at ordinary targets take other roots than square roots, or are several in a block.
 pub fn emit_batch(program: &Program) -> Option<String> {
     let outline = || Outline::new(program, &Rust { batch: true });
-    batch::is_possible(program).then(|| super::fill(SKELETON, &outline()))
+    batch::is_possible(program).then(|| NUMBERS.joined(&super::fill(SKELETON, &outline())))
 }
 
 /// The language; where a `batch` of targets is solved at once, the walk is one over numbers of any kind `T`.

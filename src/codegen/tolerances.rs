@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DOUBLINGS, EIGHTH, FARTHER,
-    FARTHEST, GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS, POLISHED,
-    REGULAR, REST, RETURNS, ROUNDING, SERIES, SINGULAR, STAGES, STIFF, TINY,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DISTINCT, DOUBLINGS, EIGHTH,
+    FARTHER, FARTHEST, GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS,
+    POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STIFF, TINY,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -40,10 +40,12 @@ pub(super) struct Tolerances {
     pivot: String,
     polish_steps: usize,
     polished: String,
+    short: String,
     patience: usize,
     overshot: String,
     adrift: String,
     alike: String,
+    distinct: String,
     alone: String,
     aside: String,
     narrows: usize,
@@ -83,10 +85,12 @@ impl Tolerances {
             pivot: number(PIVOT),
             polish_steps: POLISH_STEPS,
             polished: number(POLISHED),
+            short: number(SHORT),
             patience: PATIENCE,
             overshot: number(OVERSHOT),
             adrift: number(ADRIFT),
             alike: number(ALIKE),
+            distinct: number(DISTINCT),
             alone: number(ALONE),
             aside: number(ASIDE),
             narrows: NARROWS,
@@ -124,8 +128,10 @@ impl Tolerances {
             tiny: number(1e-14),
             pivot: number(1e-4),
             polished: number(2e-7),
+            short: number(1e-4),
             adrift: number(1e-3),
             alike: number(1e-6),
+            distinct: number(1e-2),
             // Shorter ways are lost in rounding.
             narrows: 1,
             regular: number(1e-2),

@@ -3,13 +3,13 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::ExactVector;
 use super::exact_rotation::is_decimal_of;
 use crate::number::BigRational;
 
-/// An irrational number, and one with a long denominator, becomes the nearest multiple of 2^-80.
+/// Roots are known to so many bits at first; an irrational number, and one with a long denominator, becomes the nearest multiple of 2^-80.
 const BITS: u64 = 80;
 /// The longest denominator that is kept, in bits.
 const LONGEST: u64 = 256;
@@ -85,14 +85,20 @@ impl Surd {
         Surd { parts: product.parts.map(|part| part / &norm) }
     }
 
-    /// The number to about 23 digits behind the point.
+    /// The number within 2^-80 of its size, however much of the parts cancels.
     pub fn value(&self) -> BigRational {
-        let root = |n: u32| {
-            let square: BigInt = BigInt::from(n) << 160;
-            BigRational::new(square.sqrt(), BigInt::one() << 80)
-        };
-        let roots = [1, 2, 3, 6].map(root);
-        self.parts.iter().zip(&roots).map(|(part, root)| part * root).sum()
+        let irrational = self.parts[1..].iter().map(Signed::abs).sum::<BigRational>();
+        let mut bits = BITS;
+        loop {
+            let unit = BigInt::one() << bits;
+            let root = |n: u32| BigRational::new((BigInt::from(n) << (2 * bits)).sqrt(), unit.clone());
+            let value: BigRational = self.parts.iter().zip([1, 2, 3, 6]).map(|(part, n)| part * root(n)).sum();
+            // Each root is less than a unit below the true one.
+            if value.abs() * &unit >= &irrational * (BigInt::one() << BITS) {
+                return value;
+            }
+            bits *= 2;
+        }
     }
 
     /// The number in double precision.

@@ -9,7 +9,7 @@ use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALIKE, ALONE, APART, BLUR, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
+use super::{ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -25,7 +25,7 @@ pub(super) struct Answers<'a> {
     pub(super) list: Vec<Answer>,
     /// How many candidates there have been.
     pub(super) candidates: usize,
-    /// So many there had been with the last one that did not hold as it was found, or was one of a family's.
+    /// So many there had been with the last one that did not hold where it was found, within [`MERGE`], or was one of a family's.
     unsound: usize,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
@@ -98,12 +98,11 @@ impl<'a> Answers<'a> {
                 return self.keep(path, &q, &fit);
             }
         }
-        self.unsound = self.candidates;
         self.pairs.give_up();
         self.settle(path, q);
     }
 
-    /// Whether there have been candidates behind so many, and each has held as it was found.
+    /// Whether there have been candidates behind so many, and each has held where it was found.
     pub fn suffice_since(&self, candidates: usize) -> bool {
         self.candidates > candidates && self.unsound <= candidates
     }
@@ -125,6 +124,9 @@ impl<'a> Answers<'a> {
         let (mut end, mut fit) = (q, refine::measure(self.program, &q, &mut self.frame));
         let missed = fit.relative;
         refine::polish(self.program, &mut end, &mut fit, &NONE_FREE, &mut self.frame);
+        if !(fit.accepted && fit.relative < ROUNDING && self.way(&q, &end) <= MERGE) {
+            self.unsound = self.candidates;
+        }
         if (ROUNDING..=NEAR).contains(&fit.relative) {
             self.around(path, &end, &fit, fit.relative);
         } else if (ROUNDING..=NEAR).contains(&missed) && self.way(&q, &end) > LEVER * missed.sqrt() {
@@ -328,7 +330,17 @@ impl<'a> Answers<'a> {
     fn blurred(&mut self, other: usize, answer: &Answer) -> bool {
         let bound = self.list[other].relative.max(answer.relative).max(ALIKE);
         let q = self.list[other].solution.q.clone();
+        if bound <= ROUNDING && self.way(&q, &answer.solution.q) <= BLUR && self.is_distinct(&answer.solution.q) {
+            return false;
+        }
         self.are_joined(&q, &answer.solution.q, bound, &NONE_FREE)
+    }
+
+    /// Whether joints that solve the equations are far from singular.
+    fn is_distinct(&mut self, joints: &[f64]) -> bool {
+        let mut q = [0.0; MAX_JOINTS];
+        q[..joints.len()].copy_from_slice(joints);
+        refine::regularity(self.program, &q, &mut self.frame) > DISTINCT
     }
 
     /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.

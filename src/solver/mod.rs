@@ -52,7 +52,7 @@ pub const MEETING: f64 = 1e-5;
 pub const GRAZING: f64 = 1e-6;
 /// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
-/// Where all candidates of the charts before have held as they were found, it runs below this share only: a stratum on which they would have
+/// Where all candidates of the charts before have held where they were found, it runs below this share only: a stratum on which they would have
 /// lost an answer is as near as rounding.
 pub const BESIDE: f64 = 1e-7;
 /// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
@@ -76,6 +76,9 @@ pub const STIFF: f64 = 1e-6;
 pub const PATIENCE: usize = 3;
 /// An answer whose relative residual is this or less is not polished.
 pub const POLISHED: f64 = 1e-15;
+/// Where the equations hold within [`ROUNDING`], a Newton step that moves no joint by more than this (rad, or relative to the length scale)
+/// is the last: what is left is rounding. Next to a double root steps are longer.
+pub const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
 /// blocks before, is polished with its free joints held: what stands beside it is told from it by rounding alone.
 pub const ADRIFT: f64 = 1e-7;
@@ -85,6 +88,9 @@ pub const ASIDE: f64 = 0.1;
 pub const SINGULAR: f64 = 1e-13;
 /// Where each pivot is more than this share of the largest, an answer is no member of a family.
 pub const REGULAR: f64 = 1e-6;
+/// Where each pivot is more than this share of the largest, an answer that holds within [`ROUNDING`] is a root of its own: rounding moves its
+/// joints by far less than the distance to another.
+pub const DISTINCT: f64 = 1e-4;
 /// How many ways aside are tried, each an eighth of the one before.
 pub const NARROWS: usize = 5;
 /// In how many stages, each twice as far as the one before.

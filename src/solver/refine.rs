@@ -4,7 +4,8 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
 use super::{
-    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, STIFF,
+    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SHORT,
+    STIFF,
 };
 
 /// Joint values; places behind the program's joints are zero.
@@ -85,11 +86,16 @@ pub(super) fn polish(
         }
         let Some(better) = improved(program, q, fit, held, frame) else { return };
         slow = if better.1.relative <= f64::max(0.5 * fit.relative, ROUNDING) { 0 } else { slow + 1 };
+        let step = std::array::from_fn(|joint| better.0[joint] - q[joint]);
         (*q, *fit) = better;
+        if fit.relative < ROUNDING && length(program, &step) <= SHORT {
+            return;
+        }
     }
 }
 
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all.
+/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+/// it is rounding and a plain step is short, that is the last.
 fn improved(
     program: &Program,
     q: &Joints,
@@ -109,6 +115,9 @@ fn improved(
         let next = measure(program, &candidate, frame);
         if next.relative < enough {
             return Some((candidate, next));
+        }
+        if index == 0 && fit.relative < ROUNDING && length(program, &step) <= SHORT {
+            return None;
         }
         if leaps
             && index == 0
