@@ -123,9 +123,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -144,9 +143,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1320,8 +1318,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1352,11 +1349,8 @@ static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
         const double w4 = roots0.values[i0], r7 = 1.0 / r2, c4 = 0.0 - p->r13_ * w4 * r7;
         const double s4 = 0.0 - p->r23_ * w4 * r7;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c4 = c4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
     }
@@ -1373,11 +1367,8 @@ static void chart_4_2(const Parameters *p, const Known *known, size_t before, An
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1444,8 +1435,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double d1 = shared->r1;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.d1 = d1;
+    next.last = 1; next.d1 = d1;
     block_2(p, &next, answers);
 }
 

@@ -162,9 +162,8 @@ int gantry_nearest(const gantry_solution *list, int count, const double *referen
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -183,9 +182,8 @@ int gantry_nearest(const gantry_solution *list, int count, const double *referen
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1422,8 +1420,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1454,11 +1451,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *a
         const double w4 = roots0.values[i0], r7 = 1.0 / r2, c4 = 0.0 - p->r13_ * w4 * r7;
         const double s4 = 0.0 - p->r23_ * w4 * r7;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c4 = c4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
     }
@@ -1475,11 +1469,8 @@ static void chart_4_2(const Parameters *p, const Known *known, size_t before, An
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1546,8 +1537,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
 {
     const double d1 = shared->r1;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.d1 = d1;
+    next.last = 1; next.d1 = d1;
     block_2(p, &next, answers);
 }
 

@@ -348,9 +348,8 @@ const FARTHEST: f64 = 256.0;
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished.
+/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
-/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
 const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;

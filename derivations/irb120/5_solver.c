@@ -162,9 +162,8 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -183,9 +182,8 @@ int irb120_nearest(const irb120_solution *list, int count, const double *referen
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1462,8 +1460,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r20 = shared->r12 - shared->r10, r24 = sqrt(fmax(shared->r19 * shared->r19 + r20 * r20, 0.0));
     const double r25 = 1.0 / r24, c5 = shared->r19 * r25, s5 = r20 * r25;
     Known next = *known;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1502,11 +1499,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         const double w4 = roots0.values[i0], r24 = 1.0 / r17, c4 = w4 * shared->r14 * r24;
         const double s4 = w4 * shared->r13 * r24;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c4 = c4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
     }
@@ -1524,11 +1518,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1569,10 +1560,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r31 = shared->r12 * shared->r16 - (0.0 - shared->r9 * shared->r15);
     const double r36 = 1.0 / sqrt(fmax(r31 * r31 + r27 * r27, 0.0)), c2 = r31 * r36, s2 = r27 * r36;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
     next.f2 = f2;
     block_4(p, &next, answers);
 }
@@ -1590,12 +1578,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[1] = true;
-        next.c2 = c2;
-        next.s2 = s2;
-        next.f2 = f2;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
+        next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -1628,11 +1612,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double r37 = 35.683793403054324 * (0.0378 * w3 - (0.0 - 0.16308 * shared->r24)), c3 = r36;
         const double s3 = r37;
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
 }
@@ -1674,11 +1655,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
         const double s1 = w1 * shared->r1 * r17;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
         next.f1 = f1;
         block_2(p, &next, answers);
     }
@@ -1697,12 +1674,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
-        next.f1 = f1;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

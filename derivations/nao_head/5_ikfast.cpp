@@ -119,9 +119,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -140,9 +139,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1278,12 +1276,8 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double w1 = roots0.values[i0], r7 = 1.0 / r2, c1 = 0.0 - p->dx * w1 * r7;
         const double s1 = 0.0 - p->dy * w1 * r7;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.pair = roots0.count == 2;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.pair = roots0.count == 2;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }
@@ -1299,11 +1293,7 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_2(p, &next, answers);
     }
 }

@@ -121,9 +121,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -140,9 +139,8 @@ static const int DOUBLINGS = 8;
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1342,11 +1340,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r28 = (w1 * shared->r1 - (0.0 - p->px * shared->r4)) * r26;
         const double c1 = (p->px * w1 - shared->r1 * shared->r4) * r26, s1 = r28;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1;
         block_4(p, &next, answers);
     }
 }
@@ -1363,11 +1358,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1;
         again_4(p, &next, answers);
     }
 }
@@ -1409,12 +1401,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double r25 = (w4 * shared->r3 + 0.023877 * shared->r12) * r24;
         const double r27 = (0.023877 * w4 - shared->r3 * shared->r12) * r24, c4 = 0.0 - r25, s4 = r27;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c4 = c4;
-        next.s4 = s4;
-        next.f4 = f4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c4 = c4; next.s4 = s4; next.f4 = f4;
         block_3(p, &next, answers);
     }
 }
@@ -1432,12 +1420,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
-        next.f4 = f4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4; next.f4 = f4;
         again_3(p, &next, answers);
     }
 }
@@ -1458,9 +1442,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.c3_ = c3_;
-    next.s3_ = s3_;
+    next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
     block_2(p, &next, answers);
 }
 

@@ -164,9 +164,8 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -185,9 +184,8 @@ int nao_legs_nearest(const nao_legs_solution *list, int count, const double *ref
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1640,8 +1638,7 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
     const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
     Known next = *known;
-    next.right_c6 = right_c6;
-    next.right_s6 = right_s6;
+    next.right_c6 = right_c6; next.right_s6 = right_s6;
     block_13(p, &next, answers);
 }
 
@@ -1689,12 +1686,9 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
         const double right_w5 = roots0.values[i0], r43 = 1.0 / r36;
         const double right_c5 = 0.0 - right_w5 * shared->r33 * r43, right_s5 = right_w5 * shared->r32 * r43;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.right_c5 = right_c5;
-        next.right_s5 = right_s5;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2;
+        next.right_c5 = right_c5; next.right_s5 = right_s5;
         block_12(p, &next, answers);
     }
 }
@@ -1711,11 +1705,8 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[9] = true;
-        next.right_c5 = right_c5;
-        next.right_s5 = right_s5;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[9] = true;
+        next.right_c5 = right_c5; next.right_s5 = right_s5;
         again_12(p, &next, answers);
     }
 }
@@ -1763,11 +1754,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r45 * r45, 0.0)), right_c3 = r48 * r53;
     const double right_s3 = 0.0 - r45 * r53;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.right_c3 = right_c3;
-    next.right_s3 = right_s3;
-    next.right_f3 = right_f3;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.right_c3 = right_c3;
+    next.right_s3 = right_s3; next.right_f3 = right_f3;
     block_11(p, &next, answers);
 }
 
@@ -1784,12 +1772,8 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[7] = true;
-        next.right_c3 = right_c3;
-        next.right_s3 = right_s3;
-        next.right_f3 = right_f3;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[7] = true;
+        next.right_c3 = right_c3; next.right_s3 = right_s3; next.right_f3 = right_f3;
         again_11(p, &next, answers);
     }
 }
@@ -1825,11 +1809,8 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
         const double right_w4 = roots0.values[i0], r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double right_c4 = r35, right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.right_c4 = right_c4;
-        next.right_s4 = right_s4;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.right_c4 = right_c4; next.right_s4 = right_s4;
         block_10(p, &next, answers);
     }
 }
@@ -1874,11 +1855,8 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
         const double right_w2 = roots0.values[i0], r39 = 1.0 / r29, right_c2 = right_w2 * shared->r21 * r39;
         const double right_s2 = 0.0 - right_w2 * shared->r20 * r39;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.right_c2 = right_c2;
-        next.right_s2 = right_s2;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.right_c2 = right_c2; next.right_s2 = right_s2;
         next.right_f2 = right_f2;
         block_9(p, &next, answers);
     }
@@ -1898,12 +1876,8 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[6] = true;
-        next.right_c2 = right_c2;
-        next.right_s2 = right_s2;
-        next.right_f2 = right_f2;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[6] = true;
+        next.right_c2 = right_c2; next.right_s2 = right_s2; next.right_f2 = right_f2;
         again_9(p, &next, answers);
     }
 }
@@ -1996,8 +1970,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
     Known next = *known;
-    next.left_c3 = left_c3;
-    next.left_s3 = left_s3;
+    next.left_c3 = left_c3; next.left_s3 = left_s3;
     block_7(p, &next, answers);
 }
 
@@ -2036,8 +2009,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known;
-    next.left_c2 = left_c2;
-    next.left_s2 = left_s2;
+    next.left_c2 = left_c2; next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
 
@@ -2079,11 +2051,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         const double left_w1 = roots0.values[i0], r20 = 1.0 / r13, left_c1 = 0.0 - left_w1 * shared->r10 * r20;
         const double left_s1 = left_w1 * shared->r6 * r20;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_5(p, &next, answers);
     }
 }
@@ -2100,11 +2069,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[0] = true;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_5(p, &next, answers);
     }
 }
@@ -2147,11 +2113,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
     const double left_s5 = r96 * r104;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.left_c5 = left_c5;
-    next.left_s5 = left_s5;
-    next.left_f5 = left_f5;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.left_c5 = left_c5;
+    next.left_s5 = left_s5; next.left_f5 = left_f5;
     block_4(p, &next, answers);
 }
 
@@ -2169,12 +2132,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[4] = true;
-        next.left_c5 = left_c5;
-        next.left_s5 = left_s5;
-        next.left_f5 = left_f5;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[4] = true;
+        next.left_c5 = left_c5; next.left_s5 = left_s5; next.left_f5 = left_f5;
         again_4(p, &next, answers);
     }
 }
@@ -2235,11 +2194,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double left_w6 = roots0.values[i0], r36 = 1.0 / r26, left_c6 = 0.0 - left_w6 * shared->r18 * r36;
         const double left_s6 = left_w6 * shared->r11 * r36;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c6 = left_c6;
-        next.left_s6 = left_s6;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.left_c6 = left_c6; next.left_s6 = left_s6;
         next.left_f6 = left_f6;
         block_3(p, &next, answers);
     }
@@ -2259,12 +2215,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[5] = true;
-        next.left_c6 = left_c6;
-        next.left_s6 = left_s6;
-        next.left_f6 = left_f6;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
+        next.left_c6 = left_c6; next.left_s6 = left_s6; next.left_f6 = left_f6;
         again_3(p, &next, answers);
     }
 }
@@ -2297,10 +2249,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double left_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double left_c4 = r34, left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.left_c4 = left_c4;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.left_c4 = left_c4;
         next.left_s4 = left_s4;
         block_2(p, &next, answers);
     }

@@ -169,9 +169,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -190,9 +189,8 @@ int nao_legs_yaw_nearest(const nao_legs_yaw_solution *list, int count, const dou
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -2091,8 +2089,7 @@ INLINE static void chart_13_1(const Parameters *p, const Known *known, const Sha
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52;
     Known next = *known;
-    next.right_c5 = right_c5;
-    next.right_s5 = right_s5;
+    next.right_c5 = right_c5; next.right_s5 = right_s5;
     block_14(p, &next, answers);
 }
 
@@ -2139,9 +2136,7 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
     const double right_s8 = r105 * r113;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.right_c8 = right_c8;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.right_c8 = right_c8;
     next.right_s8 = right_s8;
     block_13(p, &next, answers);
 }
@@ -2158,11 +2153,8 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c8 = SAMPLES_2[i0][0], right_s8 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[12] = true;
-        next.right_c8 = right_c8;
-        next.right_s8 = right_s8;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[12] = true;
+        next.right_c8 = right_c8; next.right_s8 = right_s8;
         again_13(p, &next, answers);
     }
 }
@@ -2218,9 +2210,7 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     }
     const double right_c9 = 0.0, right_s9 = 0.0;
     Known next = *known;
-    next.branch = 7 * known->branch;
-    next.last = 7 * known->last;
-    next.right_c9 = right_c9;
+    next.branch = 7 * known->branch; next.last = 7 * known->last; next.right_c9 = right_c9;
     next.right_s9 = right_s9;
     block_12(p, &next, answers);
 }
@@ -2239,11 +2229,8 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
         const double right_w9 = roots0.values[i0], r98 = 1.0 / r88, right_c9 = right_w9 * shared->r68 * r98;
         const double right_s9 = right_w9 * shared->r57 * r98;
         Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.right_c9 = right_c9;
-        next.right_s9 = right_s9;
+        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2261,11 +2248,8 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 3;
-        next.last = 7 * known->last;
-        next.free[13] = true;
-        next.right_c9 = right_c9;
-        next.right_s9 = right_s9;
+        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[13] = true;
+        next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2283,11 +2267,8 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
         const double right_w9 = roots0.values[i0], r93 = 1.0 / r88;
         const double right_c9 = 0.0 - right_w9 * shared->r72 * r93, right_s9 = right_w9 * shared->r70 * r93;
         Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.right_c9 = right_c9;
-        next.right_s9 = right_s9;
+        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2304,11 +2285,8 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 6;
-        next.last = 7 * known->last;
-        next.free[13] = true;
-        next.right_c9 = right_c9;
-        next.right_s9 = right_s9;
+        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[13] = true;
+        next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2362,11 +2340,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
         const double right_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
         const double right_c7 = r47, right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.right_c7 = right_c7;
-        next.right_s7 = right_s7;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.right_c7 = right_c7; next.right_s7 = right_s7;
         block_11(p, &next, answers);
     }
 }
@@ -2400,8 +2375,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
     const double left_s6 = 0.0 - r99 * r105;
     Known next = *known;
-    next.left_c6 = left_c6;
-    next.left_s6 = left_s6;
+    next.left_c6 = left_c6; next.left_s6 = left_s6;
     block_10(p, &next, answers);
 }
 
@@ -2451,8 +2425,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
     Known next = *known;
-    next.left_c5 = left_c5;
-    next.left_s5 = left_s5;
+    next.left_c5 = left_c5; next.left_s5 = left_s5;
     block_9(p, &next, answers);
 }
 
@@ -2499,9 +2472,7 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
     const double left_s8 = r104 * r113;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.left_c8 = left_c8;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.left_c8 = left_c8;
     next.left_s8 = left_s8;
     block_8(p, &next, answers);
 }
@@ -2518,11 +2489,8 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c8 = SAMPLES_2[i0][0], left_s8 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[7] = true;
-        next.left_c8 = left_c8;
-        next.left_s8 = left_s8;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[7] = true;
+        next.left_c8 = left_c8; next.left_s8 = left_s8;
         again_8(p, &next, answers);
     }
 }
@@ -2577,9 +2545,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     }
     const double left_c9 = 0.0, left_s9 = 0.0;
     Known next = *known;
-    next.branch = 7 * known->branch;
-    next.last = 7 * known->last;
-    next.left_c9 = left_c9;
+    next.branch = 7 * known->branch; next.last = 7 * known->last; next.left_c9 = left_c9;
     next.left_s9 = left_s9;
     block_7(p, &next, answers);
 }
@@ -2598,11 +2564,8 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
         const double left_w9 = roots0.values[i0], r97 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r68 * r97;
         const double left_s9 = left_w9 * shared->r57 * r97;
         Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c9 = left_c9;
-        next.left_s9 = left_s9;
+        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2620,11 +2583,8 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 3;
-        next.last = 7 * known->last;
-        next.free[8] = true;
-        next.left_c9 = left_c9;
-        next.left_s9 = left_s9;
+        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[8] = true;
+        next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2642,11 +2602,8 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
         const double left_w9 = roots0.values[i0], r92 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r72 * r92;
         const double left_s9 = left_w9 * shared->r70 * r92;
         Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c9 = left_c9;
-        next.left_s9 = left_s9;
+        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2663,11 +2620,8 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 6;
-        next.last = 7 * known->last;
-        next.free[8] = true;
-        next.left_c9 = left_c9;
-        next.left_s9 = left_s9;
+        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[8] = true;
+        next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2721,11 +2675,8 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
         const double left_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
         const double left_c7 = r47, left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c7 = left_c7;
-        next.left_s7 = left_s7;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.left_c7 = left_c7; next.left_s7 = left_s7;
         block_6(p, &next, answers);
     }
 }
@@ -2767,9 +2718,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
     const double left_c4 = 0.0, left_s4 = 0.0;
     Known next = *known;
-    next.branch = 7 * known->branch;
-    next.last = 7 * known->last;
-    next.left_c4 = left_c4;
+    next.branch = 7 * known->branch; next.last = 7 * known->last; next.left_c4 = left_c4;
     next.left_s4 = left_s4;
     block_5(p, &next, answers);
 }
@@ -2788,11 +2737,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
         const double left_w4 = roots0.values[i0], r163 = 1.0 / r148, left_c4 = left_w4 * shared->r110 * r163;
         const double left_s4 = 0.0 - left_w4 * shared->r98 * r163;
         Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c4 = left_c4;
-        next.left_s4 = left_s4;
+        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2810,11 +2756,8 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 3;
-        next.last = 7 * known->last;
-        next.free[3] = true;
-        next.left_c4 = left_c4;
-        next.left_s4 = left_s4;
+        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[3] = true;
+        next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2834,11 +2777,8 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
         const double left_c4 = 0.0 - left_w4 * shared->r132 * r164;
         const double left_s4 = 0.0 - left_w4 * shared->r120 * r164;
         Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0;
-        next.last = 7 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c4 = left_c4;
-        next.left_s4 = left_s4;
+        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        next.close = known->close || roots0.close; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2856,11 +2796,8 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 7 * known->branch + 6;
-        next.last = 7 * known->last;
-        next.free[3] = true;
-        next.left_c4 = left_c4;
-        next.left_s4 = left_s4;
+        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[3] = true;
+        next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2956,11 +2893,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r357 = 1.0 / sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
         const double left_s1 = 0.0 - r347 * r357;
         Known next = *known;
-        next.branch = 5 * known->branch + i0;
-        next.last = 5 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
 }
@@ -3000,11 +2934,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         const double r356 = 1.0 / sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
         const double left_s1 = 0.0 - r347 * r356;
         Known next = *known;
-        next.branch = 5 * known->branch + i0;
-        next.last = 5 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
 }
@@ -3041,11 +2972,8 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
         const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355;
         Known next = *known;
-        next.branch = 5 * known->branch + i0;
-        next.last = 5 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
 }
@@ -3085,11 +3013,8 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         const double r357 = 1.0 / sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
         const double left_s1 = 0.0 - r348 * r357;
         Known next = *known;
-        next.branch = 5 * known->branch + i0;
-        next.last = 5 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
 }
@@ -3142,11 +3067,8 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r414 = 1.0 / sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
         const double left_s1 = 0.0 - r404 * r414;
         Known next = *known;
-        next.branch = 5 * known->branch + i0;
-        next.last = 5 * known->last;
-        next.close = known->close || roots0.close;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
 }
@@ -3172,11 +3094,8 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 5 * known->branch + 4;
-        next.last = 5 * known->last;
-        next.free[0] = true;
-        next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        next.branch = 5 * known->branch + 4; next.last = 5 * known->last; next.free[0] = true;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_4(p, &next, answers);
     }
 }
@@ -3282,8 +3201,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *a
 {
     const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
     Known next = *known;
-    next.left_c3_ = left_c3_;
-    next.left_s3_ = left_s3_;
+    next.left_c3_ = left_c3_; next.left_s3_ = left_s3_;
     block_3(p, &next, answers);
 }
 
@@ -3298,9 +3216,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.left_c2_ = left_c2_;
-    next.left_s2_ = left_s2_;
+    next.last = 1; next.left_c2_ = left_c2_; next.left_s2_ = left_s2_;
     block_2(p, &next, answers);
 }
 

@@ -123,9 +123,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -144,9 +143,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1400,8 +1398,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double c2 = shared->r21 * r26, s2 = shared->r19 * r26;
     Known next = *known;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1440,11 +1437,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         const double w1 = roots0.values[i0], r20 = 1.0 / r13, c1 = 0.0 - w1 * shared->r10 * r20;
         const double s1 = w1 * shared->r6 * r20;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1;
         block_5(p, &next, answers);
     }
 }
@@ -1461,11 +1455,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1;
         again_5(p, &next, answers);
     }
 }
@@ -1506,10 +1497,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c5 = c5; next.s5 = s5;
     next.f5 = f5;
     block_4(p, &next, answers);
 }
@@ -1528,12 +1516,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[4] = true;
-        next.c5 = c5;
-        next.s5 = s5;
-        next.f5 = f5;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[4] = true;
+        next.c5 = c5; next.s5 = s5; next.f5 = f5;
         again_4(p, &next, answers);
     }
 }
@@ -1589,12 +1573,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w6 = roots0.values[i0], r36 = 1.0 / r26, c6 = w6 * shared->r18 * r36;
         const double s6 = w6 * shared->r11 * r36;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c6 = c6;
-        next.s6 = s6;
-        next.f6 = f6;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         block_3(p, &next, answers);
     }
 }
@@ -1613,12 +1593,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[5] = true;
-        next.c6 = c6;
-        next.s6 = s6;
-        next.f6 = f6;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
+        next.c6 = c6; next.s6 = s6; next.f6 = f6;
         again_3(p, &next, answers);
     }
 }
@@ -1651,11 +1627,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double c4 = r34, s4 = 2361.0721534205795 * (0.02058 * w4);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c4 = c4; next.s4 = s4;
         block_2(p, &next, answers);
     }
 }

@@ -359,9 +359,8 @@ const FARTHEST: f64 = 256.0;
 const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 const RETURNS: usize = 4;
 const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished.
+/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
-/// A Newton step within this is the last where the equations hold within `RESOLUTION`.
 const SHORT: f64 = 1e-9;
 /// A member of a family that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
@@ -380,9 +379,8 @@ const ARRIVED: f64 = 0.001;
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
-/// A factor is near zero up to this share of its scale.
+/// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
 const NEAR: f64 = 0.001;
-/// The same where all candidates found before hold where they were found.
 const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;

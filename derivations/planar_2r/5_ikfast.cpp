@@ -119,9 +119,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -138,9 +137,8 @@ static const int DOUBLINGS = 8;
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1291,11 +1289,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w2 = roots0.values[i0], c2 = 0.0 - 6.249999999999999 * (0.4 * shared->r3);
         const double s2 = 6.249999999999999 * (0.4 * w2);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c2 = c2; next.s2 = s2;
         block_2(p, &next, answers);
     }
 }

@@ -153,9 +153,8 @@ int planar_2r_nearest(const planar_2r_solution *list, int count, const double *r
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -172,9 +171,8 @@ int planar_2r_nearest(const planar_2r_solution *list, int count, const double *r
 #define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
 #define STAGES 4
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1378,11 +1376,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w2 = roots0.values[i0], c2 = 0.0 - 6.249999999999999 * (0.4 * shared->r3);
         const double s2 = 6.249999999999999 * (0.4 * w2);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c2 = c2; next.s2 = s2;
         block_2(p, &next, answers);
     }
 }

@@ -154,9 +154,8 @@ int planar_3r_nearest(const planar_3r_solution *list, int count, const double *r
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -173,9 +172,8 @@ int planar_3r_nearest(const planar_3r_solution *list, int count, const double *r
 #define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
 #define STAGES 4
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1388,10 +1386,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r18 = shared->r0 * shared->r4 - shared->r2 * shared->r6;
     const double r23 = 1.0 / sqrt(fmax(r18 * r18 + r15 * r15, 0.0)), c1 = r18 * r23, s1 = r15 * r23;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c1 = c1;
-    next.s1 = s1;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
     block_3(p, &next, answers);
 }
 
@@ -1407,11 +1402,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1;
         again_3(p, &next, answers);
     }
 }
@@ -1441,11 +1433,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w2 = roots0.values[i0], r19 = 0.0 - 6.249999999999999 * (0.4 * shared->r13), c2 = r19;
         const double s2 = 6.249999999999999 * (0.4 * w2);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c2 = c2; next.s2 = s2;
         block_2(p, &next, answers);
     }
 }

@@ -121,9 +121,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -140,9 +139,8 @@ static const int DOUBLINGS = 8;
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1315,10 +1313,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r28 = shared->r8 * shared->r11 - shared->r10 * shared->r13;
     const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
     block_4(p, &next, answers);
 }
 
@@ -1334,11 +1329,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[1] = true;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
+        next.c2 = c2; next.s2 = s2;
         again_4(p, &next, answers);
     }
 }
@@ -1370,11 +1362,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w3 = roots0.values[i0], r25 = 0.0 - 22.67573696145125 * (0.21 * shared->r19), c3 = r25;
         const double s3 = 22.67573696145125 * (0.21 * w3);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
 }
@@ -1395,9 +1384,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c1_ = p->c1, s1_ = p->s1;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.c1_ = c1_;
-    next.s1_ = s1_;
+    next.last = 1; next.c1_ = c1_; next.s1_ = s1_;
     block_2(p, &next, answers);
 }
 

@@ -120,9 +120,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -139,9 +138,8 @@ static const int DOUBLINGS = 8;
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1287,11 +1285,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w2 = roots0.values[i0], r22 = 1.0 / r11, c2 = 0.0 - w2 * shared->r3 * r22;
         const double s2 = w2 * shared->r2 * r22;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c2 = c2; next.s2 = s2;
         block_3(p, &next, answers);
     }
 }
@@ -1309,11 +1304,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[1] = true;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[1] = true;
+        next.c2 = c2; next.s2 = s2;
         again_3(p, &next, answers);
     }
 }
@@ -1350,11 +1342,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double w1 = roots0.values[i0], r11 = 1.0 / r2, c1 = p->px * w1 * r11;
         const double s1 = 0.0 - p->pz * w1 * r11;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
         next.f1 = f1;
         block_2(p, &next, answers);
     }
@@ -1373,12 +1361,7 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
-        next.f1 = f1;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

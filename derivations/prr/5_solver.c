@@ -153,9 +153,8 @@ int prr_nearest(const prr_solution *list, int count, const double *reference, co
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 #define PI 3.141592653589793
 #define TAU 6.283185307179586
@@ -1119,8 +1118,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1;
     const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
     Known next = *known;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.c2 = c2; next.s2 = s2;
     block_3(p, &next, answers);
 }
 
@@ -1144,10 +1142,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], d1 = shared->r1 - w1;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.d1 = d1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.d1 = d1;
         block_2(p, &next, answers);
     }
 }

@@ -154,9 +154,8 @@ int rh0_arm_nearest(const rh0_arm_solution *list, int count, const double *refer
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -173,9 +172,8 @@ int rh0_arm_nearest(const rh0_arm_solution *list, int count, const double *refer
 #define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
 #define STAGES 4
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1402,11 +1400,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double r23 = (w14 * shared->r0 + p->pz * shared->r1) * r22;
         const double r25 = (shared->r0 * shared->r1 - p->pz * w14) * r22, c14 = 0.0 - r23, s14 = r25;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c14 = c14;
-        next.s14 = s14;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c14 = c14; next.s14 = s14;
         block_3(p, &next, answers);
     }
 }
@@ -1423,11 +1418,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[0] = true;
-        next.c14 = c14;
-        next.s14 = s14;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
+        next.c14 = c14; next.s14 = s14;
         again_3(p, &next, answers);
     }
 }
@@ -1456,11 +1448,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w16 = roots0.values[i0], c16 = 89.67516069788797 * (0.1056 * shared->r9);
         const double s16 = 89.67516069788797 * (0.1056 * w16);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c16 = c16;
-        next.s16 = s16;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c16 = c16; next.s16 = s16;
         block_2(p, &next, answers);
     }
 }

@@ -123,9 +123,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -144,9 +143,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1365,8 +1363,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
     const double c8 = shared->r20 * r25, s8 = 0.0 - shared->r19 * r25;
     Known next = *known;
-    next.c8 = c8;
-    next.s8 = s8;
+    next.c8 = c8; next.s8 = s8;
     block_6(p, &next, answers);
 }
 
@@ -1407,11 +1404,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         const double w9 = roots0.values[i0], r24 = 1.0 / r17, c9 = 0.0 - w9 * shared->r14 * r24;
         const double s9 = w9 * shared->r13 * r24;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c9 = c9;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c9 = c9;
         next.s9 = s9;
         block_5(p, &next, answers);
     }
@@ -1429,11 +1423,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c9 = SAMPLES_1[i0][0], s9 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c9 = c9;
-        next.s9 = s9;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c9 = c9; next.s9 = s9;
         again_5(p, &next, answers);
     }
 }
@@ -1473,10 +1464,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
     const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c11 = r33 * r38, s11 = r30 * r38;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c11 = c11;
-    next.s11 = s11;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c11 = c11; next.s11 = s11;
     next.f11 = f11;
     block_4(p, &next, answers);
 }
@@ -1494,12 +1482,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c11 = SAMPLES_1[i0][0], s11 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[1] = true;
-        next.c11 = c11;
-        next.s11 = s11;
-        next.f11 = f11;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
+        next.c11 = c11; next.s11 = s11; next.f11 = f11;
         again_4(p, &next, answers);
     }
 }
@@ -1531,11 +1515,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w10 = roots0.values[i0], r39 = 0.0 - 40.673157017909205 * (0.1568 * shared->r32);
         const double c10 = r39, s10 = 40.673157017909205 * (0.1568 * w10);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.c10 = c10;
-        next.s10 = s10;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.c10 = c10; next.s10 = s10;
         block_3(p, &next, answers);
     }
 }
@@ -1579,11 +1560,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w12 = roots0.values[i0], r25 = 1.0 / r15, c12 = 0.0 - w12 * shared->r8 * r25;
         const double s12 = w12 * shared->r4 * r25;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c12 = c12;
-        next.s12 = s12;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c12 = c12; next.s12 = s12;
         next.f12 = f12;
         block_2(p, &next, answers);
     }
@@ -1603,11 +1580,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c12 = SAMPLES_1[i0][0], s12 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c12 = c12;
-        next.s12 = s12;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c12 = c12; next.s12 = s12;
         next.f12 = f12;
         again_2(p, &next, answers);
     }

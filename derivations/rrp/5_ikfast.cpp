@@ -120,9 +120,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -139,9 +138,8 @@ static const int DOUBLINGS = 8;
 static const double ARRIVED = 0.001;
 /* In how many stages a family is followed from one member to another. */
 static const int STAGES = 4;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1304,10 +1302,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], d3 = w3 - 0.4;
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.d3 = d3;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.d3 = d3;
         block_3(p, &next, answers);
     }
 }
@@ -1336,11 +1332,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
         const double w1 = roots0.values[i0], r15 = 1.0 / r2, c1 = (0.1 * p->py - p->px * w1) * r15;
         const double s1 = 0.0 - (0.1 * p->px + p->py * w1) * r15;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

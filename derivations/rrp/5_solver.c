@@ -154,9 +154,8 @@ int rrp_nearest(const rrp_solution *list, int count, const double *reference, co
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -173,9 +172,8 @@ int rrp_nearest(const rrp_solution *list, int count, const double *reference, co
 #define ARRIVED 0.001
 /* In how many stages a family is followed from one member to another. */
 #define STAGES 4
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1394,10 +1392,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], d3 = w3 - 0.4;
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.d3 = d3;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.d3 = d3;
         block_3(p, &next, answers);
     }
 }
@@ -1426,11 +1422,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         const double w1 = roots0.values[i0], r15 = 1.0 / r2, c1 = (0.1 * p->py - p->px * w1) * r15;
         const double s1 = 0.0 - (0.1 * p->px + p->py * w1) * r15;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

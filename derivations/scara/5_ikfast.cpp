@@ -121,9 +121,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -142,9 +141,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1283,10 +1281,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r15 = p->px * shared->r2 - (0.0 - p->py * shared->r0);
     const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r11 * r11, 0.0)), c1 = r15 * r20, s1 = r11 * r20;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c1 = c1;
-    next.s1 = s1;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
     block_4(p, &next, answers);
 }
 
@@ -1302,11 +1297,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1;
         again_4(p, &next, answers);
     }
 }
@@ -1336,11 +1328,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w2 = roots0.values[i0], r17 = 0.0 - 31.297373954716615 * (0.17875 * shared->r11);
         const double c2 = r17, s2 = 31.297373954716615 * (0.17875 * w2);
         Known next = *known;
-        next.branch = 2 * known->branch + i0;
-        next.last = 2 * known->last;
-        next.close = known->close || roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
+        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        next.close = known->close || roots0.close; next.c2 = c2; next.s2 = s2;
         block_3(p, &next, answers);
     }
 }
@@ -1364,8 +1353,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
 {
     const double d3 = shared->r0;
     Known next = NOTHING_KNOWN;
-    next.last = 1;
-    next.d3 = d3;
+    next.last = 1; next.d3 = d3;
     block_2(p, &next, answers);
 }
 

@@ -162,9 +162,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -183,9 +182,8 @@ int spherical_wrist_nearest(const spherical_wrist_solution *list, int count, con
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -2056,8 +2054,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r119 = r117 - shared->r111, r124 = 1.0 / sqrt(fmax(r119 * r119 + r118 * r118, 0.0));
     const double c5 = r119 * r124, s5 = r118 * r124;
     Known next = *known;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -2124,11 +2121,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         const double w4 = roots0.values[i0], r117 = 1.0 / r109, c4 = 0.0 - w4 * shared->r106 * r117;
         const double s4 = w4 * shared->r105 * r117;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c4 = c4; next.s4 = s4;
         block_5(p, &next, answers);
     }
 }
@@ -2145,11 +2139,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -2216,10 +2207,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r63 = shared->r23 * shared->r48 - shared->r19 * shared->r32;
     const double r68 = 1.0 / sqrt(fmax(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
     next.f2 = f2;
     block_4(p, &next, answers);
 }
@@ -2237,12 +2225,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[1] = true;
-        next.c2 = c2;
-        next.s2 = s2;
-        next.f2 = f2;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
+        next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -2293,10 +2277,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r83 = shared->r44 * shared->r52 - (0.0 - shared->r41 * shared->r50);
     const double r88 = 1.0 / sqrt(fmax(r83 * r83 + r79 * r79, 0.0)), c1 = r83 * r88, s1 = r79 * r88;
     Known next = *known;
-    next.branch = 2 * known->branch;
-    next.last = 2 * known->last;
-    next.c1 = c1;
-    next.s1 = s1;
+    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
     next.f1 = f1;
     block_3(p, &next, answers);
 }
@@ -2315,12 +2296,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 2 * known->branch + 1;
-        next.last = 2 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
-        next.f1 = f1;
+        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_3(p, &next, answers);
     }
 }
@@ -2385,11 +2362,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(fmax(r117 * r117 + r115 * r115, 0.0));
         const double c3 = r117 * r122, s3 = r115 * r122;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 4;
-        next.close = roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
         next.f3 = f3;
         block_2(p, &next, answers);
     }
@@ -2430,11 +2403,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r124 = 1.0 / sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
         const double s3 = 0.0 - r117 * r124;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 4;
-        next.close = roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
         next.f3 = f3;
         block_2(p, &next, answers);
     }
@@ -2473,11 +2442,7 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
         const double c3 = 0.0 - r116 * r121, s3 = r114 * r121;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 4;
-        next.close = roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
         next.f3 = f3;
         block_2(p, &next, answers);
     }
@@ -2517,11 +2482,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
         const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 4;
-        next.close = roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
         next.f3 = f3;
         block_2(p, &next, answers);
     }
@@ -2570,11 +2531,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
         const double c3 = r157 * r162, s3 = 0.0 - r154 * r162;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 4;
-        next.close = roots0.close;
-        next.c3 = c3;
-        next.s3 = s3;
+        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
         next.f3 = f3;
         block_2(p, &next, answers);
     }
@@ -2601,12 +2558,7 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 4;
-        next.last = 5;
-        next.free[2] = true;
-        next.c3 = c3;
-        next.s3 = s3;
-        next.f3 = f3;
+        next.branch = 4; next.last = 5; next.free[2] = true; next.c3 = c3; next.s3 = s3; next.f3 = f3;
         again_2(p, &next, answers);
     }
 }

@@ -162,9 +162,8 @@ int stanford_nearest(const stanford_solution *list, int count, const double *ref
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -183,9 +182,8 @@ int stanford_nearest(const stanford_solution *list, int count, const double *ref
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1445,8 +1443,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13, r19 = 1.0 / sqrt(fmax(r17, 0.0));
     const double c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19;
     Known next = *known;
-    next.c5 = c5;
-    next.s5 = s5;
+    next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1485,11 +1482,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         const double w4 = roots0.values[i0], r18 = 1.0 / r11, c4 = 0.0 - w4 * shared->r8 * r18;
         const double s4 = w4 * shared->r7 * r18;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c4 = c4;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
     }
@@ -1507,11 +1501,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[3] = true;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
+        next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1576,12 +1567,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w2 = roots0.values[i0], r29 = 1.0 / r18, c2 = 0.0 - w2 * shared->r9 * r29;
         const double s2 = w2 * shared->r6 * r29;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c2 = c2;
-        next.s2 = s2;
-        next.f2 = f2;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         block_3(p, &next, answers);
     }
 }
@@ -1600,12 +1587,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[1] = true;
-        next.c2 = c2;
-        next.s2 = s2;
-        next.f2 = f2;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[1] = true;
+        next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_3(p, &next, answers);
     }
 }
@@ -1648,11 +1631,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
         const double s1 = w1 * shared->r1 * r17;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
         next.f1 = f1;
         block_2(p, &next, answers);
     }
@@ -1671,12 +1650,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
-        next.f1 = f1;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

@@ -123,9 +123,8 @@ static const double FARTHEST = 256.0;
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 static const int RETURNS = 4;
 static const double STIFF = 1e-6;
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 static const double SHORT = 1e-9;
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
@@ -144,9 +143,8 @@ static const double ARRIVED = 0.001;
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 static const double NEAR = 0.001;
-/* The same where all candidates found before hold where they were found. */
 static const double BESIDE = 1e-7;
 /* A factor is not zero above this share of its scale. */
 static const double TINY = 1e-30;
@@ -1368,8 +1366,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
     const double c2 = shared->r11 * r16, s2 = shared->r10 * r16;
     Known next = *known;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1407,11 +1404,8 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
         const double w1 = roots0.values[i0], r14 = 1.0 / r8, c1 = 0.0 - w1 * shared->r5 * r14;
         const double s1 = w1 * shared->r4 * r14;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.pair = roots0.count == 2;
-        next.c1 = c1;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c1 = c1;
         next.s1 = s1;
         block_5(p, &next, answers);
     }
@@ -1429,11 +1423,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
+        next.c1 = c1; next.s1 = s1;
         again_5(p, &next, answers);
     }
 }
@@ -1467,8 +1458,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r43 = 0.0175 * shared->r13 + shared->r20 * shared->r25;
     const double r48 = 1.0 / sqrt(fmax(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
     Known next = *known;
-    next.c6 = c6;
-    next.s6 = s6;
+    next.c6 = c6; next.s6 = s6;
     block_4(p, &next, answers);
 }
 
@@ -1512,12 +1502,8 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double r28 = 1.0 / r17, r30 = (shared->r5 * shared->r11 - w5 * shared->r3) * r28, c5 = r27 * r28;
         const double s5 = r30;
         Known next = *known;
-        next.branch = 3 * known->branch + i0;
-        next.last = 3 * known->last;
-        next.close = known->close || roots0.close;
-        next.c5 = c5;
-        next.s5 = s5;
-        next.f5 = f5;
+        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        next.close = known->close || roots0.close; next.c5 = c5; next.s5 = s5; next.f5 = f5;
         block_3(p, &next, answers);
     }
 }
@@ -1535,12 +1521,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
         Known next = *known;
-        next.branch = 3 * known->branch + 2;
-        next.last = 3 * known->last;
-        next.free[4] = true;
-        next.c5 = c5;
-        next.s5 = s5;
-        next.f5 = f5;
+        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[4] = true;
+        next.c5 = c5; next.s5 = s5; next.f5 = f5;
         again_3(p, &next, answers);
     }
 }
@@ -1570,11 +1552,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w4 = roots0.values[i0], r34 = 0.0 - 25.50760126517702 * (0.198 * shared->r28), c4 = r34;
         const double s4 = 25.50760126517702 * (0.198 * w4);
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.c4 = c4;
-        next.s4 = s4;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.c4 = c4; next.s4 = s4;
         block_2(p, &next, answers);
     }
 }

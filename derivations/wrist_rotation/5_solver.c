@@ -155,9 +155,8 @@ int wrist_rotation_nearest(const wrist_rotation_solution *list, int count, const
 /* The most steps back behind a leap, and the share of the squared Jacobian's size that is added to it in these. */
 #define RETURNS 4
 #define STIFF 1e-6
-/* An answer that misses the equations by no more than this share of their size is not polished. */
+/* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
-/* A Newton step within this is the last where the equations hold within RESOLUTION. */
 #define SHORT 1e-9
 /* A member of a family that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
@@ -176,9 +175,8 @@ int wrist_rotation_nearest(const wrist_rotation_solution *list, int count, const
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
-/* A factor is near zero up to this share of its scale. */
+/* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
-/* The same where all candidates found before hold where they were found. */
 #define BESIDE 1e-7
 /* A factor is not zero above this share of its scale. */
 #define TINY 1e-30
@@ -1384,8 +1382,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), r7 = 1.0 / r6;
     const double c2 = shared->r2 * r7, s2 = 0.0 - p->r31_ * r7;
     Known next = *known;
-    next.c2 = c2;
-    next.s2 = s2;
+    next.c2 = c2; next.s2 = s2;
     block_3(p, &next, answers);
 }
 
@@ -1416,12 +1413,8 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
         const double w1 = roots0.values[i0], r7 = 1.0 / r2, c1 = 0.0 - p->r11_ * w1 * r7;
         const double s1 = 0.0 - p->r21_ * w1 * r7;
         Known next = NOTHING_KNOWN;
-        next.branch = i0;
-        next.last = 2;
-        next.close = roots0.close;
-        next.pair = roots0.count == 2;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = i0; next.last = 2; next.close = roots0.close; next.pair = roots0.count == 2;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }
@@ -1437,11 +1430,7 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
         Known next = NOTHING_KNOWN;
-        next.branch = 2;
-        next.last = 3;
-        next.free[0] = true;
-        next.c1 = c1;
-        next.s1 = s1;
+        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_2(p, &next, answers);
     }
 }

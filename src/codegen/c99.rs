@@ -2,7 +2,7 @@
 
 use super::joined::Declaration;
 use super::outline::Outline;
-use super::printer::{Finish, INDENT, Language, State, negation, spread};
+use super::printer::{Finish, INDENT, Language, State, in_rows, negation, spread};
 use super::single::single;
 use crate::solver::Program;
 
@@ -212,7 +212,7 @@ impl Language for C99 {
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
         let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
-        let mut lines = vec![format!("Known next = {start};")];
+        let mut lines = Vec::new();
         for (name, value) in [("branch", branch), ("last", last), ("close", &state.close)] {
             let is_there =
                 if state.goes_on { *value == self.known(name) } else { ["0", "false"].contains(&value.as_str()) };
@@ -223,7 +223,8 @@ impl Language for C99 {
         let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
         lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));
         lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
-        lines.push(format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next));
-        lines
+        let head = format!("Known next = {start};");
+        let call = format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next);
+        [head].into_iter().chain(in_rows(lines)).chain([call]).collect()
     }
 }

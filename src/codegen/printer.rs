@@ -172,6 +172,18 @@ pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
     [head.to_owned()].into_iter().chain(items).chain([tail.to_owned()]).collect()
 }
 
+/// Short statements on lines that are not long.
+pub(super) fn in_rows(statements: Vec<String>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for statement in statements {
+        match lines.last_mut().filter(|line| line.len() + statement.len() < LINE) {
+            Some(line) => *line += &format!(" {statement}"),
+            None => lines.push(statement),
+        }
+    }
+    lines
+}
+
 /// Whether code reads a place of `at`, as [`Language::declare_places`] does.
 pub(super) fn reads_places(line: &str) -> bool {
     line.contains("at[") || line.contains("*at")

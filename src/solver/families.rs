@@ -1,6 +1,7 @@
 //! Whether answers are members of a family, and of which: free joints are moved, and the others follow.
 
-use super::answers::{Answers, difference};
+use super::answers::Answers;
+use super::apart::difference;
 use super::evaluate::Solution;
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::{ARRIVED, ASIDE, DOUBLINGS, MAX_JOINTS, NARROWS, REGULAR, ROUNDING, SINGULAR, STAGES};

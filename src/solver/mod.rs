@@ -5,6 +5,7 @@
 mod about;
 mod angle;
 mod answers;
+mod apart;
 mod batch;
 mod compose;
 mod condition;
