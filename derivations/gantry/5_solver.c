@@ -1419,8 +1419,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1450,8 +1449,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *a
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r7 = 1.0 / r2, c4 = 0.0 - p->r13_ * w4 * r7;
         const double s4 = 0.0 - p->r23_ * w4 * r7;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
@@ -1468,9 +1466,8 @@ static void chart_4_2(const Parameters *p, const Known *known, size_t before, An
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1492,8 +1489,7 @@ typedef struct {
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double d3 = shared->r2;
-    Known next = *known;
-    next.d3 = d3;
+    Known next = *known; next.d3 = d3;
     block_4(p, &next, answers);
 }
 
@@ -1514,8 +1510,7 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double d2 = shared->r1;
-    Known next = *known;
-    next.d2 = d2;
+    Known next = *known; next.d2 = d2;
     block_3(p, &next, answers);
 }
 
@@ -1536,8 +1531,7 @@ typedef struct {
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double d1 = shared->r1;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.d1 = d1;
+    Known next = NOTHING_KNOWN; next.last = 1; next.d1 = d1;
     block_2(p, &next, answers);
 }
 

@@ -1469,8 +1469,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 {
     const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26, r31 = 1.0 / sqrt(fmax(r29, 0.0));
     const double c6 = shared->r25 * r31, s6 = shared->r26 * r31;
-    Known next = *known;
-    next.c6 = c6; next.s6 = s6;
+    Known next = *known; next.c6 = c6; next.s6 = s6;
     block_7(p, &next, answers);
 }
 
@@ -1510,8 +1509,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w5 = roots0.values[i0], r30 = 1.0 / r23, c5 = 0.0 - w5 * shared->r20 * r30;
         const double s5 = w5 * shared->r19 * r30;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c5 = c5;
         next.s5 = s5;
         block_6(p, &next, answers);
@@ -1529,9 +1527,8 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[4] = true;
-        next.c5 = c5; next.s5 = s5;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[4] = true; next.c5 = c5; next.s5 = s5;
         again_6(p, &next, answers);
     }
 }
@@ -1572,9 +1569,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r25 = shared->r8 * shared->r13 - (0.0 - shared->r9 * shared->r12);
     const double r28 = shared->r8 * shared->r12 - shared->r9 * shared->r13;
     const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_5(p, &next, answers);
 }
 
@@ -1590,9 +1586,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_5(p, &next, answers);
     }
 }
@@ -1636,8 +1631,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
         const double w1 = roots0.values[i0], r22 = w1 * shared->r2 - (0.0 - shared->r4 * shared->r5);
         const double r26 = 1.0 / r11, r27 = (shared->r2 * shared->r5 - w1 * shared->r4) * r26, c1 = r27;
         const double s1 = r22 * r26;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_4(p, &next, answers);
     }
@@ -1655,9 +1649,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_4(p, &next, answers);
     }
 }
@@ -1686,8 +1679,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r30 = 0.0 - 8.857709750566892 * (0.336 * shared->r24), c4 = r30;
         const double s4 = 8.857709750566892 * (0.336 * w4);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c4 = c4; next.s4 = s4;
         block_3(p, &next, answers);
     }
@@ -1708,8 +1700,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
+    Known next = NOTHING_KNOWN; next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
     block_2(p, &next, answers);
 }
 

@@ -1459,8 +1459,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r20 = shared->r12 - shared->r10, r24 = sqrt(fmax(shared->r19 * shared->r19 + r20 * r20, 0.0));
     const double r25 = 1.0 / r24, c5 = shared->r19 * r25, s5 = r20 * r25;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1498,8 +1497,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r24 = 1.0 / r17, c4 = w4 * shared->r14 * r24;
         const double s4 = w4 * shared->r13 * r24;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
@@ -1517,9 +1515,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1559,9 +1556,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r27 = shared->r9 * shared->r16 - shared->r12 * shared->r15;
     const double r31 = shared->r12 * shared->r16 - (0.0 - shared->r9 * shared->r15);
     const double r36 = 1.0 / sqrt(fmax(r31 * r31 + r27 * r27, 0.0)), c2 = r31 * r36, s2 = r27 * r36;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
 }
 
@@ -1577,9 +1573,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -1611,8 +1606,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w3 = roots0.values[i0], r36 = 35.683793403054324 * (0.16308 * w3 - 0.0378 * shared->r24);
         const double r37 = 35.683793403054324 * (0.0378 * w3 - (0.0 - 0.16308 * shared->r24)), c3 = r36;
         const double s3 = r37;
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
@@ -1654,9 +1648,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
         const double s1 = w1 * shared->r1 * r17;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
-        next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_2(p, &next, answers);
     }
 }
@@ -1673,8 +1666,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1;
+        next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

@@ -1442,8 +1442,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r25 = 1.0 / sqrt(fmax(r23, 0.0));
     const double c5 = shared->r19 * r25, s5 = shared->r20 * r25;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1483,8 +1482,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r25 = 1.0 / r17, c4 = w4 * shared->r14 * r25;
         const double s4 = w4 * shared->r13 * r25;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
@@ -1502,9 +1500,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 32; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1544,9 +1541,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1.0, r28 = shared->r9 * shared->r17 - shared->r12 * shared->r15;
     const double r32 = shared->r12 * shared->r17 - (0.0 - shared->r9 * shared->r15);
     const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r28 * r28, 0.0)), c2 = r32 * r37, s2 = r28 * r37;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
 }
 
@@ -1562,9 +1558,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 32; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -1601,8 +1596,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double r39 = 0.3150000001485 * w3 - (0.0 - 1.7280148494671985 * shared->r30);
         const double r42 = 1.7280148494671985 * w3 - 0.3150000001485 * shared->r30;
         const double c3 = 0.3241217583793501 * r42, s3 = 0.3241217583793501 * r39;
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
@@ -1646,9 +1640,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r18 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r18;
         const double s1 = w1 * shared->r1 * r18;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
-        next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_2(p, &next, answers);
     }
 }
@@ -1665,8 +1658,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 32; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1;
+        next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

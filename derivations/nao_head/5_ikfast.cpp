@@ -1275,9 +1275,8 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w1 = roots0.values[i0], r7 = 1.0 / r2, c1 = 0.0 - p->dx * w1 * r7;
         const double s1 = 0.0 - p->dy * w1 * r7;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.pair = roots0.count == 2;
-        next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.pair = roots0.count == 2; next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }
@@ -1292,8 +1291,8 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1;
+        next.s1 = s1;
         again_2(p, &next, answers);
     }
 }

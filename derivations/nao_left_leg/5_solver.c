@@ -1494,8 +1494,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double c2 = shared->r21 * r26, s2 = shared->r19 * r26;
-    Known next = *known;
-    next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1533,8 +1532,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r20 = 1.0 / r13, c1 = 0.0 - w1 * shared->r10 * r20;
         const double s1 = w1 * shared->r6 * r20;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1;
         block_5(p, &next, answers);
     }
@@ -1551,9 +1549,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_5(p, &next, answers);
     }
 }
@@ -1593,9 +1590,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c5 = c5; next.s5 = s5;
-    next.f5 = f5;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c5 = c5;
+    next.s5 = s5; next.f5 = f5;
     block_4(p, &next, answers);
 }
 
@@ -1612,9 +1608,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[4] = true;
-        next.c5 = c5; next.s5 = s5; next.f5 = f5;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[4] = true; next.c5 = c5; next.s5 = s5; next.f5 = f5;
         again_4(p, &next, answers);
     }
 }
@@ -1669,8 +1664,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r36 = 1.0 / r26, c6 = 0.0 - w6 * shared->r18 * r36;
         const double s6 = w6 * shared->r11 * r36;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         block_3(p, &next, answers);
     }
@@ -1689,9 +1683,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
-        next.c6 = c6; next.s6 = s6; next.f6 = f6;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[5] = true; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         again_3(p, &next, answers);
     }
 }
@@ -1723,8 +1716,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double c4 = r34, s4 = 2361.0721534205795 * (0.02058 * w4);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c4 = c4; next.s4 = s4;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c4 = c4; next.s4 = s4;
         block_2(p, &next, answers);
     }
 }

@@ -1637,8 +1637,7 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
 {
     const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
     const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
-    Known next = *known;
-    next.right_c6 = right_c6; next.right_s6 = right_s6;
+    Known next = *known; next.right_c6 = right_c6; next.right_s6 = right_s6;
     block_13(p, &next, answers);
 }
 
@@ -1685,8 +1684,7 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double right_w5 = roots0.values[i0], r43 = 1.0 / r36;
         const double right_c5 = 0.0 - right_w5 * shared->r33 * r43, right_s5 = right_w5 * shared->r32 * r43;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2;
         next.right_c5 = right_c5; next.right_s5 = right_s5;
         block_12(p, &next, answers);
@@ -1704,9 +1702,8 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[9] = true;
-        next.right_c5 = right_c5; next.right_s5 = right_s5;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[9] = true; next.right_c5 = right_c5; next.right_s5 = right_s5;
         again_12(p, &next, answers);
     }
 }
@@ -1753,9 +1750,8 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     const double r48 = shared->r32 * shared->r33 - shared->r19 * shared->r30;
     const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r45 * r45, 0.0)), right_c3 = r48 * r53;
     const double right_s3 = 0.0 - r45 * r53;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.right_c3 = right_c3;
-    next.right_s3 = right_s3; next.right_f3 = right_f3;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.right_c3 = right_c3; next.right_s3 = right_s3; next.right_f3 = right_f3;
     block_11(p, &next, answers);
 }
 
@@ -1771,9 +1767,9 @@ static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *
     const double right_f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c3 = SAMPLES_1[i0][0], right_s3 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[7] = true;
-        next.right_c3 = right_c3; next.right_s3 = right_s3; next.right_f3 = right_f3;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[7] = true; next.right_c3 = right_c3; next.right_s3 = right_s3;
+        next.right_f3 = right_f3;
         again_11(p, &next, answers);
     }
 }
@@ -1808,8 +1804,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w4 = roots0.values[i0], r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double right_c4 = r35, right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.right_c4 = right_c4; next.right_s4 = right_s4;
         block_10(p, &next, answers);
     }
@@ -1854,8 +1849,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w2 = roots0.values[i0], r39 = 1.0 / r29, right_c2 = right_w2 * shared->r21 * r39;
         const double right_s2 = 0.0 - right_w2 * shared->r20 * r39;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.right_c2 = right_c2; next.right_s2 = right_s2;
         next.right_f2 = right_f2;
         block_9(p, &next, answers);
@@ -1875,9 +1869,9 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     const double right_f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c2 = SAMPLES_1[i0][0], right_s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[6] = true;
-        next.right_c2 = right_c2; next.right_s2 = right_s2; next.right_f2 = right_f2;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[6] = true; next.right_c2 = right_c2; next.right_s2 = right_s2;
+        next.right_f2 = right_f2;
         again_9(p, &next, answers);
     }
 }
@@ -1969,8 +1963,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
-    Known next = *known;
-    next.left_c3 = left_c3; next.left_s3 = left_s3;
+    Known next = *known; next.left_c3 = left_c3; next.left_s3 = left_s3;
     block_7(p, &next, answers);
 }
 
@@ -2008,8 +2001,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
-    Known next = *known;
-    next.left_c2 = left_c2; next.left_s2 = left_s2;
+    Known next = *known; next.left_c2 = left_c2; next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
 
@@ -2050,8 +2042,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r20 = 1.0 / r13, left_c1 = 0.0 - left_w1 * shared->r10 * r20;
         const double left_s1 = left_w1 * shared->r6 * r20;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_5(p, &next, answers);
     }
@@ -2068,9 +2059,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.left_c1 = left_c1; next.left_s1 = left_s1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_5(p, &next, answers);
     }
 }
@@ -2112,9 +2102,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
     const double left_s5 = r96 * r104;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.left_c5 = left_c5;
-    next.left_s5 = left_s5; next.left_f5 = left_f5;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.left_c5 = left_c5; next.left_s5 = left_s5; next.left_f5 = left_f5;
     block_4(p, &next, answers);
 }
 
@@ -2131,9 +2120,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double left_f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[4] = true;
-        next.left_c5 = left_c5; next.left_s5 = left_s5; next.left_f5 = left_f5;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[4] = true; next.left_c5 = left_c5; next.left_s5 = left_s5; next.left_f5 = left_f5;
         again_4(p, &next, answers);
     }
 }
@@ -2193,8 +2181,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r36 = 1.0 / r26, left_c6 = 0.0 - left_w6 * shared->r18 * r36;
         const double left_s6 = left_w6 * shared->r11 * r36;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.left_c6 = left_c6; next.left_s6 = left_s6;
         next.left_f6 = left_f6;
         block_3(p, &next, answers);
@@ -2214,9 +2201,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double left_f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
-        next.left_c6 = left_c6; next.left_s6 = left_s6; next.left_f6 = left_f6;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[5] = true; next.left_c6 = left_c6; next.left_s6 = left_s6; next.left_f6 = left_f6;
         again_3(p, &next, answers);
     }
 }
@@ -2248,9 +2234,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double left_c4 = r34, left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.left_c4 = left_c4;
-        next.left_s4 = left_s4;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.left_c4 = left_c4; next.left_s4 = left_s4;
         block_2(p, &next, answers);
     }
 }

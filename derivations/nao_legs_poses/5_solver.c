@@ -1639,8 +1639,7 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double right_c2 = shared->r21 * r26, right_s2 = shared->r19 * r26;
-    Known next = *known;
-    next.right_c2 = right_c2; next.right_s2 = right_s2;
+    Known next = *known; next.right_c2 = right_c2; next.right_s2 = right_s2;
     block_11(p, &next, answers);
 }
 
@@ -1681,9 +1680,8 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), right_c5 = r99 * r104;
     const double right_s5 = r96 * r104;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.right_c5 = right_c5;
-    next.right_s5 = right_s5;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.right_c5 = right_c5; next.right_s5 = right_s5;
     block_10(p, &next, answers);
 }
 
@@ -1699,9 +1697,8 @@ static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c5 = SAMPLES_1[i0][0], right_s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[9] = true;
-        next.right_c5 = right_c5; next.right_s5 = right_s5;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[9] = true; next.right_c5 = right_c5; next.right_s5 = right_s5;
         again_10(p, &next, answers);
     }
 }
@@ -1755,9 +1752,8 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double right_c6 = 0.0, right_s6 = 0.0;
-    Known next = *known;
-    next.branch = 7 * known->branch; next.last = 7 * known->last; next.right_c6 = right_c6;
-    next.right_s6 = right_s6;
+    Known next = *known; next.branch = 7 * known->branch; next.last = 7 * known->last;
+    next.right_c6 = right_c6; next.right_s6 = right_s6;
     block_9(p, &next, answers);
 }
 
@@ -1774,8 +1770,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w6 = roots0.values[i0], r54 = 1.0 / r44, right_c6 = right_w6 * shared->r24 * r54;
         const double right_s6 = right_w6 * shared->r17 * r54;
-        Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.right_c6 = right_c6; next.right_s6 = right_s6;
         again_9(p, &next, answers);
     }
@@ -1793,9 +1788,8 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[10] = true;
-        next.right_c6 = right_c6; next.right_s6 = right_s6;
+        Known next = *known; next.branch = 7 * known->branch + 3; next.last = 7 * known->last;
+        next.free[10] = true; next.right_c6 = right_c6; next.right_s6 = right_s6;
         again_9(p, &next, answers);
     }
 }
@@ -1812,8 +1806,7 @@ static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w6 = roots0.values[i0], r49 = 1.0 / r44;
         const double right_c6 = 0.0 - right_w6 * shared->r28 * r49, right_s6 = right_w6 * shared->r26 * r49;
-        Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.right_c6 = right_c6; next.right_s6 = right_s6;
         again_9(p, &next, answers);
     }
@@ -1830,9 +1823,8 @@ static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c6 = SAMPLES_1[i0][0], right_s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[10] = true;
-        next.right_c6 = right_c6; next.right_s6 = right_s6;
+        Known next = *known; next.branch = 7 * known->branch + 6; next.last = 7 * known->last;
+        next.free[10] = true; next.right_c6 = right_c6; next.right_s6 = right_s6;
         again_9(p, &next, answers);
     }
 }
@@ -1872,8 +1864,7 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double right_c4 = r34, right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.right_c4 = right_c4; next.right_s4 = right_s4;
         block_8(p, &next, answers);
     }
@@ -1904,8 +1895,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
-    Known next = *known;
-    next.left_c3 = left_c3; next.left_s3 = left_s3;
+    Known next = *known; next.left_c3 = left_c3; next.left_s3 = left_s3;
     block_7(p, &next, answers);
 }
 
@@ -1943,8 +1933,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
     const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
-    Known next = *known;
-    next.left_c2 = left_c2; next.left_s2 = left_s2;
+    Known next = *known; next.left_c2 = left_c2; next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
 
@@ -1985,9 +1974,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
     const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
     const double left_s5 = r96 * r104;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.left_c5 = left_c5;
-    next.left_s5 = left_s5;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.left_c5 = left_c5; next.left_s5 = left_s5;
     block_5(p, &next, answers);
 }
 
@@ -2003,9 +1991,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c5 = SAMPLES_1[i0][0], left_s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[4] = true;
-        next.left_c5 = left_c5; next.left_s5 = left_s5;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[4] = true; next.left_c5 = left_c5; next.left_s5 = left_s5;
         again_5(p, &next, answers);
     }
 }
@@ -2059,9 +2046,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double left_c6 = 0.0, left_s6 = 0.0;
-    Known next = *known;
-    next.branch = 7 * known->branch; next.last = 7 * known->last; next.left_c6 = left_c6;
-    next.left_s6 = left_s6;
+    Known next = *known; next.branch = 7 * known->branch; next.last = 7 * known->last;
+    next.left_c6 = left_c6; next.left_s6 = left_s6;
     block_4(p, &next, answers);
 }
 
@@ -2078,8 +2064,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r53 = 1.0 / r43, left_c6 = 0.0 - left_w6 * shared->r24 * r53;
         const double left_s6 = left_w6 * shared->r17 * r53;
-        Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c6 = left_c6; next.left_s6 = left_s6;
         again_4(p, &next, answers);
     }
@@ -2097,9 +2082,8 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[5] = true;
-        next.left_c6 = left_c6; next.left_s6 = left_s6;
+        Known next = *known; next.branch = 7 * known->branch + 3; next.last = 7 * known->last;
+        next.free[5] = true; next.left_c6 = left_c6; next.left_s6 = left_s6;
         again_4(p, &next, answers);
     }
 }
@@ -2116,8 +2100,7 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r48 = 1.0 / r43, left_c6 = 0.0 - left_w6 * shared->r28 * r48;
         const double left_s6 = left_w6 * shared->r26 * r48;
-        Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c6 = left_c6; next.left_s6 = left_s6;
         again_4(p, &next, answers);
     }
@@ -2134,9 +2117,8 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c6 = SAMPLES_1[i0][0], left_s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[5] = true;
-        next.left_c6 = left_c6; next.left_s6 = left_s6;
+        Known next = *known; next.branch = 7 * known->branch + 6; next.last = 7 * known->last;
+        next.free[5] = true; next.left_c6 = left_c6; next.left_s6 = left_s6;
         again_4(p, &next, answers);
     }
 }
@@ -2176,8 +2158,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r28);
         const double left_c4 = r34, left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.left_c4 = left_c4; next.left_s4 = left_s4;
         block_3(p, &next, answers);
     }
@@ -2216,8 +2197,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         return;
     }
     const double left_c1 = 0.0, left_s1 = 0.0;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.left_c1 = left_c1; next.left_s1 = left_s1;
+    Known next = NOTHING_KNOWN; next.last = 1; next.left_c1 = left_c1; next.left_s1 = left_s1;
     block_2(p, &next, answers);
 }
 
@@ -2234,9 +2214,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r84 = 1.0 / r70, left_c1 = left_w1 * shared->r32 * r84;
         const double left_s1 = left_w1 * shared->r19 * r84;
-        Known next = NOTHING_KNOWN;
-        next.branch = 1 + i0; next.last = 3; next.close = roots0.close; next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        Known next = NOTHING_KNOWN; next.branch = 1 + i0; next.last = 3; next.close = roots0.close;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_2(p, &next, answers);
     }
 }
@@ -2253,9 +2232,8 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, size_t before,
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 3; next.last = 4; next.free[0] = true; next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        Known next = NOTHING_KNOWN; next.branch = 3; next.last = 4; next.free[0] = true;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_2(p, &next, answers);
     }
 }
@@ -2273,9 +2251,8 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, size_t before,
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r85 = 1.0 / r70, left_c1 = 0.0 - left_w1 * shared->r54 * r85;
         const double left_s1 = left_w1 * shared->r41 * r85;
-        Known next = NOTHING_KNOWN;
-        next.branch = 4 + i0; next.last = 6; next.close = roots0.close; next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        Known next = NOTHING_KNOWN; next.branch = 4 + i0; next.last = 6; next.close = roots0.close;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_2(p, &next, answers);
     }
 }
@@ -2292,9 +2269,8 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, size_t before,
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 6; next.last = 7; next.free[0] = true; next.left_c1 = left_c1;
-        next.left_s1 = left_s1;
+        Known next = NOTHING_KNOWN; next.branch = 6; next.last = 7; next.free[0] = true;
+        next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_2(p, &next, answers);
     }
 }

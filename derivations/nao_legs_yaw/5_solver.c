@@ -2088,8 +2088,7 @@ INLINE static void chart_13_1(const Parameters *p, const Known *known, const Sha
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52;
-    Known next = *known;
-    next.right_c5 = right_c5; next.right_s5 = right_s5;
+    Known next = *known; next.right_c5 = right_c5; next.right_s5 = right_s5;
     block_14(p, &next, answers);
 }
 
@@ -2135,9 +2134,8 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     const double r108 = shared->r77 * shared->r91 - shared->r89 * shared->r92;
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
     const double right_s8 = r105 * r113;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.right_c8 = right_c8;
-    next.right_s8 = right_s8;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.right_c8 = right_c8; next.right_s8 = right_s8;
     block_13(p, &next, answers);
 }
 
@@ -2152,9 +2150,8 @@ static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c8 = SAMPLES_2[i0][0], right_s8 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[12] = true;
-        next.right_c8 = right_c8; next.right_s8 = right_s8;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[12] = true; next.right_c8 = right_c8; next.right_s8 = right_s8;
         again_13(p, &next, answers);
     }
 }
@@ -2209,9 +2206,8 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
         return;
     }
     const double right_c9 = 0.0, right_s9 = 0.0;
-    Known next = *known;
-    next.branch = 7 * known->branch; next.last = 7 * known->last; next.right_c9 = right_c9;
-    next.right_s9 = right_s9;
+    Known next = *known; next.branch = 7 * known->branch; next.last = 7 * known->last;
+    next.right_c9 = right_c9; next.right_s9 = right_s9;
     block_12(p, &next, answers);
 }
 
@@ -2228,8 +2224,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w9 = roots0.values[i0], r98 = 1.0 / r88, right_c9 = right_w9 * shared->r68 * r98;
         const double right_s9 = right_w9 * shared->r57 * r98;
-        Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
@@ -2247,9 +2242,8 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[13] = true;
-        next.right_c9 = right_c9; next.right_s9 = right_s9;
+        Known next = *known; next.branch = 7 * known->branch + 3; next.last = 7 * known->last;
+        next.free[13] = true; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2266,8 +2260,7 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w9 = roots0.values[i0], r93 = 1.0 / r88;
         const double right_c9 = 0.0 - right_w9 * shared->r72 * r93, right_s9 = right_w9 * shared->r70 * r93;
-        Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
@@ -2284,9 +2277,8 @@ static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double right_c9 = SAMPLES_2[i0][0], right_s9 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[13] = true;
-        next.right_c9 = right_c9; next.right_s9 = right_s9;
+        Known next = *known; next.branch = 7 * known->branch + 6; next.last = 7 * known->last;
+        next.free[13] = true; next.right_c9 = right_c9; next.right_s9 = right_s9;
         again_12(p, &next, answers);
     }
 }
@@ -2339,8 +2331,7 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
         const double right_c7 = r47, right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.right_c7 = right_c7; next.right_s7 = right_s7;
         block_11(p, &next, answers);
     }
@@ -2374,8 +2365,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
     const double left_s6 = 0.0 - r99 * r105;
-    Known next = *known;
-    next.left_c6 = left_c6; next.left_s6 = left_s6;
+    Known next = *known; next.left_c6 = left_c6; next.left_s6 = left_s6;
     block_10(p, &next, answers);
 }
 
@@ -2424,8 +2414,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
     const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
-    Known next = *known;
-    next.left_c5 = left_c5; next.left_s5 = left_s5;
+    Known next = *known; next.left_c5 = left_c5; next.left_s5 = left_s5;
     block_9(p, &next, answers);
 }
 
@@ -2471,9 +2460,8 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     const double r108 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91);
     const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
     const double left_s8 = r104 * r113;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.left_c8 = left_c8;
-    next.left_s8 = left_s8;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.left_c8 = left_c8; next.left_s8 = left_s8;
     block_8(p, &next, answers);
 }
 
@@ -2488,9 +2476,8 @@ static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c8 = SAMPLES_2[i0][0], left_s8 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[7] = true;
-        next.left_c8 = left_c8; next.left_s8 = left_s8;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[7] = true; next.left_c8 = left_c8; next.left_s8 = left_s8;
         again_8(p, &next, answers);
     }
 }
@@ -2544,9 +2531,8 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double left_c9 = 0.0, left_s9 = 0.0;
-    Known next = *known;
-    next.branch = 7 * known->branch; next.last = 7 * known->last; next.left_c9 = left_c9;
-    next.left_s9 = left_s9;
+    Known next = *known; next.branch = 7 * known->branch; next.last = 7 * known->last;
+    next.left_c9 = left_c9; next.left_s9 = left_s9;
     block_7(p, &next, answers);
 }
 
@@ -2563,8 +2549,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w9 = roots0.values[i0], r97 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r68 * r97;
         const double left_s9 = left_w9 * shared->r57 * r97;
-        Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
@@ -2582,9 +2567,8 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[8] = true;
-        next.left_c9 = left_c9; next.left_s9 = left_s9;
+        Known next = *known; next.branch = 7 * known->branch + 3; next.last = 7 * known->last;
+        next.free[8] = true; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2601,8 +2585,7 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w9 = roots0.values[i0], r92 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r72 * r92;
         const double left_s9 = left_w9 * shared->r70 * r92;
-        Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
@@ -2619,9 +2602,8 @@ static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double left_c9 = SAMPLES_2[i0][0], left_s9 = SAMPLES_2[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[8] = true;
-        next.left_c9 = left_c9; next.left_s9 = left_s9;
+        Known next = *known; next.branch = 7 * known->branch + 6; next.last = 7 * known->last;
+        next.free[8] = true; next.left_c9 = left_c9; next.left_s9 = left_s9;
         again_7(p, &next, answers);
     }
 }
@@ -2674,8 +2656,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w7 = roots0.values[i0], r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared->r41);
         const double left_c7 = r47, left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.left_c7 = left_c7; next.left_s7 = left_s7;
         block_6(p, &next, answers);
     }
@@ -2717,9 +2698,8 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double left_c4 = 0.0, left_s4 = 0.0;
-    Known next = *known;
-    next.branch = 7 * known->branch; next.last = 7 * known->last; next.left_c4 = left_c4;
-    next.left_s4 = left_s4;
+    Known next = *known; next.branch = 7 * known->branch; next.last = 7 * known->last;
+    next.left_c4 = left_c4; next.left_s4 = left_s4;
     block_5(p, &next, answers);
 }
 
@@ -2736,8 +2716,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r163 = 1.0 / r148, left_c4 = left_w4 * shared->r110 * r163;
         const double left_s4 = 0.0 - left_w4 * shared->r98 * r163;
-        Known next = *known;
-        next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 1 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
@@ -2755,9 +2734,8 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 3; next.last = 7 * known->last; next.free[3] = true;
-        next.left_c4 = left_c4; next.left_s4 = left_s4;
+        Known next = *known; next.branch = 7 * known->branch + 3; next.last = 7 * known->last;
+        next.free[3] = true; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2776,8 +2754,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
         const double left_w4 = roots0.values[i0], r164 = 1.0 / r148;
         const double left_c4 = 0.0 - left_w4 * shared->r132 * r164;
         const double left_s4 = 0.0 - left_w4 * shared->r120 * r164;
-        Known next = *known;
-        next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
+        Known next = *known; next.branch = 7 * known->branch + 4 + i0; next.last = 7 * known->last;
         next.close = known->close || roots0.close; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
@@ -2795,9 +2772,8 @@ static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c4 = SAMPLES_1[i0][0], left_s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 7 * known->branch + 6; next.last = 7 * known->last; next.free[3] = true;
-        next.left_c4 = left_c4; next.left_s4 = left_s4;
+        Known next = *known; next.branch = 7 * known->branch + 6; next.last = 7 * known->last;
+        next.free[3] = true; next.left_c4 = left_c4; next.left_s4 = left_s4;
         again_5(p, &next, answers);
     }
 }
@@ -2892,8 +2868,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r347 = (r339 + shared->r175 * (r321 + r322)) / r345, r352 = 1.0 - (0.0 - left_w1 * r347);
         const double r357 = 1.0 / sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
         const double left_s1 = 0.0 - r347 * r357;
-        Known next = *known;
-        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
@@ -2933,8 +2908,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         const double r347 = r343 / (r341 + shared->r184 * shared->r184), r350 = left_w1 * (1.0 - r347);
         const double r356 = 1.0 / sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
         const double left_s1 = 0.0 - r347 * r356;
-        Known next = *known;
-        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
@@ -2971,8 +2945,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         const double r343 = shared->r175 * shared->r175 + shared->r184 * shared->r184, r345 = r340 / r343;
         const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
         const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355;
-        Known next = *known;
-        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
@@ -3012,8 +2985,7 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         const double r348 = r344 / (r342 + shared->r184 * shared->r184), r351 = left_w1 * (0.0 - r348 - 1.0);
         const double r357 = 1.0 / sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
         const double left_s1 = 0.0 - r348 * r357;
-        Known next = *known;
-        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
@@ -3066,8 +3038,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r404 = (left_w1 * r384 + r398) / r402, r409 = 0.6 - left_w1 * (0.8 - r404);
         const double r414 = 1.0 / sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
         const double left_s1 = 0.0 - r404 * r414;
-        Known next = *known;
-        next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
+        Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
         block_4(p, &next, answers);
     }
@@ -3093,9 +3064,8 @@ static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double left_c1 = SAMPLES_1[i0][0], left_s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 5 * known->branch + 4; next.last = 5 * known->last; next.free[0] = true;
-        next.left_c1 = left_c1; next.left_s1 = left_s1;
+        Known next = *known; next.branch = 5 * known->branch + 4; next.last = 5 * known->last;
+        next.free[0] = true; next.left_c1 = left_c1; next.left_s1 = left_s1;
         again_4(p, &next, answers);
     }
 }
@@ -3200,8 +3170,7 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
 INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
-    Known next = *known;
-    next.left_c3_ = left_c3_; next.left_s3_ = left_s3_;
+    Known next = *known; next.left_c3_ = left_c3_; next.left_s3_ = left_s3_;
     block_3(p, &next, answers);
 }
 
@@ -3215,8 +3184,7 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
 INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.left_c2_ = left_c2_; next.left_s2_ = left_s2_;
+    Known next = NOTHING_KNOWN; next.last = 1; next.left_c2_ = left_c2_; next.left_s2_ = left_s2_;
     block_2(p, &next, answers);
 }
 

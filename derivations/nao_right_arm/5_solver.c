@@ -1434,8 +1434,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r19 = 1.0 / sqrt(fmax(r17, 0.0));
     const double c4 = shared->r13 * r19, s4 = shared->r14 * r19;
-    Known next = *known;
-    next.c4 = c4; next.s4 = s4;
+    Known next = *known; next.c4 = c4; next.s4 = s4;
     block_7(p, &next, answers);
 }
 
@@ -1473,8 +1472,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w3 = roots0.values[i0], r18 = 1.0 / r11, c3 = 0.0 - w3 * shared->r8 * r18;
         const double s3 = 0.0 - w3 * shared->r7 * r18;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c3 = c3;
         next.s3 = s3;
         block_6(p, &next, answers);
@@ -1492,9 +1490,8 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[2] = true;
-        next.c3 = c3; next.s3 = s3;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[2] = true; next.c3 = c3; next.s3 = s3;
         again_6(p, &next, answers);
     }
 }
@@ -1521,8 +1518,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     const double r31 = 0.105 * shared->r27 - 0.015 * shared->r28;
     const double r34 = 0.015 * shared->r27 + 0.105 * shared->r28;
     const double r39 = 1.0 / sqrt(fmax(r34 * r34 + r31 * r31, 0.0)), c2 = 0.0 - r34 * r39, s2 = r31 * r39;
-    Known next = *known;
-    next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.c2 = c2; next.s2 = s2;
     block_5(p, &next, answers);
 }
 
@@ -1564,8 +1560,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r34 = 1.0 / r23, c1 = w1 * shared->r16 * r34;
         const double s1 = w1 * shared->r10 * r34;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_4(p, &next, answers);
     }
@@ -1584,9 +1579,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_4(p, &next, answers);
     }
 }
@@ -1631,8 +1625,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double wr = roots0.values[i0], r84 = wr * shared->r26 - (0.0 - shared->r35 * shared->r52);
         const double r88 = 1.0 / r72, r89 = (shared->r26 * shared->r52 - wr * shared->r35) * r88, cr = r89;
         const double sr = r84 * r88;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.cr = cr; next.sr = sr; next.fr = fr;
         block_3(p, &next, answers);
     }
@@ -1651,9 +1644,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double fr = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double cr = SAMPLES_1[i0][0], sr = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.cr = cr; next.sr = sr; next.fr = fr;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.cr = cr; next.sr = sr; next.fr = fr;
         again_3(p, &next, answers);
     }
 }
@@ -1688,9 +1680,8 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3;
     const double ux = 0.0, uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5;
     const double vz = p->dx * r4;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz; next.vx = vx; next.vy = vy;
-    next.vz = vz;
+    Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
+    next.vx = vx; next.vy = vy; next.vz = vz;
     block_2(p, &next, answers);
 }
 
@@ -1706,9 +1697,8 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     const double r3 = sqrt(fmax(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
     const double ux = 0.0 - r5, uy = 0.0, uz = r4, vx = p->dy * r4, vy = 0.0 - p->dz * r5 - p->dx * r4;
     const double vz = p->dy * r5;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz; next.vx = vx; next.vy = vy;
-    next.vz = vz;
+    Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
+    next.vx = vx; next.vy = vy; next.vz = vz;
     block_2(p, &next, answers);
 }
 
@@ -1724,9 +1714,8 @@ static void chart_1_3(const Parameters *p, Answers *answers)
     const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3;
     const double ux = r4, uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4;
     const double vz = 0.0 - p->dx * r5 - p->dy * r4;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz; next.vx = vx; next.vy = vy;
-    next.vz = vz;
+    Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
+    next.vx = vx; next.vy = vy; next.vz = vz;
     block_2(p, &next, answers);
 }
 

@@ -1340,8 +1340,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double w1 = roots0.values[i0], r26 = 1.0 / r9;
         const double r28 = (w1 * shared->r1 - (0.0 - p->px * shared->r4)) * r26;
         const double c1 = (p->px * w1 - shared->r1 * shared->r4) * r26, s1 = r28;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c1 = c1; next.s1 = s1;
         block_4(p, &next, answers);
     }
@@ -1358,9 +1357,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_4(p, &next, answers);
     }
 }
@@ -1401,8 +1399,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w4 = roots0.values[i0], r21 = 0.023877 * w4 - (0.0 - shared->r3 * shared->r12);
         const double r25 = 1.0 / r14, r26 = (w4 * shared->r3 - 0.023877 * shared->r12) * r25, c4 = r26;
         const double s4 = r21 * r25;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c4 = c4; next.s4 = s4; next.f4 = f4;
         block_3(p, &next, answers);
     }
@@ -1420,9 +1417,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f4 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4; next.f4 = f4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4; next.f4 = f4;
         again_3(p, &next, answers);
     }
 }
@@ -1442,8 +1438,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
+    Known next = NOTHING_KNOWN; next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
     block_2(p, &next, answers);
 }
 

@@ -1473,8 +1473,8 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38;
     const double r52 = shared->r32 * shared->r38 - shared->r30 * shared->r36;
     const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r49 * r49, 0.0)), c2 = r52 * r57, s2 = 0.0 - r49 * r57;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1489,9 +1489,8 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2;
         again_6(p, &next, answers);
     }
 }
@@ -1525,8 +1524,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r77 = 0.0 - 12.755102040816325 * (0.28 * shared->r70), c3 = r77;
         const double s3 = 12.755102040816325 * (0.28 * w3);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_5(p, &next, answers);
     }
@@ -1560,8 +1558,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
 {
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
     const double c5 = shared->r11 * r16, s5 = shared->r10 * r16;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_4(p, &next, answers);
 }
 
@@ -1599,8 +1596,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r13 = 1.0 / r8, c6 = 0.0 - w6 * shared->r5 * r13;
         const double s6 = w6 * shared->r4 * r13;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         block_3(p, &next, answers);
     }
@@ -1618,9 +1614,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
-        next.c6 = c6; next.s6 = s6; next.f6 = f6;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[5] = true; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         again_3(p, &next, answers);
     }
 }
@@ -1655,8 +1650,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         const double w1 = roots0.values[i0], r22 = 1.0 / r8;
         const double r24 = (w1 * shared->r1 - (0.0 - 0.125 * shared->r3)) * r22;
         const double c1 = (0.125 * shared->r1 - w1 * shared->r3) * r22, s1 = r24;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

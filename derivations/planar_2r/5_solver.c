@@ -1375,8 +1375,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], c2 = 0.0 - 6.249999999999999 * (0.4 * shared->r3);
         const double s2 = 6.249999999999999 * (0.4 * w2);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c2 = c2; next.s2 = s2;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c2 = c2; next.s2 = s2;
         block_2(p, &next, answers);
     }
 }

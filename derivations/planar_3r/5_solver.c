@@ -1385,8 +1385,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double r15 = shared->r0 * shared->r6 - (0.0 - shared->r2 * shared->r4);
     const double r18 = shared->r0 * shared->r4 - shared->r2 * shared->r6;
     const double r23 = 1.0 / sqrt(fmax(r18 * r18 + r15 * r15, 0.0)), c1 = r18 * r23, s1 = r15 * r23;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1;
+    next.s1 = s1;
     block_3(p, &next, answers);
 }
 
@@ -1401,9 +1401,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_3(p, &next, answers);
     }
 }
@@ -1432,8 +1431,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r19 = 0.0 - 6.249999999999999 * (0.4 * shared->r13), c2 = r19;
         const double s2 = 6.249999999999999 * (0.4 * w2);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c2 = c2; next.s2 = s2;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c2 = c2; next.s2 = s2;
         block_2(p, &next, answers);
     }
 }

@@ -1312,8 +1312,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double r25 = shared->r8 * shared->r13 - (0.0 - shared->r10 * shared->r11);
     const double r28 = shared->r8 * shared->r11 - shared->r10 * shared->r13;
     const double r33 = 1.0 / sqrt(fmax(r28 * r28 + r25 * r25, 0.0)), c2 = r28 * r33, s2 = r25 * r33;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2;
     block_4(p, &next, answers);
 }
 
@@ -1328,9 +1328,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2;
         again_4(p, &next, answers);
     }
 }
@@ -1361,8 +1360,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r25 = 0.0 - 22.67573696145125 * (0.21 * shared->r19), c3 = r25;
         const double s3 = 22.67573696145125 * (0.21 * w3);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
@@ -1383,8 +1381,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
     const double c1_ = p->c1, s1_ = p->s1;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.c1_ = c1_; next.s1_ = s1_;
+    Known next = NOTHING_KNOWN; next.last = 1; next.c1_ = c1_; next.s1_ = s1_;
     block_2(p, &next, answers);
 }
 

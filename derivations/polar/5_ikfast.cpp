@@ -1284,8 +1284,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r22 = 1.0 / r11, c2 = 0.0 - w2 * shared->r3 * r22;
         const double s2 = w2 * shared->r2 * r22;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c2 = c2; next.s2 = s2;
         block_3(p, &next, answers);
     }
@@ -1303,9 +1302,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2;
         again_3(p, &next, answers);
     }
 }
@@ -1341,9 +1339,8 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r11 = 1.0 / r2, c1 = p->px * w1 * r11;
         const double s1 = 0.0 - p->pz * w1 * r11;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
-        next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_2(p, &next, answers);
     }
 }
@@ -1360,8 +1357,8 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1;
+        next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

@@ -1117,8 +1117,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
 {
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1;
     const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
-    Known next = *known;
-    next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.c2 = c2; next.s2 = s2;
     block_3(p, &next, answers);
 }
 
@@ -1141,8 +1140,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     const Roots roots0 = square_roots(shared->r13 - shared->r1 * shared->r1, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], d1 = shared->r1 - w1;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.d1 = d1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.d1 = d1;
         block_2(p, &next, answers);
     }
 }

@@ -1356,8 +1356,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r25 = 1.0 / sqrt(fmax(r23, 0.0));
     const double c5 = shared->r19 * r25, s5 = 0.0 - shared->r20 * r25;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1396,8 +1395,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r23 = 1.0 / r17, c4 = w4 * shared->r14 * r23;
         const double s4 = w4 * shared->r13 * r23;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
@@ -1415,9 +1413,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1457,9 +1454,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1.0, r21 = p->pz * shared->r8 - shared->r4 * shared->r9;
     const double r25 = shared->r8 * shared->r9 - (0.0 - p->pz * shared->r4);
     const double r30 = 1.0 / sqrt(fmax(r25 * r25 + r21 * r21, 0.0)), c2 = r25 * r30, s2 = r21 * r30;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
 }
 
@@ -1475,9 +1471,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -1509,8 +1504,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         const double w3 = roots0.values[i0], r12 = 0.01753108 * w3 - (0.0 - 0.37290248 * shared->r5);
         const double r16 = 7.17547488580693 * (0.37290248 * w3 - 0.01753108 * shared->r5), c3 = r16;
         const double s3 = 7.17547488580693 * r12;
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
@@ -1542,8 +1536,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r18 = 1.0 / r4, c1 = (p->px * w1 - 0.15005 * p->py) * r18;
         const double s1 = (p->py * w1 - (0.0 - 0.15005 * p->px)) * r18;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

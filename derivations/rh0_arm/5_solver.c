@@ -1399,8 +1399,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w14 = roots0.values[i0], r22 = 1.0 / r7;
         const double r23 = (w14 * shared->r0 + p->pz * shared->r1) * r22;
         const double r25 = (shared->r0 * shared->r1 - p->pz * w14) * r22, c14 = 0.0 - r23, s14 = r25;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c14 = c14; next.s14 = s14;
         block_3(p, &next, answers);
     }
@@ -1417,9 +1416,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c14 = SAMPLES_1[i0][0], s14 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c14 = c14; next.s14 = s14;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c14 = c14; next.s14 = s14;
         again_3(p, &next, answers);
     }
 }
@@ -1447,8 +1445,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w16 = roots0.values[i0], c16 = 89.67516069788797 * (0.1056 * shared->r9);
         const double s16 = 89.67516069788797 * (0.1056 * w16);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c16 = c16; next.s16 = s16;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c16 = c16; next.s16 = s16;
         block_2(p, &next, answers);
     }
 }

@@ -1362,8 +1362,7 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
 {
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
     const double c8 = shared->r20 * r25, s8 = 0.0 - shared->r19 * r25;
-    Known next = *known;
-    next.c8 = c8; next.s8 = s8;
+    Known next = *known; next.c8 = c8; next.s8 = s8;
     block_6(p, &next, answers);
 }
 
@@ -1403,8 +1402,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w9 = roots0.values[i0], r24 = 1.0 / r17, c9 = 0.0 - w9 * shared->r14 * r24;
         const double s9 = w9 * shared->r13 * r24;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c9 = c9;
         next.s9 = s9;
         block_5(p, &next, answers);
@@ -1422,9 +1420,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c9 = SAMPLES_1[i0][0], s9 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c9 = c9; next.s9 = s9;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c9 = c9; next.s9 = s9;
         again_5(p, &next, answers);
     }
 }
@@ -1463,9 +1460,8 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     const double f11 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
     const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
     const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c11 = r33 * r38, s11 = r30 * r38;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c11 = c11; next.s11 = s11;
-    next.f11 = f11;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
+    next.c11 = c11; next.s11 = s11; next.f11 = f11;
     block_4(p, &next, answers);
 }
 
@@ -1481,9 +1477,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f11 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c11 = SAMPLES_1[i0][0], s11 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c11 = c11; next.s11 = s11; next.f11 = f11;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c11 = c11; next.s11 = s11; next.f11 = f11;
         again_4(p, &next, answers);
     }
 }
@@ -1514,8 +1509,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w10 = roots0.values[i0], r39 = 0.0 - 40.673157017909205 * (0.1568 * shared->r32);
         const double c10 = r39, s10 = 40.673157017909205 * (0.1568 * w10);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c10 = c10; next.s10 = s10;
         block_3(p, &next, answers);
     }
@@ -1559,9 +1553,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w12 = roots0.values[i0], r25 = 1.0 / r15, c12 = 0.0 - w12 * shared->r8 * r25;
         const double s12 = w12 * shared->r4 * r25;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c12 = c12; next.s12 = s12;
-        next.f12 = f12;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c12 = c12; next.s12 = s12; next.f12 = f12;
         block_2(p, &next, answers);
     }
 }
@@ -1579,9 +1572,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     const double f12 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c12 = SAMPLES_1[i0][0], s12 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c12 = c12; next.s12 = s12;
-        next.f12 = f12;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c12 = c12;
+        next.s12 = s12; next.f12 = f12;
         again_2(p, &next, answers);
     }
 }

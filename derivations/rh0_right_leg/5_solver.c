@@ -1458,8 +1458,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
     const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -1498,8 +1497,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w4 = roots0.values[i0], r24 = 1.0 / r17, c4 = 0.0 - w4 * shared->r14 * r24;
         const double s4 = w4 * shared->r13 * r24;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c4 = c4;
         next.s4 = s4;
         block_5(p, &next, answers);
@@ -1517,9 +1515,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -1558,9 +1555,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r30 = shared->r11 * shared->r18 - (0.0 - shared->r13 * shared->r17);
     const double r33 = shared->r11 * shared->r17 - shared->r13 * shared->r18;
     const double r38 = 1.0 / sqrt(fmax(r33 * r33 + r30 * r30, 0.0)), c2 = r33 * r38, s2 = r30 * r38;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
 }
 
@@ -1576,9 +1572,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -1609,8 +1604,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r39 = 0.0 - 40.673157017909205 * (0.1568 * shared->r32), c3 = r39;
         const double s3 = 40.673157017909205 * (0.1568 * w3);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_3(p, &next, answers);
     }
@@ -1654,9 +1648,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r25 = 1.0 / r15, c1 = 0.0 - w1 * shared->r8 * r25;
         const double s1 = 0.0 - w1 * shared->r4 * r25;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
-        next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1; next.f1 = f1;
         block_2(p, &next, answers);
     }
 }
@@ -1674,8 +1667,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = NOTHING_KNOWN; next.branch = 2; next.last = 3; next.free[0] = true; next.c1 = c1;
+        next.s1 = s1; next.f1 = f1;
         again_2(p, &next, answers);
     }
 }

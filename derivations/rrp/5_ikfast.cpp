@@ -1301,8 +1301,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     const Roots roots0 = square_roots(shared->r14 - 0.16000000000000003, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], d3 = w3 - 0.4;
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.d3 = d3;
         block_3(p, &next, answers);
     }
@@ -1331,8 +1330,8 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r15 = 1.0 / r2, c1 = (0.1 * p->py - p->px * w1) * r15;
         const double s1 = 0.0 - (0.1 * p->px + p->py * w1) * r15;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

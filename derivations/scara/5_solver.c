@@ -1376,8 +1376,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r11 = p->py * shared->r2 - p->px * shared->r0;
     const double r15 = p->px * shared->r2 - (0.0 - p->py * shared->r0);
     const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r11 * r11, 0.0)), c1 = r15 * r20, s1 = r11 * r20;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1;
+    next.s1 = s1;
     block_4(p, &next, answers);
 }
 
@@ -1392,9 +1392,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_4(p, &next, answers);
     }
 }
@@ -1423,8 +1422,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r17 = 0.0 - 31.297373954716615 * (0.17875 * shared->r11);
         const double c2 = r17, s2 = 31.297373954716615 * (0.17875 * w2);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c2 = c2; next.s2 = s2;
         block_3(p, &next, answers);
     }
@@ -1448,8 +1446,7 @@ typedef struct {
 INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double d3 = shared->r0;
-    Known next = NOTHING_KNOWN;
-    next.last = 1; next.d3 = d3;
+    Known next = NOTHING_KNOWN; next.last = 1; next.d3 = d3;
     block_2(p, &next, answers);
 }
 

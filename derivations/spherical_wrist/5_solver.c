@@ -2053,8 +2053,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     const double r117 = shared->r115 - shared->r114, r118 = r117 - (shared->r109 - shared->r108);
     const double r119 = r117 - shared->r111, r124 = 1.0 / sqrt(fmax(r119 * r119 + r118 * r118, 0.0));
     const double c5 = r119 * r124, s5 = r118 * r124;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
 
@@ -2120,8 +2119,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r117 = 1.0 / r109, c4 = 0.0 - w4 * shared->r106 * r117;
         const double s4 = w4 * shared->r105 * r117;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c4 = c4; next.s4 = s4;
         block_5(p, &next, answers);
     }
@@ -2138,9 +2136,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c4 = SAMPLES_1[i0][0], s4 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[3] = true;
-        next.c4 = c4; next.s4 = s4;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[3] = true; next.c4 = c4; next.s4 = s4;
         again_5(p, &next, answers);
     }
 }
@@ -2206,9 +2203,8 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48;
     const double r63 = shared->r23 * shared->r48 - shared->r19 * shared->r32;
     const double r68 = 1.0 / sqrt(fmax(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
-    next.f2 = f2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
 }
 
@@ -2224,9 +2220,8 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     const double f2 = 1000000.0;
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2; next.f2 = f2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2; next.f2 = f2;
         again_4(p, &next, answers);
     }
 }
@@ -2276,9 +2271,8 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     const double f1 = 1.0, r79 = shared->r44 * shared->r50 - shared->r41 * shared->r52;
     const double r83 = shared->r44 * shared->r52 - (0.0 - shared->r41 * shared->r50);
     const double r88 = 1.0 / sqrt(fmax(r83 * r83 + r79 * r79, 0.0)), c1 = r83 * r88, s1 = r79 * r88;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1; next.s1 = s1;
-    next.f1 = f1;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1;
+    next.s1 = s1; next.f1 = f1;
     block_3(p, &next, answers);
 }
 
@@ -2295,9 +2289,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f1 = 1000000.0;
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1; next.f1 = f1;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1; next.f1 = f1;
         again_3(p, &next, answers);
     }
 }
@@ -2361,9 +2354,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
         const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(fmax(r117 * r117 + r115 * r115, 0.0));
         const double c3 = r117 * r122, s3 = r115 * r122;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
-        next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
+        next.c3 = c3; next.s3 = s3; next.f3 = f3;
         block_2(p, &next, answers);
     }
 }
@@ -2402,9 +2394,8 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703, r119 = w3 * (1.0 - r117);
         const double r124 = 1.0 / sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
         const double s3 = 0.0 - r117 * r124;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
-        next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
+        next.c3 = c3; next.s3 = s3; next.f3 = f3;
         block_2(p, &next, answers);
     }
 }
@@ -2441,9 +2432,8 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
         const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
         const double c3 = 0.0 - r116 * r121, s3 = r114 * r121;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
-        next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
+        next.c3 = c3; next.s3 = s3; next.f3 = f3;
         block_2(p, &next, answers);
     }
 }
@@ -2481,9 +2471,8 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
         const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
         const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
-        next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
+        next.c3 = c3; next.s3 = s3; next.f3 = f3;
         block_2(p, &next, answers);
     }
 }
@@ -2530,9 +2519,8 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
         const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
         const double c3 = r157 * r162, s3 = 0.0 - r154 * r162;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 4; next.close = roots0.close; next.c3 = c3; next.s3 = s3;
-        next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
+        next.c3 = c3; next.s3 = s3; next.f3 = f3;
         block_2(p, &next, answers);
     }
 }
@@ -2557,8 +2545,8 @@ static void chart_1_6(const Parameters *p, const Shared1 *shared, size_t before,
     const double f3 = 1000000.0;
     for (size_t i0 = 0; i0 < 16; i0++) {
         const double c3 = SAMPLES_1[i0][0], s3 = SAMPLES_1[i0][1];
-        Known next = NOTHING_KNOWN;
-        next.branch = 4; next.last = 5; next.free[2] = true; next.c3 = c3; next.s3 = s3; next.f3 = f3;
+        Known next = NOTHING_KNOWN; next.branch = 4; next.last = 5; next.free[2] = true; next.c3 = c3;
+        next.s3 = s3; next.f3 = f3;
         again_2(p, &next, answers);
     }
 }

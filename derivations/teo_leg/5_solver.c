@@ -1461,8 +1461,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
 {
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
     const double c2 = shared->r11 * r16, s2 = shared->r10 * r16;
-    Known next = *known;
-    next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1499,8 +1498,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     for (size_t i0 = 0; i0 < roots0.count && i0 < 1; i0++) {
         const double w1 = roots0.values[i0], r14 = 1.0 / r8, c1 = 0.0 - w1 * shared->r5 * r14;
         const double s1 = w1 * shared->r4 * r14;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.pair = roots0.count == 2; next.c1 = c1;
         next.s1 = s1;
         block_5(p, &next, answers);
@@ -1518,9 +1516,8 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c1 = SAMPLES_1[i0][0], s1 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[0] = true;
-        next.c1 = c1; next.s1 = s1;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[0] = true; next.c1 = c1; next.s1 = s1;
         again_5(p, &next, answers);
     }
 }
@@ -1553,8 +1550,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25;
     const double r43 = 0.0175 * shared->r13 + shared->r20 * shared->r25;
     const double r48 = 1.0 / sqrt(fmax(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
-    Known next = *known;
-    next.c6 = c6; next.s6 = s6;
+    Known next = *known; next.c6 = c6; next.s6 = s6;
     block_4(p, &next, answers);
 }
 
@@ -1597,8 +1593,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         const double w5 = roots0.values[i0], r27 = shared->r3 * shared->r11 - (0.0 - w5 * shared->r5);
         const double r28 = 1.0 / r17, r30 = (shared->r5 * shared->r11 - w5 * shared->r3) * r28, c5 = r27 * r28;
         const double s5 = r30;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c5 = c5; next.s5 = s5; next.f5 = f5;
         block_3(p, &next, answers);
     }
@@ -1616,9 +1611,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f5 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c5 = SAMPLES_1[i0][0], s5 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[4] = true;
-        next.c5 = c5; next.s5 = s5; next.f5 = f5;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[4] = true; next.c5 = c5; next.s5 = s5; next.f5 = f5;
         again_3(p, &next, answers);
     }
 }
@@ -1647,8 +1641,8 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w4 = roots0.values[i0], r34 = 0.0 - 25.50760126517702 * (0.198 * shared->r28), c4 = r34;
         const double s4 = 25.50760126517702 * (0.198 * w4);
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c4 = c4; next.s4 = s4;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c4 = c4; next.s4 = s4;
         block_2(p, &next, answers);
     }
 }

@@ -1363,8 +1363,8 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     const double r42 = shared->r20 * shared->r30 - shared->r22 * shared->r29;
     const double r45 = shared->r20 * shared->r29 + shared->r22 * shared->r30;
     const double r50 = 1.0 / sqrt(fmax(r45 * r45 + r42 * r42, 0.0)), c2 = 0.0 - r45 * r50, s2 = r42 * r50;
-    Known next = *known;
-    next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2; next.s2 = s2;
+    Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
+    next.s2 = s2;
     block_6(p, &next, answers);
 }
 
@@ -1379,9 +1379,8 @@ static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *sh
     }
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c2 = SAMPLES_1[i0][0], s2 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 2 * known->branch + 1; next.last = 2 * known->last; next.free[1] = true;
-        next.c2 = c2; next.s2 = s2;
+        Known next = *known; next.branch = 2 * known->branch + 1; next.last = 2 * known->last;
+        next.free[1] = true; next.c2 = c2; next.s2 = s2;
         again_6(p, &next, answers);
     }
 }
@@ -1415,8 +1414,7 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w3 = roots0.values[i0], r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared->r46);
         const double c3 = r53, s3 = 8.99572652248662 * (0.3334125 * w3);
-        Known next = *known;
-        next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
+        Known next = *known; next.branch = 2 * known->branch + i0; next.last = 2 * known->last;
         next.close = known->close || roots0.close; next.c3 = c3; next.s3 = s3;
         block_5(p, &next, answers);
     }
@@ -1447,8 +1445,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
 {
     const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11, r16 = 1.0 / sqrt(fmax(r14, 0.0));
     const double c5 = shared->r10 * r16, s5 = shared->r11 * r16;
-    Known next = *known;
-    next.c5 = c5; next.s5 = s5;
+    Known next = *known; next.c5 = c5; next.s5 = s5;
     block_4(p, &next, answers);
 }
 
@@ -1486,8 +1483,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r13 = 1.0 / r8, c6 = 0.0 - w6 * shared->r5 * r13;
         const double s6 = w6 * shared->r4 * r13;
-        Known next = *known;
-        next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
+        Known next = *known; next.branch = 3 * known->branch + i0; next.last = 3 * known->last;
         next.close = known->close || roots0.close; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         block_3(p, &next, answers);
     }
@@ -1505,9 +1501,8 @@ static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *sh
     const double f6 = 1000000.0;
     for (size_t i0 = 0; i0 < 8; i0++) {
         const double c6 = SAMPLES_1[i0][0], s6 = SAMPLES_1[i0][1];
-        Known next = *known;
-        next.branch = 3 * known->branch + 2; next.last = 3 * known->last; next.free[5] = true;
-        next.c6 = c6; next.s6 = s6; next.f6 = f6;
+        Known next = *known; next.branch = 3 * known->branch + 2; next.last = 3 * known->last;
+        next.free[5] = true; next.c6 = c6; next.s6 = s6; next.f6 = f6;
         again_3(p, &next, answers);
     }
 }
@@ -1542,8 +1537,8 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double w1 = roots0.values[i0], r21 = 1.0 / r8;
         const double r22 = (w1 * shared->r3 + 0.10915 * shared->r1) * r21;
         const double r24 = (w1 * shared->r1 - 0.10915 * shared->r3) * r21, c1 = 0.0 - r22, s1 = r24;
-        Known next = NOTHING_KNOWN;
-        next.branch = i0; next.last = 2; next.close = roots0.close; next.c1 = c1; next.s1 = s1;
+        Known next = NOTHING_KNOWN; next.branch = i0; next.last = 2; next.close = roots0.close;
+        next.c1 = c1; next.s1 = s1;
         block_2(p, &next, answers);
     }
 }

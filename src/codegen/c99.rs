@@ -212,7 +212,7 @@ impl Language for C99 {
     fn go_on(&self, state: &State<'_>) -> Vec<String> {
         let [branch, last] = &state.branch;
         let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
-        let mut lines = Vec::new();
+        let mut lines = vec![format!("Known next = {start};")];
         for (name, value) in [("branch", branch), ("last", last), ("close", &state.close)] {
             let is_there =
                 if state.goes_on { *value == self.known(name) } else { ["0", "false"].contains(&value.as_str()) };
@@ -223,8 +223,7 @@ impl Language for C99 {
         let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
         lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));
         lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
-        let head = format!("Known next = {start};");
         let call = format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next);
-        [head].into_iter().chain(in_rows(lines)).chain([call]).collect()
+        in_rows(lines).into_iter().chain([call]).collect()
     }
 }
