@@ -68,17 +68,23 @@ impl Scene<'_> {
     }
 
     /// Unknowns that go from block to block.
-    pub fn passed(&self) -> Vec<usize> {
+    fn passed(&self) -> Vec<usize> {
         (0..self.program.blocks.len() - 1).flat_map(|block| self.wanted_of(block)).collect()
     }
 
     /// Names of the angles that go from block to block.
-    pub fn passed_angles(&self) -> Vec<String> {
+    fn passed_angles(&self) -> Vec<String> {
         let is_passed = |&joint: &usize| {
             let is_angle = matches!(self.program.joints[joint].value, JointValue::Angle { .. });
             is_angle && !self.lanes && self.finder(joint) + 1 < self.program.blocks.len()
         };
         (0..self.program.joints.len()).filter(is_passed).map(|joint| format!("q{joint}")).collect()
+    }
+
+    /// The names of all that blocks pass on: unknowns, then angles.
+    pub fn passed_names(&self) -> Vec<String> {
+        let unknowns = self.passed().into_iter().map(|unknown| self.names.unknowns[unknown].clone());
+        unknowns.chain(self.passed_angles()).collect()
     }
 
     /// The unknowns that answers need.

@@ -215,12 +215,7 @@ impl Outline {
             leaps: LEAPS.iter().map(|&way| number(way)).collect(),
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
-            passed: scene
-                .passed()
-                .into_iter()
-                .map(|unknown| scene.names.unknowns[unknown].clone())
-                .chain(scene.passed_angles())
-                .collect(),
+            passed: scene.passed_names(),
             last_first: scene.last_first(),
             last_angles: scene.last_first().into_iter().filter(|&i| is_angle(program.joints[i].value)).collect(),
             samples: scene.tables.clone(),

@@ -13,6 +13,9 @@ use super::harness::{SANITIZERS, compile_c, feed, has_sanitizers, rustc};
 use super::random;
 use super::stored::{joint_values, named};
 
+const C_DRIVER: &str = include_str!("drivers/turns.c.txt");
+const RUST_DRIVER: &str = include_str!("drivers/turns.rs.txt");
+
 /// What a solver is asked.
 struct Question {
     target: Vec<f64>,
@@ -308,110 +311,3 @@ fn limits_and_the_source_stand_in_the_file() {
     let none = "[f64::NEG_INFINITY, f64::INFINITY]";
     assert!(rust.contains(&format!("[[-1.25, 2.5], {none}, [0.0, 0.25], {none}];")));
 }
-
-const C_DRIVER: &str = r#"
-#include "5_solver.c"
-#include <stdio.h>
-
-static int read(double *numbers, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (scanf("%lf", &numbers[i]) != 1) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static void print(const double *numbers, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        printf("%.17g ", numbers[i]);
-    }
-    printf("\n");
-}
-
-int main(void)
-{
-    double target[UPPER_INPUTS], limits[2 * UPPER_JOINTS], reference[UPPER_JOINTS], weights[UPPER_JOINTS], q[UPPER_JOINTS];
-    NAME_solution out[UPPER_CAPACITY];
-    int questions;
-    if (scanf("%d", &questions) != 1) {
-        return 1;
-    }
-    for (int line = 0; line < questions; line++) {
-        if (!read(target, UPPER_INPUTS) || !read(limits, 2 * UPPER_JOINTS) || !read(reference, UPPER_JOINTS) || !read(weights, UPPER_JOINTS)) {
-            return 1;
-        }
-        const int count = NAME_solve(target, out);
-        printf("%d\n", count);
-        for (int k = 0; k < count; k++) {
-            const size_t turns = NAME_count_turns(out[k].q, limits);
-            printf("%zu\n", turns);
-            for (size_t i = 0; i < turns && i < 100; i++) {
-                NAME_turn(out[k].q, limits, i, q);
-                print(q, UPPER_JOINTS);
-            }
-            double reached[UPPER_INPUTS];
-            NAME_forward(out[k].q, reached);
-            print(reached, UPPER_INPUTS);
-        }
-        const int best = NAME_nearest(out, count, reference, weights, limits, q);
-        const int within = NAME_solve_within(target, limits, out);
-        printf("%d\n", within);
-        for (int k = 0; k < within; k++) {
-            print(out[k].q, UPPER_JOINTS);
-        }
-        printf("%d\n", best);
-        if (best >= 0) {
-            print(q, UPPER_JOINTS);
-        }
-    }
-    return 0;
-}
-"#;
-
-const RUST_DRIVER: &str = r#"
-#[path = "5_solver.rs"]
-mod solver;
-use std::io::Read;
-
-fn print(numbers: &[f64]) {
-    numbers.iter().for_each(|value| print!("{value:e} "));
-    println!();
-}
-
-fn main() {
-    let mut text = String::new();
-    std::io::stdin().read_to_string(&mut text).unwrap();
-    let mut numbers = text.split_whitespace().map(|word| word.parse::<f64>().unwrap());
-    let questions = numbers.next().unwrap() as usize;
-    let mut out = [solver::Solution::EMPTY; solver::CAPACITY];
-    for _ in 0..questions {
-        let mut next = || numbers.next().unwrap();
-        let target: [f64; solver::INPUTS] = std::array::from_fn(|_| next());
-        let limits: [[f64; 2]; solver::JOINTS] = std::array::from_fn(|_| [next(), next()]);
-        let reference: [f64; solver::JOINTS] = std::array::from_fn(|_| next());
-        let weights: [f64; solver::JOINTS] = std::array::from_fn(|_| next());
-        let count = solver::solve(&target, &mut out).unwrap();
-        println!("{count}");
-        for answer in &out[..count] {
-            let turns = solver::count_turns(&answer.q, &limits);
-            println!("{turns}");
-            (0..turns.min(100)).for_each(|index| print(&solver::turn(&answer.q, &limits, index)));
-            print(&solver::forward(&answer.q));
-        }
-        let best = solver::nearest(&out[..count], &reference, &weights, &limits);
-        let within = solver::solve_within(&target, &limits, &mut out).unwrap();
-        println!("{within}");
-        out[..within].iter().for_each(|answer| print(&answer.q));
-        match best {
-            None => println!("-1"),
-            Some((index, q)) => {
-                println!("{index}");
-                print(&q);
-            }
-        }
-    }
-}
-"#;

@@ -4,6 +4,7 @@ mod circles;
 mod families;
 mod instance;
 mod one_joint;
+mod slides_and_planes;
 mod solver;
 mod solver_record;
 mod subproblem_families;
@@ -14,7 +15,7 @@ mod two_joints;
 mod two_link;
 
 use groebot::spatial::{Axis, angle};
-use nalgebra::{Point3, Rotation3};
+use nalgebra::{Point3, Rotation3, Vector3};
 
 /// `p` turned about `axis`, by nalgebra's rotation: shares no code with `Axis::rotate`.
 fn turned(axis: &Axis, angle: f64, p: &Point3<f64>) -> Point3<f64> {
@@ -24,4 +25,9 @@ fn turned(axis: &Axis, angle: f64, p: &Point3<f64>) -> Point3<f64> {
 /// Whether two angles agree modulo whole turns.
 fn same(a: f64, b: f64, tolerance: f64) -> bool {
     angle::difference(a, b).abs() <= tolerance
+}
+
+/// The z axis through (1, 2, 0).
+fn upright() -> Axis {
+    Axis::new(Vector3::z(), Point3::new(1.0, 2.0, 0.0)).unwrap()
 }
