@@ -23,7 +23,8 @@ pub const CHECKS: &str = "6_check.csv";
 /// if it is a mechanism's, else the folder `foo` beside `foo.toml`.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the other kind.
+/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the other kind, or
+/// another one of this kind that nothing has been derived from.
 pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<PathBuf> {
     let file = &source.path;
     let named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
@@ -37,14 +38,21 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
         }
     };
     let other = INPUT_NAMES.iter().find(|name| **name != source.name && folder.join(name).exists());
-    match other {
-        Some(other) => {
-            let text =
-                format!("this folder has a `{other}`, and would get a `{}`; give another one by --out", source.name);
-            Err(Error::new(ErrorKind::BadValue, text).in_file(&folder))
+    let refusal = match other {
+        Some(other) => format!("this folder has a `{other}`, and would get a `{}`", source.name),
+        None if holds_another(&folder, source) => {
+            format!("this folder has another `{}`, which nothing has been derived from", source.name)
         }
-        None => Ok(folder),
-    }
+        None => return Ok(folder),
+    };
+    Err(Error::new(ErrorKind::BadValue, format!("{refusal}; give another one by --out")).in_file(&folder))
+}
+
+/// Whether `folder` has a description that differs from `source`, and nothing derived from it: somebody wrote it there.
+fn holds_another(folder: &Path, source: &Source) -> bool {
+    let own = folder.join(source.name);
+    let differs = || fs::read(&own).map_or(true, |bytes| bytes != source.text.as_bytes());
+    own.exists() && !folder.join("certificate.json").exists() && !is_same_file(&source.path, &own) && differs()
 }
 
 /// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself with the files

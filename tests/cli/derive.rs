@@ -6,7 +6,7 @@ use groebot::number::{Rationals, Ring};
 use groebot::poly::{Order, PolynomialRing, parse_equation};
 use tempfile::tempdir;
 
-use super::{Derived, content, folder_with, leg, root, run, succeed, text};
+use super::{Derived, content, folder_with, leg, refused, root, run, succeed, text};
 
 /// The lines of a report under the heading that starts with `title`, wrapped ones joined, each without its name.
 fn section(report: &str, title: &str) -> Vec<String> {
@@ -131,4 +131,19 @@ fn a_folder_of_another_mechanism_is_left_alone() {
     let ran = run(&["derive", text(&arm), "--out", text(folder.path())]);
     assert_eq!((ran.code, content(folder.path())), (1, before));
     assert!(ran.err.contains("0_chain.toml") && ran.err.contains("--out"), "{}", ran.err);
+}
+
+/// Somebody's own description, from which nothing has been derived, is not replaced by another robot's.
+#[test]
+fn a_description_that_somebody_wrote_stays() {
+    let folder = folder_with("polar", "0_chain.toml");
+    let before = content(folder.path());
+    let input = root("derivations/planar_2r/0_chain.toml");
+    let error = refused(&["derive", text(&input), "--quiet", "--out", text(folder.path())]);
+    assert!(error.contains("this folder has another `0_chain.toml`, which nothing has been derived from"), "{error}");
+    assert_eq!(content(folder.path()), before);
+    // The same description is not another one, and one that was derived from may be replaced.
+    let same = root("derivations/polar/0_chain.toml");
+    succeed(&["derive", text(&same), "--quiet", "--out", text(folder.path())]);
+    succeed(&["derive", text(&input), "--quiet", "--out", text(folder.path())]);
 }
