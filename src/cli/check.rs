@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::console::{self, Paint};
 use super::derive::{check, refuse_failures};
 use super::ends::EndArguments;
-use super::files::{CHECKS, is_ours, printed_solvers};
+use super::files::{CERTIFICATE, CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome};
 use crate::derive::lift::Derived;
 use crate::derive::limbs::LimbStage;
@@ -16,7 +16,6 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest stage file that is read, in bytes.
 const LIMIT: u64 = 256_000_000;
-const CERTIFICATE: &str = "certificate.json";
 const PROGRAM: &str = "5_program.json";
 
 /// Proves a stored derivation again, without the Groebner engine
@@ -55,11 +54,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
         None => Ok(()),
         Some(first) => Err(Halt::Error(first.clone())),
     }
-}
-
-/// Whether this is a folder with a stored certificate.
-pub fn is_derived(folder: &Path) -> bool {
-    folder.join(CERTIFICATE).is_file()
 }
 
 /// The derivation that the stored certificate proves.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::ends::EndArguments;
+use super::files::is_derived;
 use super::{Outcome, check, console};
 use crate::Watch;
 use crate::derive::explain::{Document, explain};
@@ -58,7 +59,7 @@ fn told(input: &Path, ends: &Ends) -> crate::Result<Document> {
 
 /// From the stored proof where there is one.
 fn prove(input: &Path, source: &Source) -> crate::Result<Proved> {
-    match check::is_derived(input) {
+    match is_derived(input) {
         true => check::reprove(input, source),
         false => Proved::of(source, &Watch::none()).map_err(|error| error.in_file(&source.path)),
     }

@@ -18,6 +18,13 @@ const SIX_AXES_LIMIT: usize = 135_000;
 
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
+/// The file of the proof.
+pub const CERTIFICATE: &str = "certificate.json";
+
+/// Whether this is a folder with a stored certificate.
+pub fn is_derived(folder: &Path) -> bool {
+    folder.join(CERTIFICATE).is_file()
+}
 
 /// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
 /// if it is a mechanism's, else the folder `foo` beside `foo.toml`.
@@ -51,8 +58,8 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
 /// Whether `folder` has a description that differs from `source`, and nothing derived from it: somebody wrote it there.
 fn holds_another(folder: &Path, source: &Source) -> bool {
     let own = folder.join(source.name);
-    let differs = || fs::read(&own).map_or(true, |bytes| bytes != source.text.as_bytes());
-    own.exists() && !folder.join("certificate.json").exists() && !is_same_file(&source.path, &own) && differs()
+    let is_copy = || fs::read(&own).is_ok_and(|bytes| bytes == source.text.as_bytes());
+    own.exists() && !is_derived(folder) && !is_same_file(&source.path, &own) && !is_copy()
 }
 
 /// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself with the files

@@ -4,7 +4,8 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
-use super::check::{is_derived, reprove};
+use super::check::reprove;
+use super::files::is_derived;
 use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};

@@ -31,3 +31,8 @@ fn same(a: f64, b: f64, tolerance: f64) -> bool {
 fn upright() -> Axis {
     Axis::new(Vector3::z(), Point3::new(1.0, 2.0, 0.0)).unwrap()
 }
+
+/// The larger distance of two points from the axis' point.
+fn size(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+    (p - axis.point()).norm().max((k - axis.point()).norm())
+}

@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 use super::instance::Random;
-use super::{same, turned, upright};
+use super::{same, size, turned, upright};
 use crate::spatial::{axis, vector};
 
 fn rotate_to_distance(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64) -> Values {
@@ -23,11 +23,6 @@ fn rotate_to_point(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> Values {
 
 fn point(size: f64) -> impl Strategy<Value = Point3<f64>> {
     vector(size).prop_map(Point3::from)
-}
-
-/// The larger distance of two points from the axis' point.
-fn size(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> f64 {
-    (p - axis.point()).norm().max((k - axis.point()).norm())
 }
 
 /// Distance of `p` from the line.

@@ -28,11 +28,6 @@ fn parts(v: Vector3<f64>) -> Vec<f64> {
     v.iter().copied().collect()
 }
 
-/// The larger distance of two points from the axis' point.
-fn size(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> f64 {
-    (p - axis.point()).norm().max((k - axis.point()).norm())
-}
-
 /// The angle that brings `p` to the side of `k`.
 fn towards(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let (w, u, v) = (axis.direction(), p - axis.point(), k - axis.point());

@@ -5,8 +5,8 @@ use groebot::spatial::Axis;
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::instance::{Question, Random, Verdict, list};
-use super::super::turned;
-use super::{EXACT, Family, parts, size, towards};
+use super::super::{size, turned};
+use super::{EXACT, Family, parts, towards};
 
 /// One joint.
 pub const ONE_JOINT: &[Family] = &[
