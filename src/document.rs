@@ -353,6 +353,12 @@ pub fn one_among(name: &str, allowed: &[&str]) -> String {
     format!("{}; allowed: {}", did_you_mean(name, allowed), quoted(allowed))
 }
 
+/// The text as a word that every language takes as a name: letters, digits and `_`, with a letter first. Other characters become `_`.
+pub fn word(text: &str) -> String {
+    let body: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if body.starts_with(|c: char| c.is_ascii_alphabetic()) { body } else { format!("x{body}") }
+}
+
 /// ` (did you mean ...?)` with the nearest of `allowed`; empty when none is near.
 pub fn did_you_mean(name: &str, allowed: &[&str]) -> String {
     match allowed.iter().map(|&word| (edits(name, word), word)).min() {

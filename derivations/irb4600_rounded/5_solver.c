@@ -158,6 +158,10 @@ int irb4600_tool0_nearest(const irb4600_tool0_solution *list, int count, const d
 #define SPLIT 0.001
 /* Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it. */
 #define LEVER 0.1
+/* Another answer is looked for where the equations change by less than so many times the square root of what a candidate misses. */
+#define TWIN 10.0
+/* Inverse iterations that tell in what direction the equations change least. */
+#define INVERSIONS 3
 /* Points around a candidate are so much farther where no nearer one leads to an answer. */
 #define FARTHER 16.0
 #define FARTHEST 256.0
@@ -710,6 +714,46 @@ static double longest_way(const double *step)
     return longest;
 }
 
+static double norm(const double *vector)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < JOINTS; i++) {
+        sum += vector[i] * vector[i];
+    }
+    return sqrt(sum);
+}
+
+/* The direction in which the equations change least at q, its longest way one, and by what share of the largest pivot they do. By inverse
+ * iteration; false where a pivot is zero. */
+static bool stillest(const Parameters *p, const double *q, double *way, double *share)
+{
+    double columns[JOINTS + 1][ROWS] = {{0.0}}, most = 0.0;
+    triangle(p, q, 0.0, NONE_FREE, columns);
+    for (size_t i = 0; i < JOINTS; i++) {
+        most = fmax(most, fabs(columns[i][i]));
+        way[i] = 1.0;
+    }
+    for (int round = 0; round < INVERSIONS; round++) {
+        for (size_t row = 0; row < JOINTS; row++) {
+            double sum = way[row];
+            for (size_t k = 0; k < row; k++) {
+                sum -= columns[row][k] * columns[JOINTS][k];
+            }
+            columns[JOINTS][row] = sum / columns[row][row];
+        }
+        const double before = norm(columns[JOINTS]);
+        if (!substituted(columns, way)) {
+            return false;
+        }
+        *share = before / (norm(way) * most);
+    }
+    const double longest = longest_way(way);
+    for (size_t i = 0; i < JOINTS; i++) {
+        way[i] /= longest;
+    }
+    return isfinite(longest) && longest > 0.0;
+}
+
 static void copy(const double *from, double *to)
 {
     for (size_t i = 0; i < JOINTS; i++) {
@@ -1253,6 +1297,26 @@ static bool is_listed(const Answers *answers, const double *q)
     return false;
 }
 
+/* One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses:
+ * from beyond both, in the direction in which the equations change least, steps lead to the nearer one. */
+static void twin(const Parameters *p, size_t branch, size_t last, const double *end, double missed, const bool *free, Answers *answers)
+{
+    static const double times[] = { -2.0, 2.0, -16.0, 16.0 };
+    double way[JOINTS], step[JOINTS], start[JOINTS], share;
+    if (!stillest(p, end, way, &share) || share > TWIN * sqrt(missed)) {
+        return;
+    }
+    for (size_t side = 0; side < sizeof times / sizeof times[0]; side++) {
+        for (size_t i = 0; i < JOINTS; i++) {
+            step[i] = times[side] * sqrt(missed) * way[i];
+        }
+        stepped(end, step, start);
+        Fit fit = measure(p, start);
+        polish(p, start, &fit, NONE_FREE);
+        keep(p, answers, branch, last, start, &fit, free);
+    }
+}
+
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
  * A member of a family is moved along it only where it misses the equations by more than rounding.
  */
@@ -1305,6 +1369,9 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         Fit end = measure(p, start);
         polish(p, start, &end, NONE_FREE);
         keep(p, answers, branch, last, start, &end, free);
+    }
+    if (RESOLUTION <= missed && missed <= SPLIT) {
+        twin(p, branch, last, q, missed, free, answers);
     }
     keep(p, answers, branch, last, q, &fit, free);
 }

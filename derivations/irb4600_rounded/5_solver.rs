@@ -352,6 +352,12 @@ const APART: f64 = 0.7;
 const SPLIT: f64 = 0.001;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 const LEVER: f64 = 0.1;
+/// Another answer is looked for where the equations change by less than so many times the square root of what a candidate misses.
+const TWIN: f64 = 10.0;
+/// How many times that square root from the one answer the other is looked for.
+const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
+/// Inverse iterations that tell in what direction the equations change least.
+const INVERSIONS: usize = 3;
 /// Points around a candidate are so much farther where no nearer one leads to an answer.
 const FARTHER: f64 = 16.0;
 const FARTHEST: f64 = 256.0;
@@ -1020,7 +1026,25 @@ impl Answers<'_> {
             let start = polish(p, start, &NONE_FREE);
             self.keep(p, branch, last, start, free);
         }
+        if RESOLUTION <= missed && missed <= SPLIT {
+            self.twin(p, branch, last, &end.0, missed, free);
+        }
         self.keep(p, branch, last, end, free);
+    }
+
+    /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
+    /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
+    fn twin(&mut self, p: &Parameters, branch: usize, last: usize, end: &[f64; JOINTS], missed: f64, free: [bool; JOINTS]) {
+        let Some((way, share)) = stillest(p, end) else { return };
+        if share > TWIN * missed.sqrt() {
+            return;
+        }
+        for times in TWINS_AT {
+            let start = stepped(end, &way.map(|way| times * missed.sqrt() * way));
+            let start = (start, measure(p, &start));
+            let start = polish(p, start, &NONE_FREE);
+            self.keep(p, branch, last, start, free);
+        }
     }
 
     /// Whether an isolated answer is listed that has these joints.
@@ -1527,6 +1551,34 @@ fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
         (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
     }
     least / most
+}
+
+/// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
+/// inverse iteration; none where a pivot is zero.
+fn stillest(p: &Parameters, q: &[f64; JOINTS]) -> Option<([f64; JOINTS], f64)> {
+    let mut columns = triangle(p, q, 0.0, &NONE_FREE);
+    let mut most = 0.0;
+    for i in 0..JOINTS {
+        most = f64::max(most, columns[i][i].abs());
+    }
+    let mut way = [1.0; JOINTS];
+    let mut share = 1.0;
+    for _ in 0..INVERSIONS {
+        for row in 0..JOINTS {
+            let above = columns[row][..row].iter().zip(&columns[JOINTS]);
+            let sum = above.fold(way[row], |sum, (entry, solved)| sum - entry * solved);
+            columns[JOINTS][row] = sum / columns[row][row];
+        }
+        let before = norm(&columns[JOINTS][..JOINTS]);
+        way = substituted(&columns)?;
+        share = before / (norm(&way) * most);
+    }
+    let longest = longest(&way);
+    (longest.is_finite() && longest > 0.0).then(|| (way.map(|way| way / longest), share))
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 /// The triangle of a step's equations, the right side in the last column.

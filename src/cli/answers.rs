@@ -57,10 +57,36 @@ impl Answer<'_> {
         solution.free.iter().map(|&joint| self.program.joints[joint].name.as_str()).collect()
     }
 
+    /// The joints that no whole turns bring within their limits.
+    fn outside_names(&self, solution: &Solution) -> Vec<&str> {
+        let limits = self.program.about.iter().flat_map(|about| &about.limits);
+        let joints = self.program.joints.iter().zip(&solution.q).zip(limits).enumerate();
+        let outside = joints.filter(|(index, ((joint, value), limits))| {
+            !solution.free.contains(index) && limits.is_some_and(|limits| !is_within(joint.unit, **value, limits))
+        });
+        outside.map(|(_, ((joint, _), _))| joint.name.as_str()).collect()
+    }
+
     fn shown(&self, solution: &Solution) -> Vec<f64> {
         let joints = self.program.joints.iter().zip(&solution.q);
         joints.map(|(joint, value)| self.angles.shown(joint, *value)).collect()
     }
+}
+
+/// The shortest decimal that is read as `value`; far from one, with an exponent.
+pub fn exact(value: f64) -> String {
+    let plain = value.to_string();
+    if plain.len() <= 24 { plain } else { format!("{value:e}") }
+}
+
+/// Whether a joint can stand at `value`, or whole turns from there, within its limits.
+fn is_within(unit: Unit, value: f64, (low, high): (f64, f64)) -> bool {
+    /// Limits are rounded decimals.
+    const ROUNDED: f64 = 1e-9;
+    let turn = std::f64::consts::TAU;
+    let turns = if unit == Unit::Radian { ((low - ROUNDED - value) / turn).ceil() } else { 0.0 };
+    let moved = value + turns * turn;
+    low - ROUNDED <= moved && moved <= high + ROUNDED
 }
 
 /// A table with both units of each angle.
@@ -68,7 +94,7 @@ pub fn text(answer: &Answer<'_>) -> String {
     let program = answer.program;
     let target = program.inputs.iter().zip(&answer.target).map(|(input, value)| {
         let unit = answer.angles.symbol(input.unit);
-        format!("{} = {value}{}{unit}", input.name, if unit.is_empty() { "" } else { " " })
+        format!("{} = {}{}{unit}", input.name, exact(*value), if unit.is_empty() { "" } else { " " })
     });
     let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
     if answer.solutions.is_empty() {
@@ -103,6 +129,7 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     }
     row.push(if solution.residual == 0.0 { "0".to_owned() } else { format!("{:.1e}", solution.residual) });
     let mut notes: Vec<String> = answer.free_names(solution).iter().map(|name| format!("{name} is free")).collect();
+    notes.extend(answer.outside_names(solution).iter().map(|name| format!("{name} outside its limits")));
     if solution.chosen {
         notes.push("<- the source's choice".to_owned());
     }
@@ -154,6 +181,8 @@ struct Entry<'a> {
     branch: usize,
     /// Names of the joints that may take any value.
     free: Vec<&'a str>,
+    /// Names of the joints that stand outside their limits, whole turns apart.
+    outside_limits: Vec<&'a str>,
     chosen: bool,
 }
 
@@ -165,6 +194,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         residual: solution.residual,
         branch: solution.branch,
         free: answer.free_names(solution),
+        outside_limits: answer.outside_names(solution),
         chosen: solution.chosen,
     };
     let page = Page {
@@ -188,26 +218,27 @@ pub fn csv_header(program: &Program) -> String {
     cells.extend(program.inputs.iter().map(|input| input.name.clone()));
     cells.extend(["solutions".to_owned(), "branch".to_owned()]);
     cells.extend(program.joints.iter().map(|joint| joint.name.clone()));
-    cells.extend(["residual", "chosen", "free"].map(str::to_owned));
+    cells.extend(["residual", "chosen", "free", "outside_limits"].map(str::to_owned));
     csv_line(&cells)
 }
 
 /// One row a solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets from 1.
 pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     let mut start = vec![index.to_string()];
-    start.extend(answer.target.iter().map(f64::to_string));
+    start.extend(answer.target.iter().map(|value| exact(*value)));
     start.push(answer.solutions.len().to_string());
     if answer.solutions.is_empty() {
-        start.extend(vec![String::new(); answer.program.joints.len() + 4]);
+        start.extend(vec![String::new(); answer.program.joints.len() + 5]);
         return csv_line(&start);
     }
     let row = |solution: &Solution| {
         let mut cells = start.clone();
         cells.push(solution.branch.to_string());
-        cells.extend(answer.shown(solution).iter().map(f64::to_string));
+        cells.extend(answer.shown(solution).iter().map(|value| exact(*value)));
         cells.push(format!("{:e}", solution.residual));
         cells.push(solution.chosen.to_string());
         cells.push(answer.free_names(solution).join(" "));
+        cells.push(answer.outside_names(solution).join(" "));
         csv_line(&cells)
     };
     answer.solutions.iter().map(row).collect()

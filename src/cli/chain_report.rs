@@ -26,7 +26,7 @@ pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
 /// Tells about an eigenvalue problem.
 pub fn describe_six_axes(page: &mut Page, derived: &DerivedSixAxes) {
     page.heading(&format!("{}: {} solutions at most, all joints together", derived.chain.name(), derived.dimension()));
-    derived.counts().iter().for_each(|line| page.line(line));
+    derived.given().iter().chain(&derived.counts()).for_each(|line| page.line(line));
     page.heading("Eigenvalue problems, proved regular");
     derived.choices().iter().for_each(|line| page.line(line));
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use super::solve::read_program;
+use super::solve::{PROGRAM_NAME, read_program};
 use super::{Outcome, console, explain};
 use crate::codegen::{c99, ikfast, is_word, rust};
 use crate::files::write_atomically;
@@ -111,7 +111,10 @@ impl Arguments {
                 ikfast::emit(&self.program()?, &options).map_err(|error| error.in_file(&self.derivation))
             }
             Language::Latex => {
-                let article = explain::document(&self.derivation)?.to_latex();
+                let is_program = self.derivation.file_name().is_some_and(|name| name == PROGRAM_NAME);
+                let folder = self.derivation.parent().filter(|_| is_program);
+                let folder = folder.map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+                let article = explain::document(folder.unwrap_or(&self.derivation))?.to_latex();
                 Ok(format!("% @{MARK} {}\n{article}", env!("CARGO_PKG_VERSION")))
             }
         }

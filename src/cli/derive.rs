@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use nalgebra::Point3;
+
 use super::Outcome;
+use super::answers::exact;
 use super::console::{self, Paint};
 use super::ends::{EndArguments, SnapArgument};
 use super::files::{assemble_files, destination};
@@ -12,6 +15,8 @@ use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use crate::derive::{Proved, Source};
 use crate::files::write_folder_atomically;
+use crate::kinematics::Chain;
+use crate::spatial::Screw;
 use crate::witness::chain::{self, limbs};
 use crate::witness::{self, Check, Options};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -20,6 +25,9 @@ use crate::{Error, ErrorKind, Result, Watch};
 const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
 /// How much is checked of limbs that share motors.
 const LIMBS: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
+
+/// A robot that is farther from the base frame, in its reaches, is called far.
+const FAR: f64 = 5.0;
 
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
@@ -58,9 +66,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session =
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
-    let source = Source::read_between(&arguments.input, &arguments.snap.ends(&arguments.ends))?;
+    let mut source = Source::read_between(&arguments.input, &arguments.snap.ends(&arguments.ends))?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");
+    let chosen = source.choose_given(&session.watch)?;
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
     let checked = check(&source, &derivation, &session.watch)?;
@@ -77,7 +86,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let told =
         Report { derivation: &derivation, checked: &checked, folder: &folder, files: &names, timings: &clock.laps };
-    console::print(&report(&told, Paint::of(&std::io::stdout()))?)
+    let told = report(&told, Paint::of(&std::io::stdout()))?;
+    let chosen = chosen.map(|joint| {
+        format!("The value of `{joint}` is given with each target: the planner chose it, and `--free JOINT` chooses another.\n\n")
+    });
+    console::print(&(chosen.unwrap_or_default() + &told))
 }
 
 /// The numeric checks of a derivation.
@@ -88,9 +101,7 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness:
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
         Proved::Chain(derived) => {
-            // The number of solutions is that of the ideal chain, where there is one: the chain that was meant may have more.
-            let most = derived.truth.is_none().then_some(derived.plan.dimension);
-            chain::Check::run(derived.measured(), &derived.program, most, &CHAIN, watch)
+            chain::Check::run(derived.measured(), &derived.program, derived.program.isolated, &CHAIN, watch)
         }
         Proved::SixAxes(derived) => {
             chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &CHAIN, watch)
@@ -118,13 +129,13 @@ pub fn refuse_failures(derivation: &Proved, checked: &witness::Report) -> Result
         Proved::Equations(_) | Proved::Limbs(_) => false,
     };
     let Some(row) = checked.failures().find(|row| !(may_lose && row.is_special_loss())) else { return Ok(()) };
-    let target: Vec<String> = row.target.iter().map(f64::to_string).collect();
+    let target: Vec<String> = row.target.iter().map(|value| exact(*value)).collect();
     let text = format!(
         "numeric check, row {} ({}): the answers at the target {} are wrong: {}{}",
         row.number,
         row.kind,
         target.join(","),
-        row.verdict,
+        row.verdict.faults().iter().map(|fault| fault.sentence()).collect::<Vec<_>>().join("; "),
         nearly_ideal(derivation)
     );
     Err(Error::new(ErrorKind::Certificate, text))
@@ -133,11 +144,24 @@ pub fn refuse_failures(derivation: &Proved, checked: &witness::Report) -> Result
 /// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
 fn nearly_ideal(derivation: &Proved) -> String {
     let Proved::Chain(derived) = derivation else { return String::new() };
+    let far = farness(derived.measured());
+    if far > FAR {
+        return format!(
+            "; the robot stands {far:.0} of its reaches from the base frame, where targets are rounded too much: derive it between nearer \
+             links (--base), and give the base's place at run time"
+        );
+    }
     let near = near_words(derived.measured());
     if near.is_empty() || derived.truth.is_some() {
         return String::new();
     }
     format!("; {}: `--snap TOLERANCE` takes the robot of which this does hold", near.join(", "))
+}
+
+/// How many reaches the first axis that turns is from the base frame's origin.
+fn farness(chain: &Chain) -> f64 {
+    let place = chain.screws().iter().find_map(Screw::axis).map(|axis| axis.distance_to(&Point3::origin()));
+    place.map_or(0.0, |distance| distance / chain.reach().max(f64::MIN_POSITIVE))
 }
 
 /// How long each stage took.

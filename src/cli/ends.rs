@@ -23,7 +23,8 @@ pub struct EndArguments {
     /// The direction in the tip frame that `ray` and `direction` aim, such as 1,0,0 (default: z)
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
-    /// A joint whose value is given with each target (repeatable)
+    /// A joint whose value is given with each target (repeatable; default: as described, else one of the planner's choice where the
+    /// task leaves one joint too many)
     #[arg(long, value_name = "JOINT", visible_alias = "given")]
     free: Vec<String>,
 }

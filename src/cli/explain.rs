@@ -53,7 +53,8 @@ pub(super) fn document(input: &Path) -> crate::Result<Document> {
 }
 
 fn told(input: &Path, ends: &Ends) -> crate::Result<Document> {
-    let source = Source::read_between(input, ends)?;
+    let mut source = Source::read_between(input, ends)?;
+    source.choose_given(&Watch::none())?;
     explain(&prove(input, &source)?)
 }
 

@@ -17,7 +17,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest program that is read, in bytes.
 const PROGRAM_LIMIT: u64 = 64_000_000;
-const PROGRAM_NAME: &str = "5_program.json";
+pub(super) const PROGRAM_NAME: &str = "5_program.json";
 
 const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
@@ -71,7 +71,12 @@ pub(super) fn read_program(path: &Path) -> Result<Program> {
         let text = format!("this folder has no `{PROGRAM_NAME}`; `groebot derive` writes it");
         return Err(Error::new(ErrorKind::Io, text).in_file(path));
     }
-    Program::from_json(&read_text(&file, PROGRAM_LIMIT)?).map_err(|error| error.in_file(&file))
+    let text = read_text(&file, PROGRAM_LIMIT)?;
+    if !text.trim_start().starts_with('{') {
+        let text = "this is no derived solver; `groebot derive FILE --out DIR` derives one from a description: give that folder";
+        return Err(Error::new(ErrorKind::Syntax, text).in_file(&file));
+    }
+    Program::from_json(&text).map_err(|error| error.in_file(&file))
 }
 
 fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {

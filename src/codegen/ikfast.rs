@@ -5,9 +5,10 @@
 use serde::Serialize;
 
 use super::c99::{self, C99};
-use super::names::{is_word, word};
+use super::names::is_word;
 use super::outline::Outline;
 use super::printer::{Language, number};
+use crate::document::word;
 use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
 use crate::{Error, ErrorKind, Result};
 
@@ -28,8 +29,8 @@ pub struct Options {
 /// The solver of a valid program ([`Program::validate`]) as one C++11 file for `ikfast.h`.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, or with a task that IKFast has no
-/// type for; [`ErrorKind::BadValue`] for a namespace that is no word.
+/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task that IKFast has no
+/// type for, or in single precision with one that asks for more than the joints can do; [`ErrorKind::BadValue`] for a namespace that is no word.
 pub fn emit(program: &Program, options: &Options) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
     let forward = program.forward().filter(|_| program.charts().any(|chart| !chart.open)).ok_or_else(|| {
@@ -38,6 +39,11 @@ pub fn emit(program: &Program, options: &Options) -> Result<String> {
         )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
+    if options.single && program.isolated.is_none() && !program.nearby {
+        let text = "in single precision targets are rounded, and the task asks for more than the joints can do: none would be consistent; take \
+                    double precision";
+        return Err(refuse(text.to_owned()));
+    }
     if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || C99.is_reserved(name)) {
         return Err(Error::new(
             ErrorKind::BadValue,

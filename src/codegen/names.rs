@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::printer::Language;
+use crate::document::word;
 use crate::solver::Program;
 
 /// Names that the skeletons and the printed functions use themselves, beside `r0`, `i0`, `roots0` and `choice0`.
@@ -17,7 +18,7 @@ const TAKEN: &str = "p q target answers extra magnitude result angle real_roots 
     PLACES SIZES SIZE_OF REST place series square_roots is_round measure_at is_within is_apart keep_one refine PATIENCE INLINE COLD slow place_of low high far steep value ROWS reflect columns mirror half along entry all_real_roots OVERSHOT returned start \
     pair values sizes fits angles acute acutes unfold flush waiting usual found Found NOT_FOUND Fits sound Lanes LANES ROOM POOL ANGLES CIRCLES FAR_APART Number Add Sub Mul Div lane lanes by_lane are_apart tell_apart tells_apart order is_apart Pairs solve_pairs flush_pairs joints usual list of number find unfold joint_angle take_pair which up across is_new size where_below greater take \
     ordinary_roots approximate_roots resolved settled ordinary lead largest size_of_all inverse monic quartic \
-    CANDIDATES TWINS ANGLE_OF FIRST TELLING WIDTH T With Truth Doubt Mask Bundle Neg BitAnd BitOr MANY SURE TURNED REST_OF_PI nothing_known walk fit everywhere solve_batch solve_pairs_batch solve_widest Answer NONE IS_BY_ANGLES of wants_angles solve_by solve_by_4 solve_by_8 solve_into is_usual is_rare is_due candidates unsound suffice_since BESIDE DISTINCT SHORT number is_so each exceeds at_most dead doubt bundle room done filled counts targets fine sound size limit";
+    CANDIDATES TWINS ANGLE_OF FIRST TELLING WIDTH T With Truth Doubt Mask Bundle Neg BitAnd BitOr MANY SURE TURNED REST_OF_PI nothing_known walk fit everywhere solve_batch solve_pairs_batch solve_widest Answer NONE IS_BY_ANGLES of wants_angles solve_by solve_by_4 solve_by_8 solve_into is_usual is_rare is_due candidates unsound suffice_since BESIDE DISTINCT SHORT number is_so twin TWIN TWINS_AT times INVERSIONS stillest norm round side each exceeds at_most dead doubt bundle room done filled counts targets fine sound size limit";
 
 /// Letters that a number follows in the printed functions.
 const NUMBERED: [&str; 7] = ["r", "i", "q", "roots", "choice", "SAMPLES_", "Shared"];
@@ -56,12 +57,6 @@ fn unique(text: &str, language: &dyn Language, used: &mut HashSet<String>) -> St
 /// Whether a text is a word that every language takes as part of a name: a letter, then letters, digits and `_`.
 pub fn is_word(text: &str) -> bool {
     word(text) == text
-}
-
-/// The text as a word: letters, digits and `_`, with a letter first.
-pub(super) fn word(text: &str) -> String {
-    let body: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-    if body.starts_with(|c: char| c.is_ascii_alphabetic()) { body } else { format!("x{body}") }
 }
 
 fn is_taken(name: &str, language: &dyn Language) -> bool {

@@ -10,13 +10,14 @@ use super::demand::{Demand, ParameterDemand};
 use super::forward::{self, ForwardText, equations, printed_forward};
 use super::lanes;
 use super::mirror::Mirror;
-use super::names::{Names, remark, word};
+use super::names::{Names, remark};
 use super::printer::{Language, number, reads_places};
 use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
-use crate::solver::{Chart, Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, Unit, square};
+use crate::document::word;
+use crate::solver::{Chart, Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, TWINS_AT, Unit, square};
 
 /// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
 const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
@@ -48,6 +49,7 @@ pub(super) struct Outline {
     tolerances: Tolerances,
     dampings: Vec<String>,
     leaps: Vec<String>,
+    twins_at: Vec<String>,
     parameters: Parameters,
     conditions: Vec<ConditionText>,
     /// Names of the unknowns and the angles that go from block to block.
@@ -139,6 +141,8 @@ struct Needs {
     near: bool,
     /// Whether strata are told from what is beside them by the candidates.
     strata: bool,
+    /// The formulas are those of a nearby mechanism.
+    nearby: bool,
     away: bool,
     pivot: bool,
     squares: bool,
@@ -213,6 +217,7 @@ impl Outline {
             tolerances: Tolerances::new(),
             dampings: DAMPINGS.iter().map(|&damping| number(damping)).collect(),
             leaps: LEAPS.iter().map(|&way| number(way)).collect(),
+            twins_at: TWINS_AT.iter().map(|&times| number(times)).collect(),
             parameters: Parameters::new(&scene, &needs),
             conditions: program.conditions.iter().map(ConditionText::new).collect(),
             passed: scene.passed_names(),
@@ -332,6 +337,7 @@ impl Needs {
             unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
             near: guards().any(|guard| guard.near),
             strata: program.charts().any(Chart::is_of_stratum),
+            nearby: program.nearby,
             away: guards().any(|guard| !guard.near),
             pivot: root_steps(program).any(|(_, polynomials)| polynomials.len() > 1),
             squares: root_steps(program).any(|(_, polynomials)| square(polynomials).is_some()),

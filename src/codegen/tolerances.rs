@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::printer::number;
 use crate::solver::{
     ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DISTINCT, DOUBLINGS, EIGHTH,
-    FARTHER, FARTHEST, GRAZING, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT, POLISH_STEPS,
-    POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STIFF, TINY,
+    FARTHER, FARTHEST, GRAZING, INVERSIONS, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT,
+    POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STIFF, TINY, TWIN,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -55,6 +55,8 @@ pub(super) struct Tolerances {
     apart: String,
     arrived: String,
     lever: String,
+    twin: String,
+    inversions: usize,
     farther: String,
     farthest: String,
     returns: usize,
@@ -100,6 +102,8 @@ impl Tolerances {
             apart: number(APART),
             arrived: number(ARRIVED),
             lever: number(LEVER),
+            twin: number(TWIN),
+            inversions: INVERSIONS,
             farther: number(FARTHER),
             farthest: number(FARTHEST),
             returns: RETURNS,
@@ -125,12 +129,13 @@ impl Tolerances {
             // Nothing that is not found holds this well.
             beside: number(1e-2),
             meeting: number(1e-2),
-            tiny: number(1e-14),
             pivot: number(1e-4),
             polished: number(2e-7),
             short: number(1e-4),
             adrift: number(1e-3),
             alike: number(1e-6),
+            alone: number(5e-6),
+            singular: number(3e-5),
             distinct: number(1e-2),
             // Shorter ways are lost in rounding.
             narrows: 1,

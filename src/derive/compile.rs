@@ -48,6 +48,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         preference: compiler.preference()?,
         capacity,
         isolated,
+        nearby: false,
     }
     .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;

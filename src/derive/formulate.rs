@@ -10,6 +10,7 @@ use super::setting::{Coefficients, Poly, Unknowns, expression_of};
 use super::{
     Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
 };
+use crate::document::word;
 use crate::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Expression, Fractions, Order, PolynomialRing, rational_root};
@@ -39,7 +40,7 @@ pub fn formulate(chain: &Chain) -> Result<System> {
     }
     let model = Model::new(chain)?;
     let mut parts = SystemParts {
-        name: chain.name().to_owned(),
+        name: word(chain.name()),
         description: chain.parts().description.clone().unwrap_or_default(),
         source: chain.parts().source.clone().unwrap_or_default(),
         length_unit: chain.length_unit(),

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::ends::{Ends, TASK_NAME};
 use super::limbs::Limbs;
+use super::planner::joint_to_give;
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
 use crate::kinematics::urdf::URDF_LIMIT;
 use crate::kinematics::{Chain, Tree};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, limbs that share motors.
 pub const INPUT_NAMES: [&str; 4] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", LIMBS_NAME];
@@ -174,6 +175,32 @@ impl Source {
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
         Ok(Source { path, name, text, chain, system, limbs, ends, links })
+    }
+
+    /// Gives the value of a joint with each target where the task leaves one joint too many and none is given: the one that the planner
+    /// chooses, whose name this returns.
+    ///
+    /// # Errors
+    /// As [`joint_to_give`] and [`Ends::ideal`], with the file.
+    pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<String>> {
+        let chosen = self.with_given(watch).map_err(|error| error.in_file(&self.path))?;
+        Ok(chosen.map(|(joint, chain, system)| {
+            self.ends.given = vec![joint.clone()];
+            (self.chain, self.system) = (Some(chain), system);
+            joint
+        }))
+    }
+
+    /// The joint that is best given, the chain with it, and its equations.
+    fn with_given(&self, watch: &Watch) -> Result<Option<(String, Chain, Option<System>)>> {
+        let Some(chain) = self.chain_by_steps() else { return Ok(None) };
+        let ideal = self.ends.ideal(chain)?;
+        let Some(joint) = joint_to_give(ideal.as_ref().map_or(chain, |(ideal, _)| ideal), watch)? else {
+            return Ok(None);
+        };
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), vec![joint.clone()])?;
+        let system = formulated(&chain)?;
+        Ok(Some((joint, chain, system)))
     }
 
     /// The names of the files beside the input that it refers to: those of limbs' chains.

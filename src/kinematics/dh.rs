@@ -2,8 +2,10 @@
 //!
 //! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
 
+use std::convert::Infallible;
+
 use super::chain::along_z;
-use super::frame::{Frame, ROUNDING};
+use super::frame::{Frame, ROUNDING, Rationality};
 use super::validate::{Fault, Part, check_count};
 use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
 use crate::Result;
@@ -93,6 +95,23 @@ impl DhRow {
 }
 
 impl DhTable {
+    /// The joints and the tip from a base frame, and whether the joints' axes are rational.
+    fn walk_from(&self, base: Frame) -> ((Vec<Joint>, Frame), Rationality) {
+        let (mut joints, mut frame, mut told) = (Vec::new(), base.then(&self.base), Rationality::default());
+        for row in &self.rows {
+            if self.convention == DhConvention::Modified {
+                frame = frame.then(&row.about_x());
+            }
+            joints.push(row.joint(&frame));
+            told.add(frame.rationality(&along_z()));
+            frame = frame.then(&row.about_z());
+            if self.convention == DhConvention::Standard {
+                frame = frame.then(&row.about_x());
+            }
+        }
+        ((joints, frame.then(&self.tool)), told)
+    }
+
     /// The same mechanism in screw axes. Relations of neighbouring axes that fail by 1e-12 rad or m at most are made exact, as
     /// [`Chain::snapped`] does.
     ///
@@ -104,21 +123,7 @@ impl DhTable {
 
     pub(super) fn assemble(&self) -> std::result::Result<Chain, Fault> {
         check_count(self.rows.len())?;
-        let (mut joints, mut frame) = (Vec::new(), Frame::base().then(&self.base));
-        for row in &self.rows {
-            match self.convention {
-                DhConvention::Standard => {
-                    joints.push(row.joint(&frame));
-                    frame = frame.then(&row.about_z()).then(&row.about_x());
-                }
-                DhConvention::Modified => {
-                    frame = frame.then(&row.about_x());
-                    joints.push(row.joint(&frame));
-                    frame = frame.then(&row.about_z());
-                }
-            }
-        }
-        let tip = frame.then(&self.tool);
+        let Ok((joints, tip)) = Frame::walked(|base| Ok::<_, Infallible>(self.walk_from(base)));
         let chain = Chain::assemble(ChainParts {
             name: self.name.clone(),
             description: self.description.clone(),

@@ -269,6 +269,11 @@ impl ExactRotation {
         if self.is_long() { self.to_bits(2 * BITS) } else { self }
     }
 
+    /// The same rotation when its entries are rational, else the nearest one with such entries, to [`BITS`] bits.
+    pub(super) fn made_rational(self) -> Self {
+        if self.is_rational() { self } else { self.rounded() }
+    }
+
     /// The nearest rotation with rational entries, to [`BITS`] bits.
     fn rounded(self) -> Self {
         self.to_bits(BITS)

@@ -1,4 +1,8 @@
 //! Where a chain of placements leads, exactly, multiples of 45 and 30 degrees included. Main type: [`Frame`].
+//!
+//! A chain is told in rational numbers. Where all of its axes are, exactly, as in a leg whose hip is turned by 45 degrees and back, nothing is
+//! rounded. Where some are not, as in an arm on a base turned by 30 degrees, roots are not rounded number by number, for axes that meet or are
+//! perpendicular would miss it by a hair; but each rotation that leads to them is, to one that is exactly orthogonal and within 1e-17.
 
 use super::exact_rotation::over_common;
 use super::surd::{SurdVector, directed, recognised, surds};
@@ -19,12 +23,35 @@ pub struct Frame {
     /// base_from_frame.
     rotation: ExactRotation,
     origin: SurdVector,
+    /// Whether rotations are made rational.
+    rounds: bool,
 }
 
 impl Frame {
     /// The base frame.
     pub fn base() -> Self {
-        Frame { rotation: ExactRotation::identity(), origin: Default::default() }
+        Frame { rotation: ExactRotation::identity(), origin: Default::default(), rounds: false }
+    }
+
+    /// What `walk` makes of the joints of a chain, starting at the base frame; where that is not rational, what it makes of them when rotations
+    /// are. It tells of all axes whether they are.
+    pub fn walked<T, E>(walk: impl Fn(Frame) -> Result<(T, Rationality), E>) -> Result<T, E> {
+        let (exact, told) = walk(Frame::base())?;
+        if told.is_exact() {
+            Ok(exact)
+        } else {
+            walk(Frame { rounds: true, ..Frame::base() }).map(|(rounded, _)| rounded)
+        }
+    }
+
+    /// Whether the line along `axis` of this frame through its origin is rational in the base frame, and whether its direction has a rational
+    /// length.
+    pub fn rationality(&self, axis: &ExactVector) -> [bool; 2] {
+        let direction = directed(&self.rotation.turned(&surds(axis)));
+        let is_rational = direction.iter().chain(&self.origin).all(|entry| entry.rational().is_some());
+        let square: BigRational = direction.iter().filter_map(|entry| entry.rational()).map(|x| x * x).sum();
+        let is_square = |n: &BigInt| n.sqrt().pow(2) == *n;
+        [is_rational, is_rational && is_square(square.numer()) && is_square(square.denom())]
     }
 
     /// The frame that stands at `inner` in this one.
@@ -32,16 +59,22 @@ impl Frame {
     pub fn then(&self, inner: &Placement) -> Self {
         let moved = self.rotation.turned(&surds(&inner.origin));
         let origin = std::array::from_fn(|i| self.origin[i].add(&moved[i]).shortened());
-        Frame { rotation: self.rotation.then(&inner.rotation).shortened(), origin }
+        self.at(self.rotation.then(&inner.rotation), origin)
+    }
+
+    /// The frame with this rotation and origin.
+    fn at(&self, rotation: ExactRotation, origin: SurdVector) -> Self {
+        let rotation = if self.rounds { rotation.made_rational() } else { rotation };
+        Frame { rotation: rotation.shortened(), origin, rounds: self.rounds }
     }
 
     /// The frame in which this one stands at `inner`.
     #[must_use]
     pub fn before(&self, inner: &Placement) -> Self {
-        let rotation = self.rotation.then(&inner.rotation.inverse()).shortened();
-        let moved = rotation.turned(&surds(&inner.origin));
+        let turned = self.at(self.rotation.then(&inner.rotation.inverse()), self.origin.clone());
+        let moved = turned.rotation.turned(&surds(&inner.origin));
         let origin = std::array::from_fn(|i| self.origin[i].sub(&moved[i]).shortened());
-        Frame { rotation, origin }
+        Frame { origin, ..turned }
     }
 
     /// The direction `axis` of this frame in the base frame (0.866025 stands for sqrt 3 / 2 in a unit vector), in coprime integers when
@@ -63,6 +96,31 @@ impl Frame {
     /// This frame as the tip of a chain.
     pub fn tip(&self) -> Tip {
         Tip { point: self.point(), rotation: self.rotation.matrix() }
+    }
+}
+
+/// What a walk met: axes that are not rational, axes that are but have directions of an irrational length, and others.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rationality {
+    rational: usize,
+    slanted: usize,
+    irrational: usize,
+}
+
+impl Rationality {
+    /// Counts an axis by its [`Frame::rationality`].
+    pub fn add(&mut self, [is_rational, has_length]: [bool; 2]) {
+        match (is_rational, has_length) {
+            (false, _) => self.irrational += 1,
+            (true, false) => self.slanted += 1,
+            (true, true) => self.rational += 1,
+        }
+    }
+
+    /// Whether the chain is to be told as it is: all axes are rational, and those along diagonals, whose lengths are roots, are the fewer, as
+    /// that of a hip is, and not those of an arm on a slanted base.
+    fn is_exact(self) -> bool {
+        self.irrational == 0 && self.slanted <= self.rational
     }
 }
 

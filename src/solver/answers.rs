@@ -8,7 +8,7 @@ use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING};
+use super::{ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, TWIN, TWINS_AT};
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -132,7 +132,25 @@ impl<'a> Answers<'a> {
             self.around(path, &end, &fit, missed);
             self.opposite(path, &q, &end);
         }
+        if self.program.nearby && (ROUNDING..=NEAR).contains(&missed) {
+            self.twin(path, &end, missed);
+        }
         self.keep(path, &end, &fit);
+    }
+
+    /// The formulas of a nearby mechanism propose one double root where there are two answers next to each other, as far apart as the
+    /// square root of what they miss: from beyond both, in the direction in which the equations change least, Newton steps lead to the
+    /// nearer one.
+    fn twin(&mut self, path: &Path, end: &Joints, missed: f64) {
+        let Some((way, share)) = refine::stillest(self.program, end, &mut self.frame) else { return };
+        if share > TWIN * missed.sqrt() {
+            return;
+        }
+        for times in TWINS_AT {
+            let mut start = refine::moved(self.program, end, &way.map(|way| times * missed.sqrt() * way));
+            let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
+            self.keep(path, &start, &fit);
+        }
     }
 
     /// A candidate next to a double root stands between two answers: where one is an `end` of polishing, starts from the other side.

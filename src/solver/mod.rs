@@ -109,6 +109,14 @@ pub const FARTHEST: f64 = 256.0;
 pub const ALONE: f64 = 1e-13;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 pub const LEVER: f64 = 0.1;
+/// Where formulas of a nearby mechanism propose one answer, another is looked for where the equations change by less than so many times the
+/// square root of what it misses, which is about how far apart the two are.
+pub const TWIN: f64 = 10.0;
+/// How many times that square root from the one answer the other is looked for; farther where the joint that moves most, as one of a wrist
+/// that is nearly straight, only follows.
+pub const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
+/// Inverse iterations that tell in what direction the equations change least.
+pub const INVERSIONS: usize = 3;
 /// Half-way between two answers next to each other that are one the equations hold within this share, which is hardly more than rounding
 /// leaves of an answer; between two that are not they need not miss by much more.
 pub const ALIKE: f64 = 2.5e-15;

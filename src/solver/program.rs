@@ -252,6 +252,14 @@ pub struct Program {
     /// one that rounding has doubled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub isolated: Option<usize>,
+    /// The blocks are those of a mechanism near the one that the equations are of: what they propose is a beginning, and of two answers
+    /// next to each other, or of none, they may propose one double one.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub nearby: bool,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 impl Program {

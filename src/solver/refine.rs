@@ -4,8 +4,8 @@ use super::frame::Frame;
 use super::instruction::Operand;
 use super::program::{Checks, JointValue, Program};
 use super::{
-    ACCEPT, DAMPINGS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SHORT,
-    STIFF,
+    ACCEPT, DAMPINGS, INVERSIONS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ROUNDING, SHORT, STIFF,
 };
 
 /// Joint values; places behind the program's joints are zero.
@@ -244,7 +244,7 @@ pub(super) fn weights(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> J
 }
 
 /// `q - step`, angles in (-pi, pi].
-fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
+pub(super) fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
     let mut moved = *q;
     for (index, joint) in program.joints.iter().enumerate() {
         let value = q[index] - step[index];
@@ -284,6 +284,33 @@ pub(super) fn regularity(program: &Program, q: &Joints, frame: &mut Frame<'_>) -
         (least, most) = (least.min(column[row].abs()), most.max(column[row].abs()));
     }
     least / most
+}
+
+/// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
+/// inverse iteration; `None` where a pivot is zero.
+pub(super) fn stillest(program: &Program, q: &Joints, frame: &mut Frame<'_>) -> Option<(Joints, f64)> {
+    measure(program, q, frame);
+    let mut columns = triangle(program, 0.0, &NONE_FREE, frame);
+    let joints = program.joints.len();
+    let most = (0..joints).map(|joint| columns[joint][joint].abs()).fold(0.0, f64::max);
+    let mut way: Joints = [1.0; MAX_JOINTS];
+    let mut share = 1.0;
+    for _ in 0..INVERSIONS {
+        for row in 0..joints {
+            let above = columns[row][..row].iter().zip(&columns[joints]);
+            let sum = above.fold(way[row], |sum, (entry, solved)| sum - entry * solved);
+            columns[joints][row] = sum / columns[row][row];
+        }
+        let before = size(&columns[joints][..joints]);
+        way = substituted(&columns)?;
+        share = before / (size(&way[..joints]) * most);
+    }
+    let longest = length(program, &way);
+    (longest.is_finite() && longest > 0.0).then(|| (way.map(|way| way / longest), share))
+}
+
+fn size(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 /// The triangle of a step's equations, the right side in the last column.

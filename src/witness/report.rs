@@ -259,6 +259,31 @@ impl fmt::Display for Fault {
     }
 }
 
+impl Fault {
+    /// What is wrong, in words.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Fault::Missing => "the joint values that made the target are not among them",
+            Fault::Residual => "one does not bring the tip to the target",
+            Fault::Range => "one is not finite, or has an angle outside (-pi, pi]",
+            Fault::Duplicate => "two are the same",
+            Fault::Bound => "there are more than the certified number of complex solutions",
+            Fault::Free => "a joint is called free that cannot move there",
+            Fault::Family => "the target has a family of solutions, and none has a free joint that stands for it",
+            Fault::Count => "there are not as many as exact real roots",
+            Fault::Screw => "the screw solver (Paden-Kahan) has others",
+            Fault::Oracle => "damped least squares from many seeds has others",
+        }
+    }
+}
+
+impl Verdict {
+    /// What is wrong; empty where nothing is.
+    pub fn faults(&self) -> &[Fault] {
+        if let Verdict::Fail(faults) = self { faults } else { &[] }
+    }
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

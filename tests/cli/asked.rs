@@ -124,9 +124,44 @@ fn seven_joints_with_one_of_them_free() {
     let (_kept, robot) = seven();
     let arm = Asked { robot: &robot, ends: &["--free", "A3"] };
     arm.assert_solves(arm.derive().path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
+}
+
+#[test]
+fn the_planner_chooses_the_joint_that_is_given() {
+    let (_kept, robot) = seven();
+    let arm = Asked { robot: &robot, ends: &[] };
+    let folder = arm.derive();
+    assert_eq!(task_file(&folder), "given = [\"A7\"]\n");
+    Asked { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
     let out = tempdir().unwrap();
-    let error = refused(&["derive", &robot, "--out", text(out.path())]);
-    assert!(error.contains("some of the 7 unknown joints free") && error.contains("`A3`"), "{error}");
+    let told = succeed(&["derive", &robot, "--out", text(out.path())]);
+    assert!(told.starts_with("The value of `A7` is given with each target: the planner chose it"), "{told}");
+}
+
+/// Names of URDFs may have any characters; the functions of printed solvers may not.
+#[test]
+fn a_robot_of_any_name_is_derived() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("robot.urdf");
+    let text_of = fs::read_to_string(urdf("kr6_r900.urdf")).unwrap();
+    fs::write(&file, text_of.replacen("name=\"kr6r900\"", "name=\"6-axis näo.2\"", 1)).unwrap();
+    let out = tempdir().unwrap();
+    succeed(&["derive", text(&file), "--task", "position", "--tip", "link_4", "--quiet", "--out", text(out.path())]);
+    let printed = succeed(&["codegen", text(out.path()), "--lang", "c"]);
+    assert!(printed.contains("int x6_axis_n_o_2_link_4_solve("), "{printed}");
+}
+
+/// The first five joints of a KUKA KR 6 are to reach a pose, which has six freedoms: only consistent targets are solved, and special ones
+/// may have more solutions than generic ones.
+#[test]
+fn five_joints_for_a_pose_are_solved_where_it_is_consistent() {
+    let arm = Asked { robot: &urdf("kr6_r900.urdf"), ends: &["--tip", "link_5"] };
+    let folder = arm.derive();
+    // Where forward kinematics brings the tip at 0.3, -0.5, 0.7, 0.4, 0.6 rad.
+    let reached = "0.8052354099031206,-0.24908850175229894,0.5689998313554302,\
+                   -0.13548885178968467,0.4064672926279581,-0.17392426904970276,0.8866664872994451";
+    arm.assert_solves(folder.path(), reached, 1);
+    arm.assert_solves(folder.path(), "0.5,0.1,0.7,0,0,0,1", 0);
 }
 
 /// The elbow of a UR5 turned by 1e-5 rad has nothing in common with its neighbours; the ideal robot is the UR5 itself.

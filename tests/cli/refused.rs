@@ -73,10 +73,9 @@ fn systems_without_finitely_many_solutions() {
     refuse_file("0_system.toml", &system(&["c - p"]), &["Wrist stay free"]);
     let gantry = "name = \"gantry\"\ntask = { kind = \"planar_position\", plane = \"xz\" }\njoint = [\n\
         { name = \"Along\", type = \"prismatic\", axis = [1, 0, 0], point = [0, 0, 0] },\n\
-        { name = \"Up\", type = \"prismatic\", axis = [0, 0, 1], point = [0, 0, 0] },\n\
-        { name = \"Turn\", type = \"revolute\", axis = [0, 1, 0], point = [0, 0, 0] },\n]\n\
+        { name = \"Beside\", type = \"prismatic\", axis = [1, 0, 0], point = [0, 0, 0] },\n]\n\
         tip = { point = [0, 0, 1] }\n";
-    let told = ["some of the 3 unknown joints free", "the value of one of the joints `Along`, `Up`, `Turn`"];
+    let told = ["some of the 2 unknown joints free", "the value of one of the joints `Along`, `Beside`"];
     refuse_file("0_chain.toml", gantry.as_bytes(), &told);
 }
 
@@ -129,4 +128,9 @@ fn programs() {
     assert!(malformed.contains("5_program.json: line 2:"), "{malformed}");
     fs::write(&file, noise(100_000)).unwrap();
     refused(&["solve", text(&file), "--target", "1,2"]);
+    let robot = root("tests/corpus/urdf/ur5.urdf");
+    for command in [&["solve", text(&robot), "--target", "1,2"][..], &["codegen", text(&robot), "--lang", "c"]] {
+        let error = refused(command);
+        assert!(error.contains("ur5.urdf: this is no derived solver") && error.contains("groebot derive"), "{error}");
+    }
 }

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 
 use serde_json::Value;
 
-use super::{Ran, groebot, leg, run_on, succeed};
+use super::{Ran, groebot, leg, root, run_on, succeed, text};
 use crate::codegen::samples::wrist;
 
 /// Forward kinematics of the NAO leg, written down here from its drawing: thigh 100 mm, tibia 102.9 mm.
@@ -72,6 +72,30 @@ fn text_shows_joints_units_and_the_choice() {
     }
 }
 
+/// NAO's arm bends its elbow from -88.5 to -2 degrees: answers with another angle are marked, in every form.
+#[test]
+fn joints_outside_their_limits_are_named() {
+    let folder = root("derivations/nao_left_arm");
+    let target = "0.17648328015551007,0.07036101008144624,0.017430638031218543,\
+                  0.8203490359957188,-0.5332414915294964,-0.20659373381662172";
+    let page: Value = serde_json::from_str(&succeed(&["solve", text(&folder), "--json", "--target", target])).unwrap();
+    let shown = succeed(&["solve", text(&folder), "--target", target]);
+    let csv = run_on(&["solve", text(&folder)], format!("{target}\n").as_bytes()).out;
+    let answers = page["solutions"].as_array().unwrap();
+    assert!(answers.len() > 1, "{page}");
+    for (answer, (line, row)) in answers.iter().zip(shown.lines().skip(2).zip(csv.lines().skip(1))) {
+        let elbow = answer["q"][3].as_f64().unwrap().to_degrees();
+        let names = answer["outside_limits"].as_array().unwrap();
+        assert_eq!(names.contains(&Value::from("ElbowRoll")), !(-88.5..=-2.0).contains(&elbow), "{answer}");
+        assert_eq!(line.contains("ElbowRoll outside its limits"), names.contains(&Value::from("ElbowRoll")), "{line}");
+        let last = row.rsplit(',').next().unwrap();
+        assert_eq!(
+            last.split_whitespace().collect::<Vec<_>>(),
+            names.iter().map(|n| n.as_str().unwrap()).collect::<Vec<_>>()
+        );
+    }
+}
+
 #[test]
 fn degrees_are_radians_in_degrees() {
     let (radians, degrees) = (json("60,150", &[]), json("60,150", &["--degrees"]));
@@ -92,7 +116,7 @@ fn csv_says_what_json_says_and_reads_its_own_output() {
     let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..5], ["target", "px", "pz", "solutions", "branch"]);
     assert_eq!(rows.len(), 1 + 2 + 1 + 2, "{}", ran.out);
-    assert_eq!(rows[3], ["2", "0", "0", "0", "", "", "", "", "", ""]);
+    assert_eq!(rows[3], ["2", "0", "0", "0", "", "", "", "", "", "", ""]);
     let answer = json("60,150", &[]);
     for (row, solution) in rows[1..3].iter().zip(answer["solutions"].as_array().unwrap()) {
         let q: Vec<f64> = row[5..7].iter().map(|cell| cell.parse().unwrap()).collect();

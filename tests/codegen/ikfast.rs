@@ -277,3 +277,13 @@ fn what_ikfast_has_no_words_for_is_refused() {
         assert_eq!(emit(puma, &options).unwrap_err().kind(), ErrorKind::BadValue);
     }
 }
+
+/// A SCARA's tool stays upright: a pose that is rounded to single precision is tilted by 1e-8 rad, which no joints reach.
+#[test]
+fn rounded_targets_of_a_task_that_asks_too_much_are_refused() {
+    let scara = &named(&["scara"])[0].program;
+    let error = emit(scara, &Options { namespace: None, single: true }).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    assert!(error.message().contains("take double precision"), "{error}");
+    assert!(emit(scara, &Options::default()).is_ok());
+}

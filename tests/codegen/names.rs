@@ -47,6 +47,7 @@ fn named(names: &[String]) -> Program {
         preference: None,
         capacity: 1,
         isolated: None,
+        nearby: false,
     }
 }
 

@@ -68,7 +68,17 @@ pub fn compare(program: &Program, count: usize) -> Option<Seen> {
 
 #[test]
 fn answers_of_single_precision_are_near_those_of_double_precision() {
-    for stored in named(&["puma", "ur5", "nao_left_leg", "scara", "planar_3r", "iiwa14"]) {
+    for stored in named(&[
+        "puma",
+        "ur5",
+        "nao_left_leg",
+        "nao_left_arm",
+        "offset_wrist",
+        "spherical_wrist",
+        "scara",
+        "planar_3r",
+        "iiwa14",
+    ]) {
         let Some(seen) = compare(&stored.program, 1500) else { return };
         println!("{}: {seen:?}", stored.name);
         assert!(seen.farthest <= 1e-4, "{}: {seen:?}", stored.name);

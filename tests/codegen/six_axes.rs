@@ -10,9 +10,10 @@ use super::harness::{SANITIZERS, build, compare, executables, feed, has_sanitize
 use super::single;
 use super::stored::{Stored, named};
 
-const FOLDERS: [&str; 8] = [
+const FOLDERS: [&str; 9] = [
     "booster_leg_like",
     "crx_like",
+    "gen3_like",
     "general_4r2p",
     "general_5r1p",
     "general_6r",

@@ -90,6 +90,7 @@ fn mistakes_have_a_line_and_a_name() {
         ("name=\"nail\"", "name=\"knuckle\"", DuplicateName, "joint `knuckle`"),
         ("type=\"revolute\"", "", MissingKey, "joint `knuckle`: <joint> has no `type`"),
         ("type=\"revolute\"", "type=\"revolut\"", BadValue, "did you mean `revolute`?"),
+        ("<axis ", "<axes ", UnknownKey, "<axes> is no element of a joint (did you mean `axis`?)"),
         ("<parent link=\"palm\"/>", "", MissingKey, "joint `knuckle`: <joint> has no <parent"),
         (
             "<parent link=\"palm\"/>",

@@ -72,6 +72,7 @@ fn tasks_are_as_promised() {
             "wrist_rotation" => (Task::Rotation, &[]),
             "polar" | "rrp" | "rh0_arm" => (Task::Position, &[]),
             "iiwa14" => (Task::Pose, &[2]),
+            "gen3_like" => (Task::Pose, &[6]),
             "planar_4r" => (chain.task(), &[0]),
             _ if chain.task().plane().is_some() => (chain.task(), &[]),
             _ => (Task::Pose, &[]),

@@ -55,6 +55,7 @@ fn slide() -> Program {
         preference: None,
         capacity: 1,
         isolated: None,
+        nearby: false,
     }
 }
 

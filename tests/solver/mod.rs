@@ -132,6 +132,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         preference: None,
         capacity: 1,
         isolated: None,
+        nearby: false,
     };
     program.validate().unwrap();
     program.solve(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()

@@ -6,9 +6,10 @@ use groebot::Watch;
 use groebot::derive::{Proved, Source};
 
 /// Their names, and how many complex solutions they have.
-const FOLDERS: [(&str, usize); 8] = [
+const FOLDERS: [(&str, usize); 9] = [
     ("booster_leg_like", 16),
     ("crx_like", 16),
+    ("gen3_like", 16),
     ("general_4r2p", 8),
     ("general_5r1p", 16),
     ("general_6r", 16),

@@ -4,6 +4,7 @@ mod counts;
 mod curve;
 mod derivations;
 mod eigenvalues;
+mod given;
 mod program;
 mod regular;
 mod robots;

@@ -3,13 +3,15 @@
 use std::f64::consts::PI;
 
 use groebot::kinematics::oracle::{Oracle, Unknown};
-use groebot::kinematics::{Chain, JointKind, Task};
+use groebot::kinematics::{Chain, JointKind, Task, Tree};
 use groebot::number::BigRational;
 use groebot::robots;
 use groebot::solver::Solution;
 use groebot::witness::chain::{ByScrews, Check, Solver, count_exactly};
 use groebot::witness::{Fault, Kind, Options, Report, Verdict};
 use groebot::{Result, Watch};
+
+const KR6: &str = include_str!("../corpus/urdf/kr6_r900.urdf");
 
 fn run(chain: &Chain, solver: &dyn Solver, bound: Option<usize>, options: Options) -> Report {
     Check::run(chain, solver, bound, &options, &Watch::none()).unwrap()
@@ -209,6 +211,26 @@ fn exact_counts_are_those_of_screw_theory() {
             let exact = counted.solutions.unwrap_or(answers.len());
             assert_eq!(exact, answers.len(), "{}: {:?}", chain.name(), counted.joints);
         }
+    }
+}
+
+/// A base that stands turned by angles without exact sines, and a tool held at such an angle, change neither the number of solutions nor
+/// the effort to count them.
+#[test]
+fn a_turned_base_and_a_tool_leave_the_counts() {
+    let count = |text: &str| {
+        let chain = Tree::from_urdf(text).unwrap().chain(None, None).unwrap();
+        let counted = count_exactly(&chain, 8, 7, &Watch::none()).unwrap();
+        counted.into_iter().map(|counted| counted.solutions).collect::<Vec<_>>()
+    };
+    let straight = count(KR6);
+    assert!(straight.iter().all(Option::is_some), "{straight:?}");
+    for (rpy, turned) in [("0 0 0.3", "0 0 0"), ("0.3 0.2 0.1", "0.4 -0.7 1.1")] {
+        let (first, rest) = KR6.split_once("rpy=\"0 0 0\"").unwrap();
+        let (middle, tool) = rest.split_at(rest.rfind("rpy=").unwrap());
+        let tool = tool.replacen("0 1.57079632679 0", turned, 1);
+        assert_ne!(tool, rest[middle.len()..], "the tool is turned");
+        assert_eq!(count(&format!("{first}rpy=\"{rpy}\"{middle}{tool}")), straight, "{rpy}");
     }
 }
 

@@ -15,6 +15,8 @@ use groebot::solver::Solution;
 use groebot::witness::chain::{ByScrews, Check, Solver};
 use groebot::witness::{Options, Report};
 use groebot::{Result, Watch};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
 
 use super::read;
 
@@ -23,9 +25,10 @@ use super::read;
 const OTHER_WAYS: [&str; 3] = ["irb4600_rounded", "nao_arm_planar", "nao_leg_sagittal"];
 
 /// Folders of chains that have no order of joints: `tests/template`.
-const TOGETHER: [&str; 8] = [
+const TOGETHER: [&str; 9] = [
     "booster_leg_like",
     "crx_like",
+    "gen3_like",
     "general_4r2p",
     "general_5r1p",
     "general_6r",
@@ -294,6 +297,29 @@ fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
         assert!(found.iter().any(is_found), "{near:?}: {found:?}");
         let reached = derived.reached(&near).unwrap();
         assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-11), "{near:?}");
+    }
+}
+
+/// Next to the stretched and the folded arm the ideal robot has one double root, or none, where the robot as described has two answers.
+#[test]
+fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
+    let Proved::Chain(derived) = Proved::of(&read("irb4600_rounded"), &Watch::none()).unwrap() else {
+        panic!("it is a chain")
+    };
+    // The wrist lies 0.96 m ahead of axis 3 and 0.175 m above it, axis 2 right below.
+    let stretched = 0.175_f64.atan2(0.96) - FRAC_PI_2;
+    for (straight, width) in [(stretched, 1e-3), (stretched, 1e-2), (stretched + PI, 1e-3), (stretched + PI, 1e-2)] {
+        let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(250) });
+        let run = |mut q: [f64; 6]| {
+            q[2] = straight + width * q[2] / 3.0;
+            // Next to a straight wrist as well, joints 4 and 6 are hardly determined.
+            prop_assume!(q[4].sin().abs() > 0.05);
+            let found = derived.program.solve(&derived.reached(&q).unwrap()).unwrap();
+            let is_found = |a: &Solution| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-6);
+            prop_assert!(found.iter().any(is_found), "{q:?}: {found:?}");
+            Ok(())
+        };
+        runner.run(&prop::array::uniform6(-3.0..3.0), run).unwrap();
     }
 }
 

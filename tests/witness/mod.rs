@@ -3,6 +3,7 @@
 mod chain;
 mod chains;
 mod derived;
+mod mounted;
 mod screws;
 
 use groebot::Watch;

@@ -15,7 +15,7 @@ pub struct ScrewJoint {
     pub symbol: String,
     /// How it moves.
     pub kind: JointKind,
-    /// w: along the axis; of length one where that is rational, else of coprime integers.
+    /// w: along the axis; of length one where that is rational, else of coprime integers while they are short.
     pub axis: ExactVector,
     /// |w|^2, so that c^2 + |w|^2 s'^2 = 1.
     pub square: BigRational,
@@ -129,7 +129,7 @@ impl Mechanism {
     }
 
     /// The direction that the tasks `ray` and `direction` aim, at zero in the base frame: of length one where that is rational, else
-    /// of coprime integers. The parameters dx, dy, dz of the relations are a vector of *this* length.
+    /// of coprime integers while they are short. The parameters dx, dy, dz of the relations are a vector of *this* length.
     pub fn aim(&self) -> &ExactVector {
         &self.aim
     }

@@ -61,12 +61,12 @@ pub fn turn(matrix: &ExactMatrix, a: &ExactVector) -> ExactVector {
     matrix.each_ref().map(|row| dot(row, a))
 }
 
-/// The unit vector along `a` when it is rational, else the vector along `a` of coprime integers.
+/// The unit vector along `a` when it is rational, else as [`tidy`].
 pub fn normalised(a: &ExactVector) -> ExactVector {
     let square = dot(a, a);
     match rational_root(&square) {
         Some(length) if !length.is_zero() => scale(a, &length.abs().recip()),
-        _ => primitive(a),
+        _ => tidy(a),
     }
 }
 

@@ -295,6 +295,7 @@ impl<'a> Common<'a> {
             preference: None,
             capacity: 1,
             isolated: None,
+            nearby: false,
             scale,
         }
         .prefixed(self.sides[0].prefix);

@@ -2,21 +2,25 @@
 
 use super::checks::checks;
 use super::layout::Layout;
-use super::program::{joints, reach};
+use super::program::{given, joints, reach};
 use crate::derive::closure::Mechanism;
+use crate::document::word;
 use crate::kinematics::Chain;
 use crate::solver::Program;
 
-/// A program of `chain` with everything but blocks: the target, the joints, the checks.
+/// A program of `chain` with everything but blocks that find joints: the target, the joints, the given ones where they are told to be,
+/// the checks.
 pub(in crate::derive) fn frame_of(chain: &Chain, mechanism: &Mechanism) -> Program {
-    framed(chain, mechanism, Layout::new(mechanism, chain.length_unit()))
+    let layout = Layout::new(mechanism, chain.length_unit());
+    let blocks = mechanism.given().iter().map(|&joint| given(mechanism, &layout, joint)).collect();
+    Program { blocks, ..framed(chain, mechanism, layout) }
 }
 
 /// The same with the unknowns that blocks have laid out.
 pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Program {
     let reach = reach(chain);
     Program {
-        name: chain.name().to_owned(),
+        name: word(chain.name()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         about: None,
         checks: checks(mechanism, &layout, reach),
@@ -28,6 +32,7 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
         scale: reach,
         capacity: 1,
         isolated: None,
+        nearby: false,
         blocks: Vec::new(),
         preference: None,
     }

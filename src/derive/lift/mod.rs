@@ -104,6 +104,7 @@ impl Derived {
         let mechanism = Mechanism::new(&chain)?;
         let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.tolerance))?;
         derived.program.checks = program::checks_on(truth)?;
+        derived.program.nearby = true;
         derived.truth = Some((truth.clone(), report));
         Ok(derived)
     }

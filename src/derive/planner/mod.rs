@@ -9,6 +9,7 @@
 mod echelon;
 mod eliminated;
 mod evidence;
+mod given;
 mod one_joint;
 mod refuse;
 mod search;
@@ -16,6 +17,7 @@ mod sights;
 mod specimen;
 mod types;
 
+pub use given::joint_to_give;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 

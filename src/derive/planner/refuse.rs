@@ -15,7 +15,8 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
         [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
-        [] => "more than one must be given, or another task asked".to_owned(),
+        [] if unknown.len() > 1 => "more than one must be given, or another task asked".to_owned(),
+        [] => "ask for another task".to_owned(),
         [one] => format!("give the value of the joint {one}"),
         list => format!("give the value of one of the joints {}", list.join(", ")),
     };
@@ -25,8 +26,26 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
 }
 
 /// The places of the chain's own joints that are not given.
-fn driven(mechanism: &Mechanism) -> Vec<usize> {
+pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
     mechanism.unknown().into_iter().filter(|&joint| mechanism.hidden() != Some(joint)).collect()
+}
+
+/// The error of a mechanism with one joint too many of which none can be given: what each leads to.
+pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
+    let told = |(joint, error): &(usize, Error)| {
+        let name = &mechanism.joints()[*joint].name;
+        let end = error.message().find(" (values").or(error.message().find(':')).unwrap_or(error.message().len());
+        format!("with `{name}` given, {}", &error.message()[..end])
+    };
+    let told: Vec<String> = refusals.iter().map(told).collect();
+    let text = format!(
+        "the `{}` task leaves one of the {} joints free, and no joint that is given leaves others that can be found one at a time with \
+         at most 4 values each (an eigenvalue problem is for a pose): {}",
+        mechanism.task().name(),
+        refusals.len(),
+        told.join("; ")
+    );
+    Error::new(ErrorKind::Unsupported, text)
 }
 
 /// The names of the joints that leave finitely many solutions when their value is given.

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::given::Six;
 use super::program::program;
-use super::{Determinant, Regular, fits, ranked};
+use super::{Determinant, Regular, ranked};
 use crate::derive::certificate::{check_head, refused, unread, written};
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Evidence};
@@ -15,11 +16,13 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// The version of the format; those of systems, chains and limbs have numbers 1 to 3.
 const FORMAT: u32 = 4;
 
-/// The solver of a chain of six joints with axes in any place.
+/// The solver of a chain of six joints with axes in any place, or of seven of which the first or the last is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedSixAxes {
     /// The chain.
     pub chain: Chain,
+    /// Its six joints that are found together, the given one, if there is one, at zero.
+    pub six: Chain,
     /// How many complex solutions random targets modulo primes had.
     pub evidence: Vec<Evidence>,
     /// The eigenvalue problems in the order in which they are tried, each proved regular.
@@ -52,11 +55,12 @@ impl DerivedSixAxes {
     /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]), with infinitely many solutions, or
     /// without a formulation that is regular and accurate; what `watch` stops with.
     pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
-        fits(chain)?;
+        let six = Six::of(chain)?;
         let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
         let evidence = planner::evidence(&Mechanism::new(chain)?, watch)?;
         let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
-        DerivedSixAxes::assemble(chain, evidence, ranked(chain)?)
+        let formulations = ranked(&six.chain)?;
+        DerivedSixAxes::assemble(chain, six, evidence, formulations)
     }
 
     /// Proves the derivation of `chain` anew from the text of its certificate: every determinant is evaluated again.
@@ -66,14 +70,15 @@ impl DerivedSixAxes {
     pub fn prove(chain: &Chain, text: &str) -> Result<Self> {
         let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
         check_head((record.format, &record.name), (FORMAT, chain.name()))?;
-        fits(chain)?;
-        let formulations: Result<Vec<Regular>> = record.formulations.iter().map(|entry| entry.prove(chain)).collect();
+        let six = Six::of(chain)?;
+        let formulations: Result<Vec<Regular>> =
+            record.formulations.iter().map(|entry| entry.prove(&six.chain)).collect();
         let formulations = formulations?;
         let claimed = record.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
         if formulations.is_empty() || claimed == 0 || claimed > SIZE {
             return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
         }
-        DerivedSixAxes::assemble(chain, record.evidence, formulations)
+        DerivedSixAxes::assemble(chain, six, record.evidence, formulations)
     }
 
     /// Whether `text` is the certificate of six axes.
@@ -99,10 +104,10 @@ impl DerivedSixAxes {
         dimension(&self.evidence)
     }
 
-    fn assemble(chain: &Chain, evidence: Vec<Evidence>, formulations: Vec<Regular>) -> Result<Self> {
+    fn assemble(chain: &Chain, six: Six, evidence: Vec<Evidence>, formulations: Vec<Regular>) -> Result<Self> {
         let order = formulations.iter().map(|regular| regular.formulation).collect();
-        let program = program(chain, order, dimension(&evidence))?;
-        Ok(DerivedSixAxes { chain: chain.clone(), evidence, formulations, program })
+        let program = program(chain, &six, order, dimension(&evidence))?;
+        Ok(DerivedSixAxes { chain: chain.clone(), six: six.chain, evidence, formulations, program })
     }
 }
 

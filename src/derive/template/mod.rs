@@ -2,6 +2,7 @@
 //! and which of them are accurate ([`formulations`], [`crate::solver::template::SixAxes`]).
 
 mod derived;
+mod given;
 mod program;
 mod rank;
 mod residue;
@@ -13,9 +14,10 @@ pub use rank::Determinant;
 pub use residue::Residue;
 pub use survey::survey;
 
+use given::Six;
 use num_traits::ToPrimitive;
 
-use crate::kinematics::{Chain, JointKind, Task};
+use crate::kinematics::{Chain, JointKind};
 use crate::number::primes_below;
 use crate::solver::template::{Formulation, Layout, Line, Template};
 use crate::spatial::Screw;
@@ -36,9 +38,9 @@ pub struct Regular {
 /// The regular formulations of `chain`.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a chain of anything but six joints and a task other than a pose.
+/// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]).
 pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
-    fits(chain)?;
+    let chain = &Six::of(chain)?.chain;
     let mut regular = Vec::new();
     for formulation in all() {
         let primes = primes_below(1 << 31).enumerate();
@@ -56,15 +58,12 @@ pub fn all() -> impl Iterator<Item = Formulation> {
     (0..6).flat_map(|hidden| [false, true].map(|second| Formulation { hidden, second }))
 }
 
-/// Whether the eigenvalue problem is one for `chain`.
+/// Whether the eigenvalue problem is one for `chain`: six joints for a pose, or seven of which the first or the last is given.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] that says what it is for.
 pub fn fits(chain: &Chain) -> Result<()> {
-    if chain.joints().len() == 6 && chain.task() == Task::Pose && chain.given().is_empty() {
-        return Ok(());
-    }
-    Err(Error::new(ErrorKind::Unsupported, "the eigenvalue problem is for the pose of six joints, none given"))
+    Six::of(chain).map(drop)
 }
 
 /// By joint of a chain of six: whether it slides.

@@ -1,6 +1,8 @@
 //! The program of six axes: one block that finds all joints together.
 
+use super::given::Six;
 use super::layout;
+use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
 use crate::derive::lift::frame_of;
 use crate::kinematics::Chain;
@@ -8,24 +10,27 @@ use crate::solver::template::{Formulation, Layout, ROOM, Rigid, SixAxes, SixAxes
 use crate::solver::{Block, Chart, Operand, Program, Step};
 use crate::{Error, ErrorKind, Result};
 
-/// The program of `chain` by these formulations.
+/// The program of `chain`, whose six joints are found by these formulations.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a chain that is not of six joints; as [`SixAxes::new`] and [`Mechanism::new`].
-pub(super) fn program(chain: &Chain, formulations: Vec<Formulation>, dimension: usize) -> Result<Program> {
+/// As [`SixAxes::new`], [`Mechanism::new`] and [`Six::target`].
+pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, dimension: usize) -> Result<Program> {
     let mechanism = Mechanism::new(chain)?;
     let frame = frame_of(chain, &mechanism);
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
-    let Layout { lines, slides, length } = layout(chain);
-    let joints: Vec<_> = frame.joints.iter().map(|joint| joint.value).collect();
+    let Layout { lines, slides, length } = layout(&six.chain);
+    // The parameters: the target's twelve, then those of the given joint.
+    let value: Vec<Operand> = (12..frame.parameters.len()).map(Operand::Parameter).collect();
+    let mut assembler = Assembler::default();
+    let target = six.target(chain, std::array::from_fn(Operand::Parameter), &value, &mut assembler)?;
     let step = SixAxes::new(SixAxesParts {
         length,
         lines,
         slides,
         tip: tip(chain),
         formulations,
-        joints: joints.try_into().map_err(|_| unsupported("six joints are needed"))?,
-        target: std::array::from_fn(Operand::Parameter),
+        joints: six.places().map(|place| frame.joints[place].value),
+        target,
     })?;
     let chart = Chart {
         label: "six axes".to_owned(),
@@ -37,12 +42,9 @@ pub(super) fn program(chain: &Chain, formulations: Vec<Formulation>, dimension: 
         open: false,
         first_branch: 0,
     };
-    let program = Program {
-        blocks: vec![Block::numbered("all joints", Vec::new(), vec![chart])],
-        capacity: ROOM,
-        isolated: Some(dimension),
-        ..frame
-    };
+    let mut blocks = frame.blocks.clone();
+    blocks.push(Block::numbered("all joints", assembler.take(), vec![chart]));
+    let program = Program { blocks, capacity: ROOM, isolated: Some(dimension), nearby: false, ..frame };
     program.validate().map_err(|error| unsupported(error.message()))?;
     Ok(program)
 }

@@ -62,16 +62,23 @@ impl DerivedSixAxes {
 
     /// How the equations come about, and what is different for joints that slide if there are any.
     fn told_equations(&self) -> impl Iterator<Item = &'static str> {
-        let slides = self.chain.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
+        let slides = self.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
         EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
     }
 
     fn plan_text(&self) -> String {
         let mut text = format!("{}: plan\n\n", self.chain.name());
-        for line in self.counts().into_iter().chain(self.choices()) {
+        for line in self.given().into_iter().chain(self.counts()).chain(self.choices()) {
             let _ = writeln!(text, "{line}");
         }
         text
+    }
+
+    /// What is done with the joint that is given.
+    pub fn given(&self) -> Option<String> {
+        let name = self.chain.parts().given.first()?;
+        let text = "is given: its motion is taken off the target, and what is left is the target of the six others";
+        Some(format!("{name} {text}."))
     }
 
     /// What random targets modulo primes showed.
@@ -106,9 +113,9 @@ impl DerivedSixAxes {
 
     /// What a formulation hides and doubles.
     fn told(&self, formulation: Formulation) -> String {
-        let name = |joint: usize| self.chain.joints()[joint].name.as_str();
+        let name = |joint: usize| self.six.joints()[joint].name.as_str();
         let (hidden, doubled) = (formulation.hidden, formulation.doubled());
-        let slides = |joint: usize| self.chain.joints()[joint].kind == JointKind::Prismatic;
+        let slides = |joint: usize| self.six.joints()[joint].kind == JointKind::Prismatic;
         let what = if slides(hidden) { "way" } else { "angle" };
         let second = match (slides(doubled), slides(hidden)) {
             (true, _) => format!("the equations are multiplied by the way of {}", name(doubled)),
@@ -130,7 +137,7 @@ impl DerivedSixAxes {
              become one eigenvalue problem. Answers that rounding loses are rare and counted: `6_check.csv`.\n",
             self.dimension()
         );
-        for line in self.choices() {
+        for line in self.given().map(|line| line + "\n").into_iter().chain(self.choices()) {
             let _ = writeln!(text, "{line}");
         }
         let inputs = vec!["..."; self.program.inputs.len()].join(",");
@@ -143,7 +150,7 @@ impl DerivedSixAxes {
     pub fn document(&self) -> Document {
         let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.chain.name()));
         self.told_equations().for_each(|line| page.say(line));
-        self.counts().iter().chain(&self.choices()).for_each(|line| page.say(line));
+        self.given().iter().chain(&self.counts()).chain(&self.choices()).for_each(|line| page.say(line));
         page
     }
 }

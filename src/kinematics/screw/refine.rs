@@ -80,15 +80,38 @@ pub(super) fn refine(
     (q, miss)
 }
 
-/// The damped least-squares step.
-fn newton(
+/// Whether some joint of `free` can turn at all near `q`, as far as first derivatives tell: the others, but those of `given`, undo
+/// what it does to the tip.
+pub(super) fn moves_freely(
     screws: &[Screw],
     q: &[f64; MOST_JOINTS],
     goal: &Goal,
     tip: &Vector3<f64>,
     reach: f64,
-    (miss, fixed): (&Miss, &[bool; MOST_JOINTS]),
-) -> Option<SVector<f64, MOST_JOINTS>> {
+    (free, given): (&[bool; MOST_JOINTS], &[usize]),
+) -> bool {
+    /// What is left of a joint's motion, of one radian, when the others undo it.
+    const STILL: f64 = 1e-6;
+    let fixed = std::array::from_fn(|i| given.contains(&i));
+    let whole = jacobian(screws, q, goal, tip, reach, &fixed);
+    (0..screws.len()).filter(|&i| free[i]).any(|i| {
+        let mut others = whole;
+        others.column_mut(i).fill(0.0);
+        let column = whole.column(i).into_owned();
+        let undone = others.svd(true, true).solve(&column, STILL * others.norm());
+        undone.is_ok_and(|motion| (others * motion - column).norm() <= STILL * column.norm())
+    })
+}
+
+/// The motion of the tip, `(v / reach, w)` at the goal, by each joint that is not `fixed`; its first three rows for a point.
+fn jacobian(
+    screws: &[Screw],
+    q: &[f64; MOST_JOINTS],
+    goal: &Goal,
+    tip: &Vector3<f64>,
+    reach: f64,
+    fixed: &[bool; MOST_JOINTS],
+) -> SMatrix<f64, 6, MOST_JOINTS> {
     let mut jacobian = SMatrix::<f64, 6, MOST_JOINTS>::zeros();
     let mut before = Pose::identity();
     let at = match goal {
@@ -108,6 +131,19 @@ fn newton(
         }
         before *= screw.exp(q[i]);
     }
+    jacobian
+}
+
+/// The damped least-squares step.
+fn newton(
+    screws: &[Screw],
+    q: &[f64; MOST_JOINTS],
+    goal: &Goal,
+    tip: &Vector3<f64>,
+    reach: f64,
+    (miss, fixed): (&Miss, &[bool; MOST_JOINTS]),
+) -> Option<SVector<f64, MOST_JOINTS>> {
+    let jacobian = jacobian(screws, q, goal, tip, reach, fixed);
     let mut missing = miss.twist;
     missing.fixed_rows_mut::<3>(0).scale_mut(1.0 / reach);
     let normal = jacobian.transpose() * jacobian;

@@ -18,6 +18,7 @@ use crate::spatial::{Half, angle};
 const FOUND: f64 = 1e-6;
 
 /// A configuration, and the loop that it closes.
+#[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub q: Vec<f64>,
     pub start: Reduced,
@@ -42,21 +43,30 @@ struct Cost {
 pub(super) struct Search<'a> {
     pub samples: &'a [Sample],
     pub scale: Scale,
+    avoided: Option<Move>,
     ways: HashMap<u32, Option<Way>>,
 }
 
+/// What a step does: from which set of known joints to which.
+pub(super) type Move = [u32; 2];
+
 impl<'a> Search<'a> {
     pub fn new(samples: &'a [Sample], scale: Scale) -> Self {
-        Search { samples, scale, ways: HashMap::new() }
+        Search { samples, scale, avoided: None, ways: HashMap::new() }
     }
 
-    /// The steps of the best plan; `None` when the steps that we know do not solve this chain.
-    pub fn plan(&mut self) -> Option<Vec<Step>> {
+    /// The search that takes no step which does this.
+    pub fn avoiding(self, avoided: Move) -> Self {
+        Search { avoided: Some(avoided), ..self }
+    }
+
+    /// The steps of the best plan, each with what it does; `None` when the steps that we know do not solve this chain.
+    pub fn plan(mut self) -> Option<Vec<(Step, Move)>> {
         self.explore(0)?;
         let mut steps = Vec::new();
         let mut known = 0;
         while let Some(Some(Way { step: Some(step), next, .. })) = self.ways.get(&known) {
-            steps.push(step.clone());
+            steps.push((step.clone(), [known, *next]));
             known = *next;
         }
         Some(steps)
@@ -73,10 +83,10 @@ impl<'a> Search<'a> {
             best = Some(Way { cost: Cost { answers: 1, effort: 0 }, step: None, next: known });
         }
         for step in candidates(&loops[0], self.scale) {
-            if !self.holds(&step, &loops) {
+            let next = step.solved(&loops[0]).iter().fold(known, |set, joint| set | 1 << joint);
+            if self.avoided == Some([known, next]) || !self.holds(&step, &loops) {
                 continue;
             }
-            let next = step.solved(&loops[0]).iter().fold(known, |set, joint| set | 1 << joint);
             let Some(rest) = self.explore(next) else { continue };
             let own = step.cost(&loops[0]);
             let cost = Cost { answers: own.answers * rest.answers, effort: own.effort + rest.effort };

@@ -4,13 +4,12 @@ use std::ops::Range;
 
 use nalgebra::{Point3, Vector3};
 
-use super::feature::Scale;
 use super::model::Model;
-use super::plan::{Plan, PlanStep, describe};
+use super::order::{Order, Orders, samples};
+use super::plan::Plan;
 use super::reduced::{Goal, Reduced};
-use super::refine::{MOST_JOINTS, Miss, refine};
-use super::search::{Sample, Search, scale_of};
-use super::step::Step;
+use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
+use super::search::scale_of;
 use super::target::{Solution, Target};
 use crate::kinematics::{Chain, Geometry, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
@@ -30,8 +29,7 @@ const MERGE: f64 = 1e-9;
 pub struct ScrewSolver {
     chain: Chain,
     model: Model,
-    steps: Vec<Step>,
-    plan: Plan,
+    orders: Orders,
     reach: f64,
 }
 
@@ -41,7 +39,19 @@ struct Trail {
     /// What each joint's own screw does at its value.
     motions: [Pose; MOST_JOINTS],
     free: [bool; MOST_JOINTS],
+    /// The steps that left a joint free, a bit each.
+    freeing: u32,
     branch: usize,
+}
+
+/// What the steps of one order find for a goal.
+struct Visit<'a> {
+    order: &'a Order,
+    goal: &'a Goal,
+    found: &'a mut Vec<Solution>,
+    /// The steps, a bit each, that told less than there is: that left a joint free which the other steps do not, or that have no
+    /// object here.
+    doubtful: u32,
 }
 
 impl ScrewSolver {
@@ -55,14 +65,14 @@ impl ScrewSolver {
         model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
         let samples = samples(chain, &model)?;
         let scale = scale_of(&samples[0].start, model.reach);
-        let Some(steps) = Search::new(&samples, scale).plan() else { return Err(unsolved(chain)) };
-        let plan = tell(&steps, &samples[0], scale);
-        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), model, steps, plan })
+        let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(chain)) };
+        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), model, orders })
     }
 
-    /// The order of subproblems.
+    /// The order of subproblems. Others are taken as well where one of its steps degenerates and the chain does not, or no answer is
+    /// found.
     pub fn plan(&self) -> &Plan {
-        &self.plan
+        &self.orders.first.plan
     }
 
     /// The chain that is solved.
@@ -97,34 +107,57 @@ impl ScrewSolver {
         }
         let goal = target.goal(&self.chain)?;
         let start = self.model.start(goal, given.iter().map(|&value| Half::new(value)));
-        let mut found = Vec::with_capacity(self.plan.most_solutions());
+        let mut found = Vec::with_capacity(self.plan().most_solutions());
+        let doubtful = self.visit(&self.orders.first, &start, &goal, given, &mut found);
+        let none = found.is_empty();
+        let degenerate = (0..self.orders.first.steps.len()).filter(|at| none || doubtful >> at & 1 == 1);
+        for order in degenerate.filter_map(|at| self.orders.without(at)) {
+            self.visit(order, &start, &goal, given, &mut found);
+        }
+        Ok(found)
+    }
+
+    /// Solves by one order, and tells its doubtful steps.
+    fn visit(&self, order: &Order, start: &Reduced, goal: &Goal, given: &[f64], found: &mut Vec<Solution>) -> u32 {
         let mut trail = Trail {
             q: [Half::new(0.0); MOST_JOINTS],
             motions: [Pose::identity(); MOST_JOINTS],
             free: [false; MOST_JOINTS],
+            freeing: 0,
             branch: 0,
         };
         for (&joint, &value) in self.model.given.iter().zip(given) {
             trail.q[joint] = Half::new(value);
             trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
         }
-        self.descend(0, &start, &goal, &mut trail, &mut found);
-        Ok(found)
+        let mut visit = Visit { order, goal, found, doubtful: 0 };
+        self.descend(0, start, &mut trail, &mut visit);
+        visit.doubtful
     }
 
     /// Takes step number `depth` in every way that it offers.
-    fn descend(&self, depth: usize, reduced: &Reduced, goal: &Goal, trail: &mut Trail, found: &mut Vec<Solution>) {
-        let step = &self.steps[depth];
+    fn descend(&self, depth: usize, reduced: &Reduced, trail: &mut Trail, visit: &mut Visit) {
+        let step = &visit.order.steps[depth];
         let joints = step.solved(reduced);
-        let branches = trail.branch * self.plan.steps[depth].answers;
-        for (branch, answer) in step.solve(reduced).into_iter().flatten().enumerate() {
+        let branches = trail.branch * visit.order.plan.steps[depth].answers;
+        let freeing = trail.freeing;
+        let answers = step.solve(reduced);
+        if answers.is_none() {
+            visit.doubtful |= 1 << depth;
+        }
+        let answers = answers.unwrap_or_default();
+        if answers.is_empty() {
+            visit.doubtful |= freeing;
+        }
+        for (branch, answer) in answers.into_iter().enumerate() {
             trail.branch = branches + branch;
             for (&joint, value) in joints.iter().zip(&answer) {
                 (trail.q[joint], trail.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
                 trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
             }
-            if depth + 1 == self.steps.len() {
-                self.finish(goal, trail, found);
+            trail.freeing = freeing | u32::from(joints.iter().any(|&joint| trail.free[joint])) << depth;
+            if depth + 1 == visit.order.steps.len() {
+                self.finish(trail, visit);
                 continue;
             }
             let mut rest = reduced.clone();
@@ -133,18 +166,25 @@ impl ScrewSolver {
                     rest.absorb(place, trail.q[joint]);
                 }
             }
-            self.descend(depth + 1, &rest, goal, trail, found);
+            self.descend(depth + 1, &rest, trail, visit);
         }
     }
 
     /// Refines and checks a complete answer, and keeps it when it is new.
-    fn finish(&self, goal: &Goal, trail: &Trail, found: &mut Vec<Solution>) {
+    fn finish(&self, trail: &Trail, visit: &mut Visit) {
         let Model { screws, tip, given, joints, .. } = &self.model;
+        let goal = visit.goal;
         let values = trail.q.map(|half| half.q);
         let miss = Miss::of(&trail.motions[..screws.len()], goal, tip);
         let fixed = std::array::from_fn(|i| trail.free[i] || given.contains(&i));
         let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
-        if miss.size(self.reach).is_nan() || miss.size(self.reach) > ACCEPT {
+        let reaches = miss.size(self.reach) <= ACCEPT;
+        let free =
+            trail.freeing != 0 && reaches && moves_freely(screws, &q, goal, tip, self.reach, (&trail.free, given));
+        if !free {
+            visit.doubtful |= trail.freeing;
+        }
+        if !reaches {
             return;
         }
         for (_, (q, screw)) in q.iter_mut().zip(screws).enumerate().filter(|(i, _)| !given.contains(i)) {
@@ -153,14 +193,14 @@ impl ScrewSolver {
             }
         }
         let same = |other: &Solution| (0..*joints).all(|i| self.differ(i, q[i], other.q[i]) <= MERGE);
-        if !found.iter().any(same) {
+        if !visit.found.iter().any(same) {
             let is_direction = self.chain.task() == Task::Direction;
-            found.push(Solution {
+            visit.found.push(Solution {
                 q: q[..*joints].to_vec(),
-                free: (0..*joints).filter(|&i| trail.free[i]).collect(),
+                free: (0..*joints).filter(|&i| free && trail.free[i]).collect(),
                 position_residual: if is_direction { 0.0 } else { miss.position },
                 rotation_residual: if is_direction { miss.position } else { miss.rotation },
-                branch: trail.branch,
+                branch: visit.order.first_branch + trail.branch,
             });
         }
     }
@@ -193,38 +233,6 @@ fn unsolved(chain: &Chain) -> Error {
         chain.task().name()
     );
     Error::new(ErrorKind::Unsupported, text)
-}
-
-/// Two configurations in general position.
-fn samples(chain: &Chain, model: &Model) -> Result<Vec<Sample>> {
-    const TURNS: [[f64; MOST_JOINTS]; 2] = [
-        [0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129, 0.6173],
-        [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813, -0.8447],
-    ];
-    let length = if chain.reach() > 0.0 { chain.reach() } else { 1.0 };
-    let sample = |turns: &[f64; MOST_JOINTS]| {
-        let value = |(screw, turn): (&Screw, &f64)| if screw.axis().is_some() { *turn } else { turn * length };
-        let q: Vec<f64> = chain.screws().iter().zip(turns).map(value).collect();
-        let (q, goal) = model.values(chain, &q)?;
-        let start = model.start(goal, model.given.iter().map(|&joint| Half::new(q[joint])));
-        Ok(Sample { start, q })
-    };
-    TURNS.iter().map(sample).collect()
-}
-
-/// The steps in words.
-fn tell(steps: &[Step], sample: &Sample, scale: Scale) -> Plan {
-    let mut reduced = sample.start.clone();
-    let mut told: Vec<PlanStep> = Vec::new();
-    for step in steps {
-        told.push(describe(step, &reduced, step.most_answers(&reduced), scale));
-        for joint in step.solved(&reduced) {
-            if let Some(place) = reduced.place(joint) {
-                reduced.absorb(place, Half::new(sample.q[joint]));
-            }
-        }
-    }
-    Plan { steps: told }
 }
 
 /// The same screws, each axis given by a point where it meets its neighbours: three or more of them if it does, else one.

@@ -44,7 +44,8 @@ pub struct Solution {
     /// The angle \[rad\] of the tip from its target; zero when only a position is asked for.
     pub rotation_residual: f64,
     /// Which answer of each step it comes from: a number below [`super::Plan::most_solutions`], whose digits, the first step's
-    /// first, count in the numbers of answers of the steps.
+    /// first, count in the numbers of answers of the steps. Numbers from there on are of an order that was taken in place of the
+    /// plan.
     pub branch: usize,
 }
 
@@ -151,7 +152,10 @@ fn check_finite(goal: Goal) -> Result<Goal> {
     if size.is_finite() {
         return Ok(goal);
     }
-    Err(Error::new(ErrorKind::BadValue, "a target has a value that is not finite; give finite numbers"))
+    Err(Error::new(
+        ErrorKind::BadValue,
+        "a target has a value that is not finite, or whose square is not; give finite numbers below 1e150",
+    ))
 }
 
 /// The loop of all joints.

@@ -6,6 +6,7 @@ use super::meeting::{Gathering, gatherings};
 use super::{Moved, lengths, line};
 use crate::Result;
 use crate::kinematics::exact_vector::{Line, add, cosine, cross, dot, is_zero, scale, sine, sub};
+use crate::kinematics::frame::ROUNDING;
 use crate::kinematics::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip};
 use crate::number::BigRational;
 
@@ -44,12 +45,14 @@ fn along(direction: &ExactVector, own: &ExactVector) -> ExactVector {
     if dot(direction, own).is_negative() { direction.each_ref().map(|x| -x) } else { direction.clone() }
 }
 
-/// The direction in the signs of the greatest entries, `[0, 1, -1]` for `[1e-6, 0.7071, -0.7072]`, if that is within `tolerance`.
+/// The direction in the signs of the greatest entries, `[0, 1, -1]` for `[1e-6, 0.7071, -0.7072]`, if that is within `tolerance`. No diagonal
+/// where only roundings are made good: a rotation that was made rational leads next to one, and its axes have rational lengths.
 fn simple(direction: &ExactVector, tolerance: f64) -> Option<ExactVector> {
     let greatest = direction.iter().map(Signed::abs).max()?;
     let half = greatest / BigRational::from_integer(2.into());
     let signs = direction.each_ref().map(|x| if x.abs() < half { BigRational::zero() } else { x.signum() });
-    (sine(direction, &signs) <= tolerance).then_some(signs)
+    let is_diagonal = signs.iter().filter(|sign| !sign.is_zero()).count() > 1;
+    (sine(direction, &signs) <= tolerance && !(is_diagonal && tolerance <= ROUNDING)).then_some(signs)
 }
 
 /// A direction within `tolerance` that is perpendicular to the last of `earlier`: the simple one, the one that is perpendicular to

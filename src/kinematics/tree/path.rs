@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
 use crate::kinematics::chain::along_z;
-use crate::kinematics::frame::{Frame, ROUNDING};
+use crate::kinematics::frame::{Frame, ROUNDING, Rationality};
 use crate::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, SnapReport, Task};
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
@@ -177,7 +177,12 @@ impl Tree {
 
     /// The moving joints in the base frame, and the frame of the tip.
     fn walk(&self, path: &TreePath) -> Result<(Vec<Joint>, Frame)> {
-        let (mut joints, mut frame) = (Vec::new(), Frame::base());
+        Frame::walked(|base| self.walk_from(base, path))
+    }
+
+    /// The same from a base frame, and whether the joints' axes are rational.
+    fn walk_from(&self, base: Frame, path: &TreePath) -> Result<((Vec<Joint>, Frame), Rationality)> {
+        let (mut joints, mut frame, mut told) = (Vec::new(), base, Rationality::default());
         for (index, is_up) in &path.joints {
             let joint = &self.joints[*index];
             if !is_up {
@@ -185,6 +190,7 @@ impl Tree {
             }
             if let Some(kind) = kind_of(joint)? {
                 let axis = frame.direction(&joint.axis);
+                told.add(frame.rationality(&joint.axis));
                 joints.push(Joint {
                     name: joint.name.clone(),
                     symbol: (joints.len() + 1).to_string(),
@@ -198,7 +204,7 @@ impl Tree {
                 frame = frame.before(&joint.origin);
             }
         }
-        Ok((joints, frame))
+        Ok(((joints, frame), told))
     }
 }
 

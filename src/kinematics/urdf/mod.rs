@@ -11,13 +11,17 @@ use num_traits::ToPrimitive;
 use super::surd::recognised;
 use super::tree::{Mimic, Tree, TreeJoint, TreeJointKind, TreeLink};
 use super::{ExactRotation, ExactVector, Placement, Turn};
-use crate::document::{one_among, read_text, shown};
+use crate::document::{did_you_mean, one_among, read_text, shown};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 use xml::Element;
 
 /// The longest file that is read, in bytes.
 pub const URDF_LIMIT: u64 = 4_000_000;
+
+/// The elements of a joint.
+const PARTS: [&str; 9] =
+    ["parent", "child", "origin", "axis", "limit", "calibration", "dynamics", "mimic", "safety_controller"];
 
 const KINDS: [TreeJointKind; 6] = [
     TreeJointKind::Revolute,
@@ -85,6 +89,7 @@ fn read_joint(element: &Element, is_recent: bool) -> Result<TreeJoint> {
 }
 
 fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<TreeJoint> {
+    refuse_slips(element)?;
     let kind = read_kind(element)?;
     let link = |part: &str| -> Result<String> {
         let missing =
@@ -112,6 +117,17 @@ fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Tr
         notes,
         line: Some(element.line),
     })
+}
+
+/// Fails for an element whose name is nearly that of a joint's element; other unknown ones are extensions.
+fn refuse_slips(joint: &Element) -> Result<()> {
+    for child in joint.children.iter().filter(|child| !PARTS.contains(&child.name.as_str())) {
+        let advice = did_you_mean(&child.name, &PARTS);
+        if !advice.is_empty() {
+            return Err(child.error(ErrorKind::UnknownKey, &format!("is no element of a joint{advice}")));
+        }
+    }
+    Ok(())
 }
 
 fn read_kind(element: &Element) -> Result<TreeJointKind> {

@@ -5,6 +5,8 @@
 //! Q, it has as many real roots as there are real solutions when its degree is the number of all solutions (the shape lemma; Cox,
 //! Little, O'Shea, "Using Algebraic Geometry", 2.4): Descartes' rule of signs counts them.
 
+use std::cell::Cell;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Zero};
@@ -24,6 +26,10 @@ const LANES: usize = 4;
 const SURPLUS: u32 = 30;
 /// Batches of primes after which a target is given up.
 const BATCHES: usize = 400;
+/// A target that takes more batches than this takes long: lengths and angles of many digits make all of them so.
+const LONG: usize = 128;
+/// So many targets that take long are counted or given up, and no more.
+const FEW: usize = 3;
 /// Batches of primes between two attempts to rebuild.
 const PATIENCE: usize = 4;
 /// Linear forms that are tried.
@@ -67,6 +73,8 @@ pub(super) struct Counter {
     /// The unknowns of each motor; `None` where it is given.
     unknowns: Vec<Option<Value>>,
     learned: Option<Learned>,
+    /// How many targets have taken long.
+    long: Cell<usize>,
 }
 
 impl Counter {
@@ -105,7 +113,7 @@ impl Counter {
             let letters: &[&str] = if part.exact.turns(joint) { &["c", "s"] } else { &["d"] };
             names.extend(letters.iter().map(|letter| format!("{letter}{}", motor + 1)));
         }
-        Counter { parts, names, unknowns, learned: None }
+        Counter { parts, names, unknowns, learned: None, long: Cell::new(0) }
     }
 
     /// The value of a motor at the rational point that `t` stands for, as [`ExactChain::value`].
@@ -119,17 +127,24 @@ impl Counter {
     }
 
     /// The number of distinct real solutions with the tip where it is at the joint values `values`; `None` when there are
-    /// infinitely many, or multiple ones.
+    /// infinitely many, or multiple ones, or the count takes too many primes.
     ///
     /// # Errors
     /// What `watch` stops with.
     pub fn count(&mut self, values: &[Value], watch: &Watch) -> Result<Option<usize>> {
+        let before = self.long.get();
+        if before >= FEW {
+            return Ok(None);
+        }
         let system = self.system(values);
         let polynomial = match self.eliminant(&system, 1, watch)? {
-            Some(polynomial) => Some(polynomial),
-            None => self.eliminant_afresh(&system, watch)?,
+            None if self.long.get() == before => self.eliminant_afresh(&system, watch)?,
+            polynomial => polynomial,
         };
-        polynomial.map(|polynomial| isolate_square_free(&polynomial, watch).map(|roots| roots.len())).transpose()
+        match polynomial.map(|polynomial| isolate_square_free(&polynomial, watch)) {
+            Some(Err(error)) if error.kind() == ErrorKind::BadValue => Ok(None),
+            roots => Ok(roots.transpose()?.map(|roots| roots.len())),
+        }
     }
 
     /// The eliminant where the computation goes another way than that of the targets before.
@@ -137,7 +152,8 @@ impl Counter {
         if !self.learn(system, watch)? {
             return Ok(None);
         }
-        for form in 1..=FORMS {
+        let before = self.long.get();
+        for form in (1..=FORMS).take_while(|_| self.long.get() == before) {
             if let Some(polynomial) = self.eliminant(system, form, watch)? {
                 return Ok(Some(polynomial));
             }
@@ -229,6 +245,9 @@ impl Counter {
         let mut images: Vec<Image> = Vec::new();
         let mut primes = primes().skip(1);
         for batch in 1..=BATCHES {
+            if batch == LONG + 1 {
+                self.long.set(self.long.get() + 1);
+            }
             let mut moduli = [0; LANES];
             for p in &mut moduli {
                 *p = primes.next().ok_or_else(no_primes)?;

@@ -1,12 +1,15 @@
 //! A chain over Q: forward kinematics at rational joint values, and the equations of all joint vectors with the same tip.
 //!
+//! The base frame is moved so that the numbers become simple, and where all of the last link's pose counts, any point and frame of it
+//! stand for the tip: a base turned by 0.3 rad, or a tool, does not change the number of solutions.
+//!
 //! Rodrigues' formula about an axis `w` of any length with `n = |w|^2`: the unknowns of a revolute joint are `c = cos q` and
 //! `s = sin q / sqrt(n)` with `c^2 + n s^2 = 1`, that of a prismatic one `d / sqrt(n)`. No root enters.
 
-use num_traits::{One, ToPrimitive};
+use num_traits::{One, ToPrimitive, Zero};
 
 use super::form::{Form, Forms, constant, cross, dot, sum};
-use crate::kinematics::{Chain, ExactVector, JointKind, Task};
+use crate::kinematics::{Chain, ExactVector, Joint, JointKind, Task};
 use crate::number::BigRational;
 
 /// What the unknowns of a joint are.
@@ -52,13 +55,12 @@ pub(super) type Reached = Vec<ExactVector>;
 
 impl ExactChain {
     pub fn new(chain: &Chain) -> Self {
-        let axis = |joint: &crate::kinematics::Joint| Axis {
-            kind: joint.kind,
-            square: joint.axis.iter().map(|x| x * x).sum(),
-            direction: joint.axis.clone(),
-            point: joint.point.clone(),
+        let frame = Frame::of(chain);
+        let axis = |joint: &Joint| {
+            let direction = frame.direction(&unit(&joint.axis).unwrap_or_else(|| joint.axis.clone()));
+            Axis { kind: joint.kind, square: square(&direction), direction, point: frame.point(&joint.point) }
         };
-        ExactChain { axes: chain.joints().iter().map(axis).collect(), objects: objects(chain) }
+        ExactChain { axes: chain.joints().iter().map(axis).collect(), objects: objects(chain, &frame) }
     }
 
     pub fn joints(&self) -> usize {
@@ -165,24 +167,79 @@ impl Axis {
     }
 }
 
-/// What the task of `chain` looks at, where it is at the zero configuration.
-fn objects(chain: &Chain) -> Vec<(Moved, ExactVector)> {
+/// What the task of `chain` looks at, where it is at the zero configuration, in `frame`.
+fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
     let tip = chain.tip();
-    let column = |j: usize| (Moved::Direction, [0, 1, 2].map(|i| tip.rotation[i][j].clone()));
-    let point = || vec![(Moved::Point, tip.point.clone())];
-    let columns = || [0, 1, 2].map(column).to_vec();
+    let points = |point: &ExactVector| vec![(Moved::Point, frame.point(point))];
+    let columns = || axes().map(|direction| (Moved::Direction, direction)).to_vec();
     let aimed = chain.direction();
     let aim = || {
-        let entry = |row: &ExactVector| row.iter().zip(aimed).map(|(entry, x)| entry * x).sum();
-        vec![(Moved::Direction, tip.rotation.each_ref().map(entry))]
+        let entry = |row: &ExactVector| dot_exact(row, aimed);
+        vec![(Moved::Direction, frame.direction(&tip.rotation.each_ref().map(entry)))]
     };
     match chain.task() {
-        Task::Position | Task::PlanarPosition { .. } => point(),
-        Task::Pose | Task::PlanarPose { .. } => [point(), columns()].concat(),
-        Task::Ray => [point(), aim()].concat(),
+        Task::Position | Task::PlanarPosition { .. } => points(&tip.point),
+        Task::Pose | Task::PlanarPose { .. } => {
+            let last = chain.joints().iter().rfind(|joint| joint.kind == JointKind::Revolute);
+            [points(last.map_or(&tip.point, |joint| &joint.point)), columns()].concat()
+        }
+        Task::Ray => [points(&tip.point), aim()].concat(),
         Task::Direction => aim(),
         Task::Rotation => columns(),
     }
+}
+
+/// A frame over Q: where its origin is, and its axes, of length one.
+struct Frame {
+    origin: ExactVector,
+    axes: [ExactVector; 3],
+}
+
+impl Frame {
+    /// At the first axis that turns and along two axes of `chain` at right angles, if their directions have rational lengths; else
+    /// along those of the base.
+    fn of(chain: &Chain) -> Frame {
+        let joints = chain.joints();
+        let origin = joints.iter().find(|joint| joint.kind == JointKind::Revolute);
+        let origin = origin.map_or_else(|| chain.tip().point.clone(), |joint| joint.point.clone());
+        let units: Vec<ExactVector> = joints.iter().filter_map(|joint| unit(&joint.axis)).collect();
+        let pairs = units.iter().enumerate().flat_map(|(i, a)| units[i + 1..].iter().map(move |b| (a, b)));
+        let pair = pairs.into_iter().find(|(a, b)| dot_exact(a, b).is_zero());
+        let axes = pair.map_or_else(axes, |(a, b)| [a.clone(), b.clone(), cross_exact(a, b)]);
+        Frame { origin, axes }
+    }
+
+    fn direction(&self, v: &ExactVector) -> ExactVector {
+        self.axes.each_ref().map(|axis| dot_exact(axis, v))
+    }
+
+    fn point(&self, p: &ExactVector) -> ExactVector {
+        self.direction(&[0, 1, 2].map(|i| &p[i] - &self.origin[i]))
+    }
+}
+
+/// The base's own axes.
+fn axes() -> [ExactVector; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| BigRational::from_integer(i64::from(i == j).into())))
+}
+
+fn square(v: &ExactVector) -> BigRational {
+    dot_exact(v, v)
+}
+
+fn dot_exact(a: &ExactVector, b: &ExactVector) -> BigRational {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn cross_exact(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i])
+}
+
+/// The vector made as long as one; `None` where its length is no fraction.
+fn unit(v: &ExactVector) -> Option<ExactVector> {
+    let square = square(v);
+    let length = BigRational::new(square.numer().sqrt(), square.denom().sqrt());
+    (!length.is_zero() && &length * &length == square).then(|| v.each_ref().map(|x| x / &length))
 }
 
 fn number(exact: &BigRational) -> f64 {

@@ -46,6 +46,7 @@ pub fn program() -> Program {
         preference: Some(Preference { unknown: S3, greatest: false }),
         capacity: 6,
         isolated: None,
+        nearby: false,
     }
 }
 

@@ -32,6 +32,7 @@ pub fn program() -> Program {
         preference: Some(Preference { unknown: S4, greatest: true }),
         capacity: 2,
         isolated: None,
+        nearby: false,
     }
 }
 

@@ -33,6 +33,7 @@ pub fn program() -> Program {
         preference: None,
         capacity: 3,
         isolated: None,
+        nearby: false,
     }
 }
 

@@ -35,6 +35,7 @@ pub fn program() -> Program {
         preference: Some(Preference { unknown: RHO, greatest: true }),
         capacity: 5,
         isolated: None,
+        nearby: false,
     }
 }
 

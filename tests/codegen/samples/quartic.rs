@@ -32,6 +32,7 @@ pub fn program() -> Program {
         preference: None,
         capacity: 4,
         isolated: None,
+        nearby: false,
     }
 }
 

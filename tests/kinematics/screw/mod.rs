@@ -7,6 +7,7 @@ mod one_joint;
 mod slides_and_planes;
 mod solver;
 mod solver_record;
+mod spare_orders;
 mod subproblem_families;
 mod subproblems_record;
 mod tasks;
