@@ -17,10 +17,8 @@ const DECIMALS: usize = 4;
 const MOST_DECIMALS: usize = 40;
 /// The most quarter turns: a million radians.
 const GREATEST: i64 = 636_619;
-/// The bits that a quaternion of general angles is rounded to.
+/// The bits that a quaternion is rounded to, and the tangent of half an elementary rotation's angle.
 const BITS: u64 = 60;
-/// 2^60, the scale of the cosine and sine of half a rest.
-const SCALE: f64 = 1_152_921_504_606_846_976.0;
 
 /// The angle of an elementary rotation: whole steps of 15 degrees, which are exact, and a rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -95,8 +93,10 @@ impl Turn {
             3 => (Surd::of(1, 0, 0), Surd::of(-1, 1, 0)),
             4 => (Surd::of(0, 0, 1), Surd::of(1, 0, 0)),
             _ => {
-                let scaled = |x: f64| Surd::from(&BigRational::from_integer(((x * SCALE).round() as i64).into()));
-                (scaled((self.rest / 2.0).cos()), scaled((self.rest / 2.0).sin()))
+                let tangent = BigRational::from_float((self.rest / 2.0).tan()).unwrap_or_default();
+                let (sine, cosine) = shortest_fraction(&tangent).into_raw();
+                let whole = |n: BigInt| Surd::from(&BigRational::from_integer(n));
+                (whole(cosine), whole(sine))
             }
         };
         match self.steps / 6 {
@@ -129,6 +129,48 @@ pub(super) fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
         shift *= integer(10);
     }
     false
+}
+
+/// The cosine and sine of half the angle of the direction (`cosine`, `sine`), up to scale, in integers: their quotient is within 2^-60.
+fn half_of(cosine: &BigRational, sine: &BigRational) -> [BigInt; 2] {
+    let length = root(&(cosine.pow(2) + sine.pow(2)));
+    let [c, s] = if cosine.is_negative() {
+        let s = length - cosine;
+        if sine.is_negative() { [-sine, -s] } else { [sine.clone(), s] }
+    } else {
+        [length + cosine, sine.clone()]
+    };
+    if c.abs() >= s.abs() {
+        let (s, c) = shortest_fraction(&(s / c)).into_raw();
+        [c, s]
+    } else {
+        shortest_fraction(&(c / s)).into_raw().into()
+    }
+}
+
+/// The square root of a number that is not negative, within 2^-80 of the greater of one and itself.
+fn root(square: &BigRational) -> BigRational {
+    let scaled = (square * BigRational::from_integer(BigInt::one() << 160)).to_integer();
+    BigRational::new(scaled.sqrt(), BigInt::one() << 80)
+}
+
+/// The first convergent of the continued fraction of `number` without its sign that is within 2^-60 of it, with the sign.
+fn shortest_fraction(number: &BigRational) -> BigRational {
+    let enough = BigRational::new(BigInt::one(), BigInt::one() << BITS);
+    let size = number.abs();
+    let mut rest = size.clone();
+    let mut last = [BigInt::zero(), BigInt::one()];
+    let mut convergent = [BigInt::one(), BigInt::zero()];
+    loop {
+        let whole = rest.floor().to_integer();
+        let next = [0, 1].map(|part| &whole * &convergent[part] + &last[part]);
+        last = std::mem::replace(&mut convergent, next);
+        let fraction = BigRational::new(convergent[0].clone(), convergent[1].clone());
+        if (&fraction - &size).abs() <= enough {
+            return if number.is_negative() { -fraction } else { fraction };
+        }
+        rest = (rest - BigRational::from_integer(whole)).recip();
+    }
 }
 
 fn integer(n: i64) -> BigRational {
@@ -166,12 +208,15 @@ impl ExactRotation {
         ExactRotation { quaternion }.reduced()
     }
 
-    /// Rz(yaw) Ry(pitch) Rx(roll), the rotation of a URDF `rpy`. Two or more general angles are rounded together, to 60 bits.
+    /// Rz(yaw) Ry(pitch) Rx(roll), the rotation of a URDF `rpy`. Beside a general angle all three are made rational, one by one.
     pub fn from_rpy(turns: [Turn; 3]) -> Self {
+        let is_exact = turns.iter().all(|turn| turn.is_exact());
         let [roll, pitch, yaw] = turns;
-        let about = ExactRotation::about;
-        let product = about(2, yaw).then(&about(1, pitch)).then(&about(0, roll));
-        if turns.iter().all(|turn| turn.is_exact()) { product } else { product.rounded() }
+        let about = |axis, turn| {
+            let rotation = ExactRotation::about(axis, turn);
+            if is_exact { rotation } else { rotation.made_rational() }
+        };
+        about(2, yaw).then(&about(1, pitch)).then(&about(0, roll))
     }
 
     /// The rotation of the quaternion `xyzw`, of any length, to 60 bits; `None` for zero.
@@ -269,9 +314,26 @@ impl ExactRotation {
         if self.is_long() { self.to_bits(2 * BITS) } else { self }
     }
 
-    /// The same rotation when its entries are rational, else the nearest one with such entries, to [`BITS`] bits.
+    /// The same rotation when its entries are rational, else one within 1e-17 whose entries are: its roll, pitch and yaw are made so one by
+    /// one, so that an axis in a coordinate plane stays in it.
     pub(super) fn made_rational(self) -> Self {
-        if self.is_rational() { self } else { self.rounded() }
+        if self.is_rational() {
+            return self;
+        }
+        let m = self.scaled_matrix().0.map(|row| row.map(|entry| entry.value()));
+        let is_upright = m[0][0].is_zero() && m[1][0].is_zero();
+        let level = root(&(m[0][0].pow(2) + m[1][0].pow(2)));
+        let (yaw, roll) = if is_upright {
+            (half_of(&BigRational::one(), &BigRational::zero()), half_of(&m[1][1], &-&m[1][2]))
+        } else {
+            (half_of(&m[0][0], &m[1][0]), half_of(&m[2][2], &m[2][1]))
+        };
+        let about = |axis: usize, [cosine, sine]: [BigInt; 2]| {
+            let mut quaternion = [cosine, BigInt::zero(), BigInt::zero(), BigInt::zero()];
+            quaternion[1 + axis] = sine;
+            ExactRotation { quaternion: quaternion.map(|n| Surd::from(&BigRational::from_integer(n))) }
+        };
+        about(2, yaw).then(&about(1, half_of(&level, &-&m[2][0]))).then(&about(0, roll))
     }
 
     /// The nearest rotation with rational entries, to [`BITS`] bits.

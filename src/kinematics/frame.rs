@@ -59,19 +59,24 @@ impl Frame {
     pub fn then(&self, inner: &Placement) -> Self {
         let moved = self.rotation.turned(&surds(&inner.origin));
         let origin = std::array::from_fn(|i| self.origin[i].add(&moved[i]).shortened());
-        self.at(self.rotation.then(&inner.rotation), origin)
+        self.turned(&self.told(inner), origin)
     }
 
-    /// The frame with this rotation and origin.
-    fn at(&self, rotation: ExactRotation, origin: SurdVector) -> Self {
-        let rotation = if self.rounds { rotation.made_rational() } else { rotation };
-        Frame { rotation: rotation.shortened(), origin, rounds: self.rounds }
+    /// The rotation of a placement in this frame, made rational where rotations are.
+    fn told(&self, inner: &Placement) -> ExactRotation {
+        let rotation = inner.rotation.clone();
+        if self.rounds { rotation.made_rational() } else { rotation }
+    }
+
+    /// This frame turned by `rotation`, its origin moved to `origin`.
+    fn turned(&self, rotation: &ExactRotation, origin: SurdVector) -> Self {
+        Frame { rotation: self.rotation.then(rotation).shortened(), origin, rounds: self.rounds }
     }
 
     /// The frame in which this one stands at `inner`.
     #[must_use]
     pub fn before(&self, inner: &Placement) -> Self {
-        let turned = self.at(self.rotation.then(&inner.rotation.inverse()), self.origin.clone());
+        let turned = self.turned(&self.told(inner).inverse(), self.origin.clone());
         let moved = turned.rotation.turned(&surds(&inner.origin));
         let origin = std::array::from_fn(|i| self.origin[i].sub(&moved[i]).shortened());
         Frame { origin, ..turned }
