@@ -16,104 +16,9 @@
  *
  * A target has 32 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
- * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
- *
- * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
- * JACO_LIKE_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
+ * C99, linked with -lm; the header declares it. It allocates nothing and has no state. Not for -ffast-math, which drops NaN and infinity.
  */
-#ifndef JACO_LIKE_DECLARED
-#define JACO_LIKE_DECLARED
-
-#include <stdbool.h>
-#include <stddef.h>
-
-/* Numbers of a target. */
-#define JACO_LIKE_INPUTS 12
-/* Joints of a solution. */
-#define JACO_LIKE_JOINTS 6
-/* The most solutions that a target can have. */
-#define JACO_LIKE_CAPACITY 32
-/* A number of the target is infinite or not a number. */
-#define JACO_LIKE_NOT_FINITE (-1)
-/* The target lies on a stratum that could not be derived. */
-#define JACO_LIKE_OPEN_STRATUM (-2)
-/* The rotation of the target is off by more than CONSISTENT. */
-#define JACO_LIKE_NOT_ROTATION (-3)
-/* The direction of the target is not of length one within CONSISTENT. */
-#define JACO_LIKE_NOT_UNIT (-4)
-
-/* One answer. */
-typedef struct {
-    /* Joint values, in order and unit of the joints. */
-    double q[JACO_LIKE_JOINTS];
-    /* The largest magnitude among the equations' values at q, in the equations' own unit. */
-    double residual;
-    /* Which charts and which roots gave it. */
-    size_t branch;
-    /* Whether the source of the mechanism would choose this one. */
-    bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
-    bool free[JACO_LIKE_JOINTS];
-} jaco_like_solution;
-
-/* The names of a target's numbers, in order. */
-extern const char *const jaco_like_input_names[JACO_LIKE_INPUTS];
-/* The names of the joints, in order. */
-extern const char *const jaco_like_joint_names[JACO_LIKE_JOINTS];
-/* The least and the greatest value of the first joint, of the second, ...; infinite where the description has none. */
-extern const double jaco_like_limits[2 * JACO_LIKE_JOINTS];
-
-/* Writes all solutions for the target (JACO_LIKE_INPUTS numbers) to the front of out (JACO_LIKE_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or one of the negative codes above. */
-int jaco_like_solve(const double *target, jaco_like_solution *out);
-
-/* One answer by cosines and sines. */
-typedef struct {
-    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
-    double joints[JACO_LIKE_JOINTS][2];
-    /* As in jaco_like_solution. */
-    double residual;
-    size_t branch;
-    bool free[JACO_LIKE_JOINTS];
-} jaco_like_pairs;
-
-/* As jaco_like_solve, by cosines and sines. */
-int jaco_like_solve_pairs(const double *target, jaco_like_pairs *out);
-
-/* Writes the target (JACO_LIKE_INPUTS numbers) that joint values q (JACO_LIKE_JOINTS numbers) reach. */
-void jaco_like_forward(const double *q, double *target);
-
-/* The largest magnitude among the equations' values at joint values q (JACO_LIKE_JOINTS numbers): zero where q reaches the
- * target. Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number. */
-double jaco_like_residual(const double *target, const double *q);
-
-/* A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. Writes the target, its first 12 numbers, with which
- * the tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: base^-1 pose tool^-1. */
-void jaco_like_target_of(const double *base, const double *tool, const double *pose, double *target);
-
-/* The most turns that are counted. */
-#define JACO_LIKE_MOST_TURNS 1000000
-/* Limits are 2 * JACO_LIKE_JOINTS numbers as in jaco_like_limits. They hold within 1e-9, which rounding makes of a joint at its limit. The
- * turns of joint values q are the joint values that differ from q by whole turns of its angles and lie within limits; an angle that lacks
- * a limit counts once. This is their number, 0 when q cannot be brought within limits. */
-size_t jaco_like_count_turns(const double *q, const double *limits);
-/* Writes the turn of q with this index, which is below their number, to out. Turns of the last joint follow one another. */
-void jaco_like_turn(const double *q, const double *limits, size_t index, double *out);
-
-/* As jaco_like_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
-int jaco_like_solve_within(const double *target, const double *limits, jaco_like_solution *out);
-
-/* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when
- * none comes within limits. Its nearest turn is written to q. The distance is the sum of the joints' squared differences, each times its
- * weight, which is not negative. */
-int jaco_like_nearest(const jaco_like_solution *list, int count, const double *reference, const double *weights, const double *limits,
-    double *q);
-
-#endif
-
-#ifndef JACO_LIKE_DECLARATIONS_ONLY
+#include "5_solver.h"
 
 #ifdef __FAST_MATH__
 #error "this file tells NaN and infinity apart: compile it without -ffast-math"
@@ -3699,4 +3604,3 @@ int jaco_like_nearest(const Solution *list, int count, const double *reference, 
     return best;
 }
 
-#endif

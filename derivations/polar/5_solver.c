@@ -12,101 +12,9 @@
  *
  * A target has 11 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
- * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
- *
- * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
- * POLAR_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
+ * C99, linked with -lm; the header declares it. It allocates nothing and has no state. Not for -ffast-math, which drops NaN and infinity.
  */
-#ifndef POLAR_DECLARED
-#define POLAR_DECLARED
-
-#include <stdbool.h>
-#include <stddef.h>
-
-/* Numbers of a target. */
-#define POLAR_INPUTS 3
-/* Joints of a solution. */
-#define POLAR_JOINTS 3
-/* The most solutions that a target can have. */
-#define POLAR_CAPACITY 11
-/* A number of the target is infinite or not a number. */
-#define POLAR_NOT_FINITE (-1)
-/* The target lies on a stratum that could not be derived. */
-#define POLAR_OPEN_STRATUM (-2)
-/* The rotation of the target is off by more than CONSISTENT. */
-#define POLAR_NOT_ROTATION (-3)
-/* The direction of the target is not of length one within CONSISTENT. */
-#define POLAR_NOT_UNIT (-4)
-
-/* One answer. */
-typedef struct {
-    /* Joint values, in order and unit of the joints. */
-    double q[POLAR_JOINTS];
-    /* The largest magnitude among the equations' values at q, in the equations' own unit. */
-    double residual;
-    /* Which charts and which roots gave it. */
-    size_t branch;
-    /* Whether the source of the mechanism would choose this one. */
-    bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
-    bool free[POLAR_JOINTS];
-} polar_solution;
-
-/* The names of a target's numbers, in order. */
-extern const char *const polar_input_names[POLAR_INPUTS];
-/* The names of the joints, in order. */
-extern const char *const polar_joint_names[POLAR_JOINTS];
-/* The least and the greatest value of the first joint, of the second, ...; infinite where the description has none. */
-extern const double polar_limits[2 * POLAR_JOINTS];
-
-/* Writes all solutions for the target (POLAR_INPUTS numbers) to the front of out (POLAR_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or one of the negative codes above. */
-int polar_solve(const double *target, polar_solution *out);
-
-/* One answer by cosines and sines. */
-typedef struct {
-    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
-    double joints[POLAR_JOINTS][2];
-    /* As in polar_solution. */
-    double residual;
-    size_t branch;
-    bool free[POLAR_JOINTS];
-} polar_pairs;
-
-/* As polar_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
- * two are next to each other, the cosines and sines are those of the angles that polar_solve finds. */
-int polar_solve_pairs(const double *target, polar_pairs *out);
-
-/* Writes the target (POLAR_INPUTS numbers) that joint values q (POLAR_JOINTS numbers) reach. */
-void polar_forward(const double *q, double *target);
-
-/* The largest magnitude among the equations' values at joint values q (POLAR_JOINTS numbers): zero where q reaches the
- * target. Not a number when a number of the target is not finite or an equation's value is not a number. */
-double polar_residual(const double *target, const double *q);
-
-/* The most turns that are counted. */
-#define POLAR_MOST_TURNS 1000000
-/* Limits are 2 * POLAR_JOINTS numbers as in polar_limits. They hold within 1e-9, which rounding makes of a joint at its limit. The
- * turns of joint values q are the joint values that differ from q by whole turns of its angles and lie within limits; an angle that lacks
- * a limit counts once. This is their number, 0 when q cannot be brought within limits. */
-size_t polar_count_turns(const double *q, const double *limits);
-/* Writes the turn of q with this index, which is below their number, to out. Turns of the last joint follow one another. */
-void polar_turn(const double *q, const double *limits, size_t index, double *out);
-
-/* As polar_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
-int polar_solve_within(const double *target, const double *limits, polar_solution *out);
-
-/* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when
- * none comes within limits. Its nearest turn is written to q. The distance is the sum of the joints' squared differences, each times its
- * weight, which is not negative. */
-int polar_nearest(const polar_solution *list, int count, const double *reference, const double *weights, const double *limits,
-    double *q);
-
-#endif
-
-#ifndef POLAR_DECLARATIONS_ONLY
+#include "5_solver.h"
 
 #ifdef __FAST_MATH__
 #error "this file tells NaN and infinity apart: compile it without -ffast-math"
@@ -1705,4 +1613,3 @@ int polar_nearest(const Solution *list, int count, const double *reference, cons
     return best;
 }
 
-#endif

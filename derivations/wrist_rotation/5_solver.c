@@ -13,101 +13,9 @@
  *
  * A target has 7 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
  *
- * Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
- * length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
- *
- * C99: one translation unit, linked with -lm. It allocates nothing and has no state. To call it from another file, define
- * WRIST_ROTATION_DECLARATIONS_ONLY there and include this one. Not for -ffast-math, which drops NaN and infinity.
+ * C99, linked with -lm; the header declares it. It allocates nothing and has no state. Not for -ffast-math, which drops NaN and infinity.
  */
-#ifndef WRIST_ROTATION_DECLARED
-#define WRIST_ROTATION_DECLARED
-
-#include <stdbool.h>
-#include <stddef.h>
-
-/* Numbers of a target. */
-#define WRIST_ROTATION_INPUTS 9
-/* Joints of a solution. */
-#define WRIST_ROTATION_JOINTS 3
-/* The most solutions that a target can have. */
-#define WRIST_ROTATION_CAPACITY 7
-/* A number of the target is infinite or not a number. */
-#define WRIST_ROTATION_NOT_FINITE (-1)
-/* The target lies on a stratum that could not be derived. */
-#define WRIST_ROTATION_OPEN_STRATUM (-2)
-/* The rotation of the target is off by more than CONSISTENT. */
-#define WRIST_ROTATION_NOT_ROTATION (-3)
-/* The direction of the target is not of length one within CONSISTENT. */
-#define WRIST_ROTATION_NOT_UNIT (-4)
-
-/* One answer. */
-typedef struct {
-    /* Joint values, in order and unit of the joints. */
-    double q[WRIST_ROTATION_JOINTS];
-    /* The largest magnitude among the equations' values at q, in the equations' own unit. */
-    double residual;
-    /* Which charts and which roots gave it. */
-    size_t branch;
-    /* Whether the source of the mechanism would choose this one. */
-    bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
-    bool free[WRIST_ROTATION_JOINTS];
-} wrist_rotation_solution;
-
-/* The names of a target's numbers, in order. */
-extern const char *const wrist_rotation_input_names[WRIST_ROTATION_INPUTS];
-/* The names of the joints, in order. */
-extern const char *const wrist_rotation_joint_names[WRIST_ROTATION_JOINTS];
-/* The least and the greatest value of the first joint, of the second, ...; infinite where the description has none. */
-extern const double wrist_rotation_limits[2 * WRIST_ROTATION_JOINTS];
-
-/* Writes all solutions for the target (WRIST_ROTATION_INPUTS numbers) to the front of out (WRIST_ROTATION_CAPACITY places), by branch, and
- * returns their number, 0 when it is out of reach; or one of the negative codes above. */
-int wrist_rotation_solve(const double *target, wrist_rotation_solution *out);
-
-/* One answer by cosines and sines. */
-typedef struct {
-    /* By joint: the cosine and the sine of an angle; a length's value and zero. */
-    double joints[WRIST_ROTATION_JOINTS][2];
-    /* As in wrist_rotation_solution. */
-    double residual;
-    size_t branch;
-    bool free[WRIST_ROTATION_JOINTS];
-} wrist_rotation_pairs;
-
-/* As wrist_rotation_solve, by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
- * two are next to each other, the cosines and sines are those of the angles that wrist_rotation_solve finds. */
-int wrist_rotation_solve_pairs(const double *target, wrist_rotation_pairs *out);
-
-/* Writes the target (WRIST_ROTATION_INPUTS numbers) that joint values q (WRIST_ROTATION_JOINTS numbers) reach. */
-void wrist_rotation_forward(const double *q, double *target);
-
-/* The largest magnitude among the equations' values at joint values q (WRIST_ROTATION_JOINTS numbers): zero where q reaches the
- * target. Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number. */
-double wrist_rotation_residual(const double *target, const double *q);
-
-/* The most turns that are counted. */
-#define WRIST_ROTATION_MOST_TURNS 1000000
-/* Limits are 2 * WRIST_ROTATION_JOINTS numbers as in wrist_rotation_limits. They hold within 1e-9, which rounding makes of a joint at its limit. The
- * turns of joint values q are the joint values that differ from q by whole turns of its angles and lie within limits; an angle that lacks
- * a limit counts once. This is their number, 0 when q cannot be brought within limits. */
-size_t wrist_rotation_count_turns(const double *q, const double *limits);
-/* Writes the turn of q with this index, which is below their number, to out. Turns of the last joint follow one another. */
-void wrist_rotation_turn(const double *q, const double *limits, size_t index, double *out);
-
-/* As wrist_rotation_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
-int wrist_rotation_solve_within(const double *target, const double *limits, wrist_rotation_solution *out);
-
-/* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when
- * none comes within limits. Its nearest turn is written to q. The distance is the sum of the joints' squared differences, each times its
- * weight, which is not negative. */
-int wrist_rotation_nearest(const wrist_rotation_solution *list, int count, const double *reference, const double *weights, const double *limits,
-    double *q);
-
-#endif
-
-#ifndef WRIST_ROTATION_DECLARATIONS_ONLY
+#include "5_solver.h"
 
 #ifdef __FAST_MATH__
 #error "this file tells NaN and infinity apart: compile it without -ffast-math"
@@ -1741,4 +1649,3 @@ int wrist_rotation_nearest(const Solution *list, int count, const double *refere
     return best;
 }
 
-#endif

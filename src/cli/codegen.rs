@@ -8,7 +8,8 @@ use clap::ValueEnum;
 
 use super::solve::{PROGRAM_NAME, read_program};
 use super::{Outcome, console, explain};
-use crate::codegen::{c99, ikfast, is_word, rust};
+use crate::codegen::c99::{self, Pair};
+use crate::codegen::{ikfast, is_word, rust};
 use crate::files::write_atomically;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
@@ -36,7 +37,8 @@ pub struct Arguments {
     /// The language
     #[arg(long, value_name = "LANGUAGE")]
     lang: Language,
-    /// The file to write to, instead of standard output; one that groebot did not write is left alone
+    /// The file to write to, instead of standard output; one that groebot did not write is left alone. C goes into `NAME.c` and `NAME.h`
+    /// beside it, to standard output as one file that is its own header
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Single precision: of the whole solver (c), of the numbers that callers give and get (ikfast)
@@ -58,7 +60,7 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Language {
-    /// C99, one file that is its own header
+    /// C99, a header and a source file, or one file that is its own header
     C,
     /// Rust without std, one file
     Rust,
@@ -71,14 +73,32 @@ enum Language {
 /// Prints the solver and writes it.
 pub fn run(arguments: &Arguments) -> Outcome {
     arguments.refuse_idle_options()?;
-    if let Some(path) = arguments.output.as_ref().filter(|_| !arguments.force) {
-        refuse_foreign(path)?;
+    let Some(path) = &arguments.output else { return console::print(&arguments.text()?) };
+    let header = if arguments.lang == Language::C { Some(header_of(path)?) } else { None };
+    if !arguments.force {
+        [Some(path), header.as_ref()].into_iter().flatten().try_for_each(|path| refuse_foreign(path))?;
     }
-    let text = arguments.text()?;
-    match &arguments.output {
-        None => console::print(&text),
-        Some(path) => Ok(write_atomically(path, text.as_bytes())?),
+    match header {
+        None => write_atomically(path, arguments.text()?.as_bytes())?,
+        Some(header) => {
+            let pair = arguments.pair(&header)?;
+            write_atomically(&header, pair.header.as_bytes())?;
+            write_atomically(path, pair.source.as_bytes())?;
+        }
     }
+    Ok(())
+}
+
+/// The header beside a C file.
+fn header_of(path: &Path) -> Result<PathBuf> {
+    let can_be_included = |name: &str| !name.contains(['"', '\\', '?']) && !name.chars().any(char::is_control);
+    let name = path.file_name().and_then(|name| name.to_str()).filter(|name| can_be_included(name));
+    if name.is_some_and(|name| name.len() > 2 && name.ends_with(".c")) {
+        return Ok(path.with_extension("h"));
+    }
+    let text = "give a name that ends in `.c`, without quotation marks, `\\` and `?`: its header is written beside it; without -o one \
+                file that is its own header is printed";
+    Err(Error::new(ErrorKind::BadValue, text).in_file(path))
 }
 
 impl Arguments {
@@ -118,6 +138,13 @@ impl Arguments {
                 Ok(format!("% @{MARK} {}\n{article}", env!("CARGO_PKG_VERSION")))
             }
         }
+    }
+
+    /// The two files of C, one at `header`.
+    fn pair(&self, header: &Path) -> Result<Pair> {
+        let program = self.program()?;
+        let name = header.file_name().unwrap_or_default().to_string_lossy();
+        Ok(if self.float { Pair::single(&program, &name) } else { Pair::new(&program, &name) })
     }
 
     /// The program, under the name that was asked for.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::codegen;
+use crate::codegen::{self, c99::Pair};
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Proved, Source, stages};
 use crate::document::{TEXT_LIMIT, read_text};
@@ -16,6 +16,8 @@ const IKFAST_LIMIT: usize = 90_000;
 /// The same for one that solves an eigenvalue problem.
 const SIX_AXES_LIMIT: usize = 135_000;
 
+/// The header of the C file, which includes it.
+const HEADER: &str = "5_solver.h";
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
 /// The file of the proof.
@@ -115,15 +117,17 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
-/// The program as source code, one file a language; IKFast's only where it has a type for the task and the file is not too long.
+/// The program as source code, one file a language but C's two; IKFast's only where it has a type for the task and the file is not too long.
 pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
     let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
     let ikfast = ikfast
         .ok()
         .filter(|text| text.len() <= if codegen::has_six_axes(program) { SIX_AXES_LIMIT } else { IKFAST_LIMIT })
         .map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
+    let Pair { header, source } = Pair::new(program, HEADER);
     let own = [
-        ("5_solver.c".to_owned(), codegen::c99::emit(program).into_bytes()),
+        ("5_solver.c".to_owned(), source.into_bytes()),
+        (HEADER.to_owned(), header.into_bytes()),
         ("5_solver.rs".to_owned(), codegen::rust::emit(program).into_bytes()),
     ];
     ikfast.into_iter().chain(own).collect()

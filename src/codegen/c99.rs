@@ -1,4 +1,4 @@
-//! C99: one file that is a translation unit, or the declarations alone.
+//! C99: a header and a source file, or one file that is its own header. Main type: [`Pair`].
 
 use super::joined::Declaration;
 use super::outline::Outline;
@@ -23,22 +23,55 @@ const CONSTANTS: Declaration = Declaration { head: "const double ", glue: ", " }
 
 const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
 
+/// A solver in two files: what it declares, and a translation unit that includes that and is to be linked with `-lm`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pair {
+    /// The text of the header, for C99 and C++.
+    pub header: String,
+    /// The text of the source file, for C99.
+    pub source: String,
+}
+
+impl Pair {
+    /// The solver of a valid program ([`Program::validate`]); `header` is the name of the header's file, which the source file includes. The
+    /// code allocates nothing and has no state.
+    pub fn new(program: &Program, header: &str) -> Self {
+        let [header, source] = ["header", "source"].map(|part| double(Outline::new(program, &C99).part(part, header)));
+        Pair { header, source }
+    }
+
+    /// The same in single precision, as [`emit_single`].
+    pub fn single(program: &Program, header: &str) -> Self {
+        let [header, source] =
+            ["header", "source"].map(|part| in_single(Outline::single(program, &C99).part(part, header)));
+        Pair { header, source }
+    }
+}
+
 /// The solver of a valid program ([`Program::validate`]) as one C99 file: a translation unit to be linked with `-lm`.
 ///
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
-    CONSTANTS.joined(&super::fill(SKELETON, &Outline::new(program, &C99)))
+    double(Outline::new(program, &C99))
 }
 
 /// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
 /// near singular configurations fewer are told apart than in double precision.
 pub fn emit_single(program: &Program) -> String {
-    single(&CONSTANTS.joined(&super::fill(SKELETON, &Outline::single(program, &C99))))
+    in_single(Outline::single(program, &C99))
+}
+
+fn double(outline: Outline) -> String {
+    CONSTANTS.joined(&super::fill(SKELETON, &outline))
+}
+
+fn in_single(outline: Outline) -> String {
+    single(&double(outline))
 }
 
 /// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
 pub(super) fn engine(program: &Program) -> String {
-    let text = CONSTANTS.joined(&super::fill(SKELETON, &Outline::engine(program, &C99)));
+    let text = double(Outline::engine(program, &C99));
     let limits = |line: String| {
         line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
             .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")

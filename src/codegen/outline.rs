@@ -31,6 +31,10 @@ pub(super) struct Outline {
     about: AboutText,
     /// Whether the text goes into another file: without head, declarations and what only serves callers.
     engine: bool,
+    /// `whole` for one file, `header` and `source` for the two of a pair.
+    part: &'static str,
+    /// The name of a pair's header.
+    header: String,
     inputs: Vec<Quantity>,
     /// The inputs with their units.
     target: Vec<String>,
@@ -160,6 +164,11 @@ impl Outline {
         Outline { engine: true, ..Outline::new(program, language) }
     }
 
+    /// The same for a part of a pair whose header has the name `header`.
+    pub fn part(self, part: &'static str, header: &str) -> Self {
+        Outline { part, header: header.to_owned(), ..self }
+    }
+
     /// The outline of a file that computes in single precision.
     pub fn single(program: &Program, language: &dyn Language) -> Self {
         let dampings = SINGLE_DAMPINGS.iter().map(|&damping| number(damping)).collect();
@@ -202,6 +211,8 @@ impl Outline {
             version: remark(&program.version),
             about: AboutText::new(program, language),
             engine: false,
+            part: "whole",
+            header: String::new(),
             inputs: program.inputs.iter().map(|i| Quantity::new(language, &i.name, i.unit, false)).collect(),
             target: program.inputs.iter().map(|i| format!("`{}` ({})", remark(&i.name), unit_text(i.unit))).collect(),
             joints: joints(program, language),

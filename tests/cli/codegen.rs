@@ -75,17 +75,21 @@ fn a_file_of_somebody_else_is_left_alone_unless_forced() {
     let (puma, file) = (root("derivations/puma"), folder.path().join("puma.c"));
     let arguments = ["codegen", text(&puma), "--lang", "c", "-o", text(&file)];
     assert_eq!(succeed(&arguments), "");
-    let printed = fs::read_to_string(&file).unwrap();
-    assert_eq!(succeed(&arguments), "", "its own file is replaced");
-    for foreign in ["int main(void) { return 0; }\n", ""] {
+    let printed = content(folder.path());
+    assert_eq!(printed.keys().collect::<Vec<_>>(), ["puma.c", "puma.h"], "no temporary file stays");
+    assert_eq!(succeed(&arguments), "", "its own files are replaced");
+    for (name, foreign) in [("puma.c", "int main(void) { return 0; }\n"), ("puma.h", "")] {
+        let file = folder.path().join(name);
         fs::write(&file, foreign).unwrap();
         let told = refused(&arguments);
-        assert!(told.contains("puma.c") && told.contains("--force"), "{told}");
+        assert!(told.contains(name) && told.contains("--force"), "{told}");
         assert_eq!(fs::read_to_string(&file).unwrap(), foreign);
+        assert_eq!(succeed(&[&arguments[..], &["--force"]].concat()), "");
+        assert_eq!(content(folder.path()), printed);
     }
-    assert_eq!(succeed(&[&arguments[..], &["--force"]].concat()), "");
-    assert_eq!(fs::read_to_string(&file).unwrap(), printed);
-    assert_eq!(content(folder.path()).len(), 1, "no temporary file stays");
+    let other = folder.path().join("puma.txt");
+    let told = refused(&["codegen", text(&puma), "--lang", "c", "-o", text(&other)]);
+    assert!(told.contains("puma.txt") && told.contains("ends in `.c`") && !other.exists(), "{told}");
     assert!(
         refused(&["codegen", text(&puma), "--lang", "c", "-o", "/absent/folder/puma.c"]).contains("/absent/folder")
     );

@@ -75,6 +75,7 @@ fn derive_writes_every_stage_and_tells_of_each_limb() {
             "4_triangular.txt",
             "5_program.json",
             "5_solver.c",
+            "5_solver.h",
             "5_solver.rs",
             "6_check.csv",
             "README.md",

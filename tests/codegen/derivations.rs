@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use groebot::Watch;
-use groebot::codegen;
+use groebot::codegen::{self, c99::Pair};
 use groebot::derive::{Proved, Source};
 use groebot::solver::Program;
 
@@ -37,7 +37,7 @@ fn a_program_says_what_it_comes_from() {
         assert!(other.hash != told.hash && links == (Some("torso"), Some("hand")), "{other:?}");
     }
     // From the root of a URDF to its only leaf, which nobody asked for by name.
-    for text in ["5_solver.c", "5_solver.rs", "5_ikfast.cpp"]
+    for text in ["5_solver.h", "5_solver.rs", "5_ikfast.cpp"]
         .map(|file| fs::read_to_string(folder("irb4600_rounded").join(file)))
     {
         let text = text.unwrap();
@@ -53,7 +53,9 @@ fn committed_files_are_what_a_derivation_writes() {
         let derivation = Proved::of(&source, &Watch::none()).unwrap().about(&source);
         let mut files = derivation.stage_files().unwrap();
         files.push(("5_solver.rs".to_owned(), codegen::rust::emit(derivation.program()).into_bytes()));
-        files.push(("5_solver.c".to_owned(), codegen::c99::emit(derivation.program()).into_bytes()));
+        let pair = Pair::new(derivation.program(), "5_solver.h");
+        files.push(("5_solver.h".to_owned(), pair.header.into_bytes()));
+        files.push(("5_solver.c".to_owned(), pair.source.into_bytes()));
         for (file, bytes) in files {
             let path = folder(name).join(file);
             if std::env::var_os("UPDATE_GOLDEN").is_some() {

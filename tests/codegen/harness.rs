@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use groebot::ErrorKind;
-use groebot::codegen;
+use groebot::codegen::{self, c99::Pair};
 use groebot::solver::{Condition, Program, Solution};
 
 /// Joint values may differ by this, absolutely: the languages' elementary functions need not round alike.
@@ -127,12 +127,18 @@ pub fn feed(executable: &Path, text: String) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Writes a solver in C as `5_solver.h` and `5_solver.c`.
+pub fn write_pair(folder: &Path, pair: &Pair) {
+    fs::write(folder.join("5_solver.h"), &pair.header).unwrap();
+    fs::write(folder.join("5_solver.c"), &pair.source).unwrap();
+}
+
 /// The compiled solvers with their languages' names; `None` when a compiler is missing.
 pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
     let rust = codegen::rust::emit(program);
     let has_extra = rust.contains("pub const EXTRAS");
     fs::write(folder.join("5_solver.rs"), rust).unwrap();
-    fs::write(folder.join("5_solver.c"), codegen::c99::emit(program)).unwrap();
+    write_pair(folder, &Pair::new(program, "5_solver.h"));
     fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
     let again = if has_extra { "answer.residual" } else { "solver::residual(&target, &answer.q)" };
     let driver = RUST_DRIVER.replace("AGAIN", again);
@@ -236,8 +242,7 @@ fn c_driver(name: &str, has_extra: bool) -> String {
 }
 
 const C_DRIVER: &str = r#"
-#define UPPER_DECLARATIONS_ONLY
-#include "5_solver.c"
+#include "5_solver.h"
 #include <stdio.h>
 
 int main(void)

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use groebot::codegen;
+use groebot::codegen::{self, c99::Pair};
 use groebot::solver::Program;
 
 use super::harness::compare;
@@ -22,8 +22,9 @@ fn committed_solvers_of_limbs_answer_like_their_programs() {
     for (name, least) in [("nao_legs", 640), ("nao_legs_poses", 160), ("nao_legs_yaw", 160)] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name);
         let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
+        let Pair { header, source } = Pair::new(&program, "5_solver.h");
         for (file, text) in
-            [("5_solver.rs", codegen::rust::emit(&program)), ("5_solver.c", codegen::c99::emit(&program))]
+            [("5_solver.rs", codegen::rust::emit(&program)), ("5_solver.c", source), ("5_solver.h", header)]
         {
             assert!(fs::read_to_string(folder.join(file)).unwrap() == text, "{name}: {file} is out of date");
         }

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use groebot::codegen::c99;
+use groebot::codegen::c99::Pair;
 use groebot::solver::Program;
 
-use super::harness::{compile_c, feed};
+use super::harness::{compile_c, feed, write_pair};
 use super::random;
 use super::stored::{joint_values, named};
 
@@ -26,7 +26,7 @@ pub struct Seen {
 
 fn build(program: &Program, folder: &Path) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
-    fs::write(folder.join("5_solver.c"), c99::emit_single(program)).unwrap();
+    write_pair(folder, &Pair::single(program, "5_solver.h"));
     fs::write(folder.join("main.c"), DRIVER.replace("NAME", &program.name).replace("UPPER", &upper)).unwrap();
     compile_c(folder, &["-Wdouble-promotion", "-c", "5_solver.c", "-o", "solver.o"])?;
     compile_c(folder, &["main.c", "solver.o", "-lm", "-o", "single"])
@@ -88,8 +88,7 @@ fn answers_of_single_precision_are_near_those_of_double_precision() {
 }
 
 const DRIVER: &str = r#"
-#define UPPER_DECLARATIONS_ONLY
-#include "5_solver.c"
+#include "5_solver.h"
 #include <stdio.h>
 
 int main(void)
