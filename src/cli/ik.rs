@@ -1,4 +1,4 @@
-//! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first.
+//! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first; or by search.
 
 use serde::Serialize;
 
@@ -7,6 +7,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use super::answers::table;
 use super::plan::{self, Mechanism};
 use super::{Outcome, console, targets};
+use crate::kinematics::numeric::NumericSolver;
 use crate::kinematics::screw::{ScrewSolver, Solution, Target};
 use crate::kinematics::{Chain, JointKind, Task};
 use crate::spatial::Pose;
@@ -17,11 +18,15 @@ const EXAMPLES: &str = "Examples:
   groebot ik puma --target 0.3,1.1,0.4,0,0,0,1               position, then the quaternion x, y, z, w
   groebot ik nao_left_leg --q 0.1,0.2,-0.3,0.5,-0.1,0.2      the pose that these joint values reach
   groebot ik robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
+  groebot ik general_arm.toml --numeric --target 0.3,1.1,0.4,0,0,0,1
 
 Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
 task of a chain may ask for less: x,y,z for a position, and a direction behind them for a ray; a direction alone, or angles or a
 quaternion alone; two coordinates in a plane, or those and the angle about its normal. Values of given joints stand last.
 A target out of reach is no error: the answer is \"no solution\".";
+
+/// The method that may not find all answers.
+const NUMERIC: &str = "numeric, maybe not all";
 
 /// Finds all joint values for a target by screw theory, each checked by forward kinematics
 #[derive(clap::Args)]
@@ -35,6 +40,9 @@ pub struct Arguments {
     /// Joint values whose pose is the target (repeatable)
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     q: Vec<String>,
+    /// Search by damped least squares from 300 starts instead, for any chain: each answer is checked, but they may not be all
+    #[arg(long)]
+    numeric: bool,
     /// JSON: an object for each target
     #[arg(long)]
     json: bool,
@@ -46,22 +54,52 @@ pub struct Arguments {
 /// Prints the answers to each target.
 pub fn run(arguments: &Arguments) -> Outcome {
     let chain = arguments.mechanism.chain()?;
-    let solver = plan::solver(&chain)?;
+    let solver = Method::of(&chain, arguments.numeric)?;
     let degrees = arguments.degrees;
     let given = arguments.target.iter().map(|text| (text, target(&chain, text, degrees)));
     let reached = arguments.q.iter().map(|text| (text, reached(&chain, text, degrees)));
     let mut page = String::new();
     for (text, target) in given.chain(reached) {
         let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
-        let answers = target.and_then(|(target, given)| solver.solve_given(&target, &given)).map_err(context)?;
-        page +=
-            &if arguments.json { json(&solver, text, &answers, degrees) } else { table_of(&solver, text, &answers) };
+        let answers = target.and_then(|(target, given)| solver.solve(&target, &given)).map_err(context)?;
+        let page_of = Page { chain: &chain, method: solver.name(), target: text, answers: &answers };
+        page += &if arguments.json { page_of.json(degrees) } else { page_of.table() };
     }
     if page.is_empty() {
         let text = "no target; give one by --target, or joint values by --q";
         return Err(Error::new(ErrorKind::MissingKey, text).into());
     }
     console::print(&page)
+}
+
+/// How answers are found.
+enum Method {
+    Screws(Box<ScrewSolver>),
+    Numeric(NumericSolver),
+}
+
+impl Method {
+    fn of(chain: &Chain, numeric: bool) -> Result<Self> {
+        if numeric {
+            return NumericSolver::new(chain).map(Method::Numeric);
+        }
+        plan::solver(chain).map(|solver| Method::Screws(Box::new(solver)))
+    }
+
+    fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+        match self {
+            Method::Screws(solver) => solver.solve_given(target, given),
+            Method::Numeric(solver) => solver.solve(target, given),
+        }
+    }
+
+    /// What JSON calls it.
+    fn name(&self) -> &'static str {
+        match self {
+            Method::Screws(_) => "screw theory",
+            Method::Numeric(_) => NUMERIC,
+        }
+    }
 }
 
 /// The numbers of `text`, angles still in the unit that they were given in.
@@ -141,32 +179,77 @@ fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     Ok((target, chain.given().into_iter().map(|joint| q[joint]).collect()))
 }
 
-fn table_of(solver: &ScrewSolver, given: &str, answers: &[Solution]) -> String {
-    let chain = solver.chain();
-    let title = format!("{} at {}", chain.name(), targets::shown(given));
-    let unit = chain.length_unit().symbol();
-    if answers.is_empty() {
-        return format!("{title}: out of reach: no solution\n");
-    }
-    let plural = if answers.len() == 1 { "solution" } else { "solutions" };
-    let mut header = vec!["#".to_owned()];
-    header.extend(chain.joints().iter().map(|joint| match joint.kind {
-        JointKind::Revolute => format!("{} [deg]", joint.name),
-        JointKind::Prismatic => format!("{} [{unit}]", joint.name),
-    }));
-    header.extend([format!("position off [{unit}]"), "rotation off [rad]".to_owned(), String::new()]);
-    let mut rows = vec![header];
-    for (index, answer) in answers.iter().enumerate() {
-        let mut row = vec![(index + 1).to_string()];
-        row.extend(chain.joints().iter().zip(&answer.q).map(|(joint, value)| match joint.kind {
-            JointKind::Revolute => format!("{:.6}", value.to_degrees() + 0.0),
-            JointKind::Prismatic => format!("{value:.9}"),
+/// The answers to a target.
+struct Page<'a> {
+    chain: &'a Chain,
+    method: &'static str,
+    /// The target as it was given.
+    target: &'a str,
+    answers: &'a [Solution],
+}
+
+impl Page<'_> {
+    fn table(&self) -> String {
+        let Page { chain, answers, .. } = self;
+        let title = format!("{} at {}", chain.name(), targets::shown(self.target));
+        let unit = chain.length_unit().symbol();
+        let is_numeric = self.method == NUMERIC;
+        if answers.is_empty() {
+            let why = if is_numeric { "the search found none: there may be" } else { "out of reach:" };
+            return format!("{title}: {why} no solution\n");
+        }
+        let plural = if answers.len() == 1 { "solution" } else { "solutions" };
+        let how = if is_numeric { ", found by search: there may be others" } else { "" };
+        let mut header = vec!["#".to_owned()];
+        header.extend(chain.joints().iter().map(|joint| match joint.kind {
+            JointKind::Revolute => format!("{} [deg]", joint.name),
+            JointKind::Prismatic => format!("{} [{unit}]", joint.name),
         }));
-        row.extend([answer.position_residual, answer.rotation_residual].map(|miss| format!("{miss:.1e}")));
-        row.push(notes(chain, answer));
-        rows.push(row);
+        header.extend([format!("position off [{unit}]"), "rotation off [rad]".to_owned(), String::new()]);
+        let mut rows = vec![header];
+        for (index, answer) in answers.iter().enumerate() {
+            let mut row = vec![(index + 1).to_string()];
+            row.extend(chain.joints().iter().zip(&answer.q).map(|(joint, value)| match joint.kind {
+                JointKind::Revolute => format!("{:.6}", value.to_degrees() + 0.0),
+                JointKind::Prismatic => format!("{value:.9}"),
+            }));
+            row.extend([answer.position_residual, answer.rotation_residual].map(|miss| format!("{miss:.1e}")));
+            row.push(notes(chain, answer));
+            rows.push(row);
+        }
+        format!("{title}: {} {plural}{how}\n{}", answers.len(), table(&rows))
     }
-    format!("{title}: {} {plural}\n{}", answers.len(), table(&rows))
+
+    fn json(&self, degrees: bool) -> String {
+        let chain = self.chain;
+        let turns = |i: usize| chain.joints()[i].kind == JointKind::Revolute;
+        let unit = |i: usize| match (turns(i), degrees) {
+            (true, true) => "deg",
+            (true, false) => "rad",
+            (false, _) => chain.length_unit().symbol(),
+        };
+        let entry = |answer: &Solution| Entry {
+            q: answer
+                .q
+                .iter()
+                .enumerate()
+                .map(|(i, q)| if turns(i) && degrees { q.to_degrees() } else { *q })
+                .collect(),
+            free: answer.free.iter().map(|&i| chain.joints()[i].name.as_str()).collect(),
+            position_residual: answer.position_residual,
+            rotation_residual: answer.rotation_residual,
+            branch: answer.branch,
+        };
+        let object = Object {
+            name: chain.name(),
+            method: self.method,
+            target: self.target,
+            joints: chain.joints().iter().map(|joint| joint.name.as_str()).collect(),
+            unit: (0..chain.joints().len()).map(unit).collect(),
+            solutions: self.answers.iter().map(entry).collect(),
+        };
+        serde_json::to_string_pretty(&object).expect("an answer holds nothing that JSON cannot say") + "\n"
+    }
 }
 
 /// Which joints are free, and which stand outside their limits.
@@ -183,8 +266,10 @@ fn notes(chain: &Chain, answer: &Solution) -> String {
 }
 
 #[derive(Serialize)]
-struct Page<'a> {
+struct Object<'a> {
     name: &'a str,
+    /// By which method the solutions were found.
+    method: &'a str,
     target: &'a str,
     joints: Vec<&'a str>,
     unit: Vec<&'a str>,
@@ -199,29 +284,4 @@ struct Entry<'a> {
     position_residual: f64,
     rotation_residual: f64,
     branch: usize,
-}
-
-fn json(solver: &ScrewSolver, given: &str, answers: &[Solution], degrees: bool) -> String {
-    let chain = solver.chain();
-    let turns = |i: usize| chain.joints()[i].kind == JointKind::Revolute;
-    let unit = |i: usize| match (turns(i), degrees) {
-        (true, true) => "deg",
-        (true, false) => "rad",
-        (false, _) => chain.length_unit().symbol(),
-    };
-    let entry = |answer: &Solution| Entry {
-        q: answer.q.iter().enumerate().map(|(i, q)| if turns(i) && degrees { q.to_degrees() } else { *q }).collect(),
-        free: answer.free.iter().map(|&i| chain.joints()[i].name.as_str()).collect(),
-        position_residual: answer.position_residual,
-        rotation_residual: answer.rotation_residual,
-        branch: answer.branch,
-    };
-    let page = Page {
-        name: chain.name(),
-        target: given,
-        joints: chain.joints().iter().map(|joint| joint.name.as_str()).collect(),
-        unit: (0..chain.joints().len()).map(unit).collect(),
-        solutions: answers.iter().map(entry).collect(),
-    };
-    serde_json::to_string_pretty(&page).expect("an answer holds nothing that JSON cannot say") + "\n"
 }

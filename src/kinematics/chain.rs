@@ -12,8 +12,8 @@ use super::exact_serde;
 use super::fk::Numeric;
 use super::task::Task;
 use super::validate::{self, Fault, Part};
-use crate::Result;
 use crate::number::BigRational;
+use crate::{Error, ErrorKind, Result};
 
 /// Three exact coordinates.
 pub type ExactVector = [BigRational; 3];
@@ -230,6 +230,20 @@ impl Chain {
     pub fn given(&self) -> Vec<usize> {
         let is_given = |joint: &Joint| self.parts.given.contains(&joint.name);
         self.joints().iter().enumerate().filter(|(_, joint)| is_given(joint)).map(|(place, _)| place).collect()
+    }
+
+    /// Fails unless there is one finite value for each given joint.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] with their names.
+    pub fn check_given(&self, values: &[f64]) -> Result<()> {
+        let count = self.given().len();
+        if values.len() == count && values.iter().all(|value| value.is_finite()) {
+            return Ok(());
+        }
+        let names = self.parts.given.join(", ");
+        let text = format!("{} values are given; give a finite one for each of {count} joints: {names}", values.len());
+        Err(Error::new(ErrorKind::BadValue, text))
     }
 
     /// All unknowns from the greatest to the smallest, when a term order is asked for.

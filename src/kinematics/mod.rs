@@ -1,6 +1,6 @@
 //! Kinematics of serial chains: the validated exact model [`Chain`] and what is asked of it ([`Task`]), its file formats
 //! ([`chain_toml`], [`dh_toml`], [`urdf`]), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`snap`]), the
-//! screw solver ([`screw`]) and a numeric inverse ([`oracle`]).
+//! screw solver ([`screw`]) and a numeric inverse ([`oracle`], [`numeric`]).
 
 pub mod chain;
 pub mod chain_toml;
@@ -13,6 +13,7 @@ pub mod fk;
 mod frame;
 pub mod geometry;
 pub mod jacobian;
+pub mod numeric;
 pub mod oracle;
 mod placement;
 pub mod screw;

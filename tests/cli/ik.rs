@@ -73,3 +73,54 @@ fn bad_targets_are_refused() {
     assert!(refused(&["ik", "puma", "--q", "1,2,3"]).contains("3 joint values are given; the chain has 6"));
     assert!(refused(&["ik", "polar", "--target", "1,2,3,4"]).contains("a position has 3 numbers"));
 }
+
+/// A Stanford arm whose slide stands behind the first wrist axis: no way of ours solves it in closed form.
+const SLIDE_IN_THE_WRIST: &str = r#"
+name = "arm"
+source = "made for this test"
+task = { kind = "pose" }
+tip = { point = [0, 0.15, 1] }
+joint = [
+    { name = "j1", type = "revolute", axis = [0, 0, 1], point = [0, 0, 0] },
+    { name = "j2", type = "revolute", axis = [0, 1, 0], point = [0, 0.1, 0.4] },
+    { name = "j3", type = "revolute", axis = [0, 0, 1], point = [0, 0.15, 0.8] },
+    { name = "j4", type = "prismatic", axis = [0, 0, 1], point = [0, 0.15, 0.8] },
+    { name = "j5", type = "revolute", axis = [0, 1, 0], point = [0, 0.15, 0.8] },
+    { name = "j6", type = "revolute", axis = [1, 0, 0], point = [0, 0.15, 0.8] },
+]
+"#;
+
+#[test]
+fn a_chain_without_closed_form_is_searched() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("arm.toml");
+    std::fs::write(&file, SLIDE_IN_THE_WRIST).unwrap();
+    let told = refused(&["derive", text(&file)]);
+    for part in ["8 complex solutions", "`j3` 8", "would have to meet in one point or be parallel", "ik --numeric"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(refused(&["ik", text(&file), "--q", "0,0,0,0,0,0"]).contains("ik --numeric"));
+    // Turning about the axis of the slide and sliding may change places: what the screw solver finds is the same but for the order.
+    let other = folder.path().join("other.toml");
+    let swapped =
+        SLIDE_IN_THE_WRIST.replace("name = \"j3\", type = \"revolute\"", "name = \"j4\", type = \"prismatic\"");
+    let swapped = swapped.replacen(
+        "{ name = \"j4\", type = \"prismatic\", axis = [0, 0, 1], point = [0, 0.15, 0.8] },\n    { name = \"j5\"",
+        "{ name = \"j3\", type = \"revolute\", axis = [0, 0, 1], point = [0, 0.15, 0.8] },\n    { name = \"j5\"",
+        1,
+    );
+    std::fs::write(&other, swapped).unwrap();
+    let found = solutions(&[text(&file), "--numeric", "--q", "0.1,0.2,0.3,0.15,0.4,0.5"]);
+    let by_screws = solutions(&[text(&other), "--q", "0.1,0.2,0.15,0.3,0.4,0.5"]);
+    assert_eq!((found.len(), by_screws.len()), (8, 8));
+    for answer in found.iter().map(|answer| numbers(&answer["q"])) {
+        let [a, b, c, d, e, f] = answer[..] else { panic!("{answer:?}") };
+        let near =
+            |other: &Value| numbers(&other["q"]).iter().zip([a, b, d, c, e, f]).all(|(x, y)| (x - y).abs() < 1e-9);
+        assert!(by_screws.iter().any(near), "{answer:?}");
+    }
+    let page = succeed(&["ik", text(&file), "--numeric", "--q", "0.1,0.2,0.3,0.15,0.4,0.5"]);
+    assert!(page.contains("8 solutions, found by search: there may be others"), "{page}");
+    let far = succeed(&["ik", text(&file), "--numeric", "--target", "9,9,9,0,0,0"]);
+    assert!(far.contains("the search found none"), "{far}");
+}

@@ -7,6 +7,7 @@ mod exact_rotation;
 mod fk;
 mod geometry;
 pub mod jacobian;
+mod numeric;
 mod oracle;
 mod screw;
 mod snap;

@@ -315,7 +315,10 @@ fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
             // Next to a straight wrist as well, joints 4 and 6 are hardly determined.
             prop_assume!(q[4].sin().abs() > 0.05);
             let found = derived.program.solve(&derived.reached(&q).unwrap()).unwrap();
-            let is_found = |a: &Solution| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-6);
+            // Where both answers all but meet, what rounding leaves of the target tells the joints less well.
+            let singular_values = derived.measured().spatial_jacobian(&q).unwrap().singular_values();
+            let known = f64::max(1e-6, 1e-13 / singular_values.min());
+            let is_found = |a: &Solution| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < known);
             prop_assert!(found.iter().any(is_found), "{q:?}: {found:?}");
             Ok(())
         };

@@ -14,11 +14,11 @@ use super::shape::{eliminated, shape};
 use super::slack::Slack;
 use super::template::{Form, Template};
 use super::{Derived, Lifted, Parts};
-use crate::Result;
 use crate::derive::certificate::{Entry, check_head, entries, refused, replay, unread, written};
 use crate::derive::closure::{self, Mechanism};
 use crate::derive::planner::{Plan, PlanStep, Way};
 use crate::kinematics::Chain;
+use crate::{Error, Result};
 
 /// The version of the format; that of a system of equations has number 1.
 const FORMAT: u32 = 2;
@@ -146,7 +146,9 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
             false => Err(refused("no such joint".to_owned())),
         };
         let name = mechanism.joints().get(step.joint).map_or("?", |joint| joint.name.as_str());
-        steps.push(proved.map_err(|error| refused(format!("step {}, `{name}`: {}", index + 1, error.message())))?);
+        let of_step =
+            |error: Error| Error::new(error.kind(), format!("step {}, `{name}`: {}", index + 1, error.message()));
+        steps.push(proved.map_err(of_step)?);
         known.push(step.joint);
     }
     if steps.len() + plan.given.len() != count {

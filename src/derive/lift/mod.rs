@@ -40,7 +40,7 @@ use super::planner::{self, Plan, PlanStep};
 use crate::kinematics::Chain;
 use crate::kinematics::snap::SnapReport;
 use crate::solver::Program;
-use crate::{Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// A step of a plan whose equations have been recognised.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,12 @@ impl Derived {
     pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
         let mechanism = Mechanism::new(chain)?;
         let plan = planner::plan(&mechanism, watch)?;
-        Derived::of_plan(chain, &mechanism, plan, watch)
+        let evidence = plan.evidence[0].clone();
+        let told = |error: Error| match error.kind() {
+            ErrorKind::Unsupported => planner::not_lifted(&mechanism, &evidence, &error),
+            _ => error,
+        };
+        Derived::of_plan(chain, &mechanism, plan, watch).map_err(told)
     }
 
     /// This solver, of an ideal chain, for the chain `truth` that was meant by it: `report` of [`Chain::snapped`] tells how they

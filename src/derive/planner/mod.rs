@@ -18,6 +18,7 @@ mod specimen;
 mod types;
 
 pub use given::joint_to_give;
+pub(super) use refuse::not_lifted;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 

@@ -65,14 +65,25 @@ fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
 
 /// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
 pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
-    let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
-    let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
         Some(product) => format!("the best order of the joints gives {product} instead"),
     };
+    solved_by_none(mechanism, evidence, &found)
+}
+
+/// The error of a mechanism whose plan ends with `error` when it is lifted to polynomials in the target.
+pub fn not_lifted(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
+    solved_by_none(mechanism, evidence, error.message())
+}
+
+/// The error of a mechanism without a solver because of what was `found`: how many solutions it has, and what its geometry lacks.
+fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Error {
+    let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
+    let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
     let text = format!(
-        "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}",
+        "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}; a search \
+         (`groebot ik --numeric`) may find some of them",
         mechanism.task().name(),
         evidence.dimension,
         degrees.join(", "),

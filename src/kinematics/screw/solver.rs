@@ -98,13 +98,7 @@ impl ScrewSolver {
     /// # Errors
     /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each given joint.
     pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
-        if given.len() != self.model.given.len() || !given.iter().all(|value| value.is_finite()) {
-            let names = self.chain.parts().given.join(", ");
-            let count = self.model.given.len();
-            let text =
-                format!("{} values are given; give a finite one for each of {count} joints: {names}", given.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
+        self.chain.check_given(given)?;
         let goal = target.goal(&self.chain)?;
         let start = self.model.start(goal, given.iter().map(|&value| Half::new(value)));
         let mut found = Vec::with_capacity(self.plan().most_solutions());
@@ -227,7 +221,7 @@ fn unsolved(chain: &Chain) -> Error {
         if there.is_empty() { "no neighbouring axes meet or are parallel".to_owned() } else { there.join(", ") };
     let text = format!(
         "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three \
-         axes in a row that meet or are parallel, or three parallel pairs",
+         axes in a row that meet or are parallel, or three parallel pairs; a search (`groebot ik --numeric`) may find answers",
         chain.name(),
         chain.joints().len(),
         chain.task().name()

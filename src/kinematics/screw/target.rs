@@ -74,6 +74,14 @@ impl Target {
         })
     }
 
+    /// Fails unless the target is of the kind of `chain`'s task and finite.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] then, and for a quaternion or a direction that is not of norm one.
+    pub fn check(&self, chain: &Chain) -> Result<()> {
+        self.goal(chain).map(drop)
+    }
+
     /// The goal of the loop of all joints of `chain`.
     ///
     /// # Errors
