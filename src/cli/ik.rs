@@ -75,13 +75,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// How answers are found.
 enum Method {
     Screws(Box<ScrewSolver>),
-    Numeric(NumericSolver),
+    Numeric(Box<NumericSolver>),
 }
 
 impl Method {
     fn of(chain: &Chain, numeric: bool) -> Result<Self> {
         if numeric {
-            return NumericSolver::new(chain).map(Method::Numeric);
+            return NumericSolver::new(chain).map(|solver| Method::Numeric(Box::new(solver)));
         }
         plan::solver(chain).map(|solver| Method::Screws(Box::new(solver)))
     }

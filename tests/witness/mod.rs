@@ -4,6 +4,7 @@ mod chain;
 mod chains;
 mod derived;
 mod mounted;
+mod rail;
 mod screws;
 
 use groebot::Watch;

@@ -1,7 +1,7 @@
 //! A chain as exact screws with its task: what relations are made of. Main type: [`Mechanism`].
 
 use super::vector;
-use crate::kinematics::{Chain, ExactMatrix, ExactVector, JointKind, Plane, Task};
+use crate::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
@@ -21,6 +21,8 @@ pub struct ScrewJoint {
     pub square: BigRational,
     /// o: a point of the axis.
     pub point: ExactVector,
+    /// The limits of a slide, if it has two, in the chain's unit.
+    pub travel: Option<(f64, f64)>,
     /// w / |w|^2.
     pub(super) dual: ExactVector,
 }
@@ -30,7 +32,14 @@ impl ScrewJoint {
         let axis = vector::normalised(axis);
         let (square, point) = (vector::dot(&axis, &axis), point.clone());
         let dual = vector::scale(&axis, &square.recip());
-        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point, dual }
+        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point, travel: None, dual }
+    }
+
+    /// The screw of a chain's joint.
+    fn of(joint: &Joint) -> Self {
+        let is_travel = |(low, high): &(f64, f64)| joint.kind == JointKind::Prismatic && (high - low).is_finite();
+        let travel = joint.limits.filter(is_travel);
+        ScrewJoint { travel, ..ScrewJoint::new(&joint.name, &joint.symbol, joint.kind, &joint.axis, &joint.point) }
     }
 
     /// Whether it turns.
@@ -65,11 +74,7 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a given joint that the chain has not.
     pub fn new(chain: &Chain) -> Result<Self> {
-        let mut joints: Vec<ScrewJoint> = chain
-            .joints()
-            .iter()
-            .map(|joint| ScrewJoint::new(&joint.name, &joint.symbol, joint.kind, &joint.axis, &joint.point))
-            .collect();
+        let mut joints: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
         let task = chain.task();
         // The angle of a planar pose is counted from the zero configuration, and so is the turn about a ray.
         let tip_rotation = match task {

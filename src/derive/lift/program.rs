@@ -162,7 +162,7 @@ impl Context<'_> {
             value: layout.joints[joint],
             auxiliary,
             symbols,
-            samples: self.samples.places(layout.joints[joint], self.reach),
+            samples: self.samples.places(layout.joints[joint], self.reach, screw.travel),
             slack: self.slack,
             spreads: self.spreads.to_vec(),
         };

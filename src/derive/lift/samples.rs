@@ -9,6 +9,12 @@ const FIRST: f64 = 0.4;
 /// A free length is put at places on both sides of this share of the reach.
 const MIDDLE: f64 = 0.1;
 
+/// A slide that goes beyond this multiple of the reach needs places of its own: an arm on a rail reaches targets from a part of it only.
+const FAR: f64 = 1.2;
+/// So many places there are within a reach then, and so many altogether at most.
+const CLOSE: f64 = 3.0;
+const MOST: f64 = 64.0;
+
 /// How many places there are for an angle, and for a length.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
@@ -35,8 +41,12 @@ impl Samples {
         }
     }
 
-    /// The places of a joint \[rad, or the unit of `reach`\].
-    pub fn places(self, joint: JointValue, reach: f64) -> Vec<f64> {
+    /// The places of a joint \[rad, or the unit of `reach`\]; where a slide's `travel` is longer than what the arm reaches, along that.
+    pub fn places(self, joint: JointValue, reach: f64, travel: Option<(f64, f64)>) -> Vec<f64> {
+        if let Some((low, high)) = travel.filter(|(low, high)| low.abs().max(high.abs()) > FAR * reach) {
+            let count = (CLOSE * (high - low) / reach).ceil().clamp(f64::from(self.lengths), MOST) as usize;
+            return (0..count).map(|k| low + (high - low) * (k as f64 + FIRST) / count as f64).collect();
+        }
         let (count, middle, step) = match joint {
             JointValue::Angle { .. } => (self.angles, FIRST, std::f64::consts::TAU / f64::from(self.angles)),
             JointValue::Plain(_) => (self.lengths, MIDDLE * reach, 2.0 * reach / f64::from(self.lengths - 1)),
