@@ -3,7 +3,7 @@
 use super::demand::{Demand, ParameterDemand};
 use super::mirror::Mirror;
 use super::names::Names;
-use super::outline::has_families;
+use super::needs::has_families;
 use super::printer::{Language, Printer, number};
 use super::samples::Table;
 use super::steps::Walk;

@@ -18,6 +18,7 @@ mod joined;
 mod lanes;
 mod mirror;
 mod names;
+mod needs;
 mod outline;
 mod printer;
 mod quartic;

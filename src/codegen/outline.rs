@@ -11,13 +11,14 @@ use super::forward::{self, ForwardText, equations, printed_forward};
 use super::lanes;
 use super::mirror::Mirror;
 use super::names::{Names, remark};
+use super::needs::{Needs, is_angle};
 use super::printer::{Language, number, reads_places};
 use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
 use crate::document::word;
-use crate::solver::{Chart, Condition, DAMPINGS, JointValue, LEAPS, Operand, Program, Step, TWINS_AT, Unit, square};
+use crate::solver::{DAMPINGS, JointValue, LEAPS, Operand, Program, TWINS_AT, Unit};
 
 /// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
 const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
@@ -131,31 +132,6 @@ struct PreferenceText {
     value: String,
     reads_q: bool,
     greatest: bool,
-}
-
-/// Which functions the file needs.
-#[derive(Serialize)]
-struct Needs {
-    answers: bool,
-    families: bool,
-    open: bool,
-    groups: bool,
-    rotation: bool,
-    unit: bool,
-    near: bool,
-    /// Whether strata are told from what is beside them by the candidates.
-    strata: bool,
-    /// The formulas are those of a nearby mechanism.
-    nearby: bool,
-    away: bool,
-    pivot: bool,
-    squares: bool,
-    polynomials: bool,
-    angles: bool,
-    lengths: bool,
-    sort: bool,
-    /// The target begins with a pose.
-    frames: bool,
 }
 
 impl Outline {
@@ -335,46 +311,6 @@ impl PreferenceText {
     }
 }
 
-impl Needs {
-    fn new(program: &Program) -> Self {
-        let guards = || program.charts().flat_map(|chart| &chart.guards);
-        let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
-        Needs {
-            answers: program.charts().any(|chart| !chart.open),
-            families: has_families(program),
-            open: program.charts().any(|chart| chart.open),
-            groups: program.charts().any(|chart| chart.pivot.is_some()),
-            rotation: program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_))),
-            unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
-            near: guards().any(|guard| guard.near),
-            strata: program.charts().any(Chart::is_of_stratum),
-            nearby: program.nearby,
-            away: guards().any(|guard| !guard.near),
-            pivot: root_steps(program).any(|(_, polynomials)| polynomials.len() > 1),
-            squares: root_steps(program).any(|(_, polynomials)| square(polynomials).is_some()),
-            polynomials: root_steps(program).any(|(_, polynomials)| square(polynomials).is_none()),
-            angles: angles > 0,
-            lengths: angles < program.joints.len(),
-            sort: program.capacity > 1,
-            frames: program.conditions.as_slice() == [Condition::Rotation(3)],
-        }
-    }
-}
-
-/// Whether answers can be members of families.
-pub(super) fn has_families(program: &Program) -> bool {
-    program.charts().any(|chart| !chart.free.is_empty()) || !six_axes::steps(program).is_empty()
-}
-
-/// The root steps that are printed, each with its polynomials.
-pub(super) fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Vec<Operand>])> {
-    let steps = program.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
-    steps.filter_map(|step| match step {
-        Step::Roots { polynomials, .. } => Some((step, polynomials.as_slice())),
-        _ => None,
-    })
-}
-
 fn joints(program: &Program, language: &dyn Language) -> Vec<Quantity> {
     program.joints.iter().map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value))).collect()
 }
@@ -397,10 +333,6 @@ fn extra_unknowns(program: &Program) -> Vec<usize> {
         })
     };
     (0..program.unknowns.len()).filter(|&unknown| demand.wants_unknown(unknown) && !is_joints(unknown)).collect()
-}
-
-fn is_angle(value: JointValue) -> bool {
-    matches!(value, JointValue::Angle { .. })
 }
 
 fn unit_text(unit: Unit) -> &'static str {

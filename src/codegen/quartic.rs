@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::outline::root_steps;
+use super::needs::root_steps;
 use super::printer::number;
 use crate::solver::Program;
 use crate::solver::quartic::{DISTINCT, FACTORED, LED, RESOLVED, RESOLVENT_STEPS, SETTLED};

@@ -3,6 +3,8 @@
 //!
 //! Every answer is checked by forward kinematics; nothing tells whether they are all.
 
+use std::cmp::Ordering;
+
 use super::oracle::{Oracle, Unknown};
 use super::screw::{Solution, Target};
 use super::{Chain, JointKind};
@@ -63,9 +65,7 @@ impl NumericSolver {
         let oracle = Oracle { seeds: SEEDS, ..Oracle::default() };
         let found = oracle.search(&unknowns, |values| self.misses(target, &whole(values)))?;
         let mut answers: Vec<Solution> = found.iter().map(|answer| self.answer(target, whole(&answer.q))).collect();
-        answers.sort_by(|a, b| {
-            a.q.iter().zip(&b.q).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
-        });
+        answers.sort_by(|a, b| a.q.partial_cmp(&b.q).unwrap_or(Ordering::Equal));
         for (index, answer) in answers.iter_mut().enumerate() {
             answer.branch = index;
         }

@@ -52,7 +52,7 @@ impl DerivedSixAxes {
     /// Counts the solutions, finds the regular formulations and ranks them.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]), with infinitely many solutions, or
+    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`](super::fits)), with infinitely many solutions, or
     /// without a formulation that is regular and accurate; what `watch` stops with.
     pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
         let six = Six::of(chain)?;
