@@ -36,15 +36,20 @@ impl Pair {
     /// The solver of a valid program ([`Program::validate`]); `header` is the name of the header's file, which the source file includes. The
     /// code allocates nothing and has no state.
     pub fn new(program: &Program, header: &str) -> Self {
-        let [header, source] = ["header", "source"].map(|part| double(Outline::new(program, &C99).part(part, header)));
-        Pair { header, source }
+        Pair::of(Outline::new(program, &C99), header, double)
     }
 
     /// The same in single precision, as [`emit_single`].
     pub fn single(program: &Program, header: &str) -> Self {
-        let [header, source] =
-            ["header", "source"].map(|part| in_single(Outline::single(program, &C99).part(part, header)));
-        Pair { header, source }
+        Pair::of(Outline::single(program, &C99), header, in_single)
+    }
+
+    fn of(mut outline: Outline, header: &str, text: fn(&Outline) -> String) -> Self {
+        let mut part = |part| {
+            outline.be_part(part, header);
+            text(&outline)
+        };
+        Pair { header: part("header"), source: part("source") }
     }
 }
 
@@ -52,26 +57,26 @@ impl Pair {
 ///
 /// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
 pub fn emit(program: &Program) -> String {
-    double(Outline::new(program, &C99))
+    double(&Outline::new(program, &C99))
 }
 
 /// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
 /// near singular configurations fewer are told apart than in double precision.
 pub fn emit_single(program: &Program) -> String {
-    in_single(Outline::single(program, &C99))
+    in_single(&Outline::single(program, &C99))
 }
 
-fn double(outline: Outline) -> String {
-    CONSTANTS.joined(&super::fill(SKELETON, &outline))
+fn double(outline: &Outline) -> String {
+    CONSTANTS.joined(&super::fill(SKELETON, outline))
 }
 
-fn in_single(outline: Outline) -> String {
+fn in_single(outline: &Outline) -> String {
     single(&double(outline))
 }
 
 /// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
 pub(super) fn engine(program: &Program) -> String {
-    let text = double(Outline::engine(program, &C99));
+    let text = double(&Outline::engine(program, &C99));
     let limits = |line: String| {
         line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
             .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")

@@ -140,9 +140,9 @@ impl Outline {
         Outline { engine: true, ..Outline::new(program, language) }
     }
 
-    /// The same for a part of a pair whose header has the name `header`.
-    pub fn part(self, part: &'static str, header: &str) -> Self {
-        Outline { part, header: header.to_owned(), ..self }
+    /// Makes it that of a part of a pair whose header has the name `header`.
+    pub fn be_part(&mut self, part: &'static str, header: &str) {
+        (self.part, self.header) = (part, header.to_owned());
     }
 
     /// The outline of a file that computes in single precision.
