@@ -11,6 +11,7 @@ use num_traits::{One, ToPrimitive, Zero};
 use super::form::{Form, Forms, constant, cross, dot, sum};
 use crate::kinematics::{Chain, ExactVector, Joint, JointKind, Task};
 use crate::number::BigRational;
+use crate::poly::rational_root;
 
 /// What the unknowns of a joint are.
 #[derive(Clone, Debug, PartialEq)]
@@ -237,9 +238,8 @@ fn cross_exact(a: &ExactVector, b: &ExactVector) -> ExactVector {
 
 /// The vector made as long as one; `None` where its length is no fraction.
 fn unit(v: &ExactVector) -> Option<ExactVector> {
-    let square = square(v);
-    let length = BigRational::new(square.numer().sqrt(), square.denom().sqrt());
-    (!length.is_zero() && &length * &length == square).then(|| v.each_ref().map(|x| x / &length))
+    let length = rational_root(&square(v)).filter(|length| !length.is_zero())?;
+    Some(v.each_ref().map(|x| x / &length))
 }
 
 fn number(exact: &BigRational) -> f64 {
