@@ -6,7 +6,7 @@ use super::console::{self, Paint};
 use super::derive::{check, refuse_failures};
 use super::ends::EndArguments;
 use super::files::{CERTIFICATE, CHECKS, is_ours, printed_solvers};
-use super::{Halt, Outcome};
+use super::{Halt, Outcome, json};
 use crate::derive::lift::Derived;
 use crate::derive::limbs::LimbStage;
 use crate::derive::{Derivation, Proved, Source, stages};
@@ -28,6 +28,9 @@ pub struct Arguments {
     derivation: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
+    /// JSON instead of text
+    #[arg(long)]
+    json: bool,
 }
 
 /// One thing that was checked: what, and what was found or what is wrong.
@@ -39,17 +42,21 @@ struct Finding {
 /// Checks all there is to check.
 pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
-    let source = Source::read_between(folder, &arguments.ends.ends())?;
+    let source = Source::read_between(folder, &arguments.ends.ends()?)?;
     let mut findings = vec![read(&source)];
     match reprove(folder, &source) {
         Ok(derivation) => {
             findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Ok(proved(&derivation)) });
-            findings.extend(stored_stages(folder, &derivation)?);
+            findings.extend(stored_stages(folder, &source, &derivation)?);
             findings.push(numeric_checks(folder, &source, &derivation)?);
         }
         Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Err(error) }),
     }
-    console::print(&page(&findings, Paint::of(&std::io::stdout())))?;
+    if arguments.json {
+        console::print(&json::text(&told(&findings)))?;
+    } else {
+        console::print(&page(&findings, Paint::of(&std::io::stdout())))?;
+    }
     match findings.iter().find_map(|finding| finding.verdict.as_ref().err()) {
         None => Ok(()),
         Some(first) => Err(Halt::Error(first.clone())),
@@ -120,10 +127,10 @@ fn proved_equations(derivation: &Derivation) -> String {
 }
 
 /// Compares every stage file with what the proved derivation says.
-fn stored_stages(folder: &Path, derivation: &Proved) -> Result<Vec<Finding>> {
+fn stored_stages(folder: &Path, source: &Source, derivation: &Proved) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     let stages = derivation.stage_files()?;
-    for (name, bytes) in stages.into_iter().chain(printed_solvers(derivation.program())) {
+    for (name, bytes) in stages.into_iter().chain(printed_solvers(derivation.program(), source)) {
         if name == CERTIFICATE || !is_ours(folder, &name) {
             continue;
         }
@@ -146,7 +153,7 @@ fn numeric_checks(folder: &Path, source: &Source, derivation: &Proved) -> Result
     let checked = check(source, derivation, &Watch::none())?;
     let path = folder.join(CHECKS);
     let stored = read_text(&path, LIMIT).and_then(|stored| same_table(&stored, &checked.to_csv()));
-    let verdict = refuse_failures(derivation, &checked).and(stored.map_err(|error| error.in_file(&path)));
+    let verdict = refuse_failures(derivation, &checked, false).and(stored.map_err(|error| error.in_file(&path)));
     let summary = checked.summary();
     let verdict = verdict.map(|()| match summary.failed {
         0 => format!("{} targets solved again and right", summary.rows),
@@ -202,6 +209,15 @@ fn same_text(stored: &str, derived: &str) -> Result<String> {
 fn differs(what: &str) -> Error {
     let text = format!("{what} is not what the certificate proves; `groebot derive` writes the right one");
     Error::new(ErrorKind::Certificate, text)
+}
+
+fn told(findings: &[Finding]) -> serde_json::Value {
+    let one = |Finding { what, verdict }: &Finding| {
+        let text = verdict.as_ref().map_or_else(ToString::to_string, Clone::clone);
+        serde_json::json!({ "what": what, "holds": verdict.is_ok(), "text": text })
+    };
+    let holds = findings.iter().all(|finding| finding.verdict.is_ok());
+    serde_json::json!({ "format": 1, "holds": holds, "findings": findings.iter().map(one).collect::<Vec<_>>() })
 }
 
 fn page(findings: &[Finding], paint: Paint) -> String {

@@ -5,17 +5,20 @@ use std::time::{Duration, Instant};
 
 use nalgebra::Point3;
 
-use super::Outcome;
 use super::answers::exact;
 use super::console::{self, Paint};
 use super::ends::{EndArguments, SnapArgument};
-use super::files::{assemble_files, destination};
+use super::files::{assemble_files, destination, refuse_overwriting};
 use super::info::near_words;
+use super::json::{self, Told};
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
-use crate::derive::{Proved, Source};
+use super::{Halt, Outcome};
+use crate::derive::planner::{Choice, fitting_task};
+use crate::derive::{Ends, Proved, Source};
 use crate::files::write_folder_atomically;
 use crate::kinematics::Chain;
+use crate::solver::Program;
 use crate::spatial::Screw;
 use crate::witness::chain::{self, limbs};
 use crate::witness::{self, Check, Options};
@@ -23,6 +26,9 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// How much is checked of a chain.
 const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
+/// How much is checked of a described robot on which the answers of the ideal one are polished, and how much of that ideal one.
+const POLISHED: Options = Options { targets: 120, oracle: 2, exact: 0, seed: 1 };
+const IDEAL: Options = Options { targets: 40, oracle: 0, exact: 20, seed: 2 };
 /// How much is checked of limbs that share motors.
 const LIMBS: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
 
@@ -59,6 +65,15 @@ pub struct Arguments {
     /// Neither progress nor report
     #[arg(long)]
     quiet: bool,
+    /// The name of the solver: its files are NAME.c, NAME.h, NAME.rs and NAME_ikfast.cpp
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// JSON instead of the report
+    #[arg(long)]
+    json: bool,
+    /// Refuse a solver whose answers are wrong or missing at one target of the numeric check, singular ones too
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Derives, writes the files, then tells about it.
@@ -66,31 +81,65 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session =
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
-    let mut source = Source::read_between(&arguments.input, &arguments.snap.ends(&arguments.ends))?;
+    let ends = Ends { name: arguments.name.clone(), ..arguments.snap.ends(&arguments.ends)? };
+    let mut source = Source::read_between(&arguments.input, &ends)?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");
     let chosen = source.choose_given(&session.watch)?;
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
     let checked = check(&source, &derivation, &session.watch)?;
-    refuse_failures(&derivation, &checked)?;
+    refuse_failures(&derivation, &checked, arguments.strict)?;
     clock.lap("check numerically");
     let files = assemble_files(&source, &derivation, &checked, &folder)?;
+    refuse_overwriting(&folder, &files)?;
     clock.lap("print the stages");
     write_folder_atomically(&folder, &files, &session.watch)?;
     clock.lap("write");
     drop(session);
     if arguments.quiet {
-        return Ok(());
+        return weak(&checked);
     }
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let told =
-        Report { derivation: &derivation, checked: &checked, folder: &folder, files: &names, timings: &clock.laps };
+    if arguments.json {
+        let (choice, laps) = (chosen.as_ref(), clock.laps.as_slice());
+        let told = Told {
+            source: &source,
+            derivation: &derivation,
+            checked: &checked,
+            choice,
+            folder: &folder,
+            files: &names,
+            laps,
+        };
+        console::print(&json::text(&told.json()))?;
+        return weak(&checked);
+    }
+    let told = Report {
+        source: &source,
+        derivation: &derivation,
+        checked: &checked,
+        folder: &folder,
+        files: &names,
+        timings: &clock.laps,
+    };
     let told = report(&told, Paint::of(&std::io::stdout()))?;
-    let chosen = chosen.map(|joint| {
-        format!("The value of `{joint}` is given with each target: the planner chose it, and `--free JOINT` chooses another.\n\n")
-    });
-    console::print(&(chosen.unwrap_or_default() + &told))
+    console::print(&(chosen.as_ref().map(told_choice).unwrap_or_default() + &told))?;
+    weak(&checked)
+}
+
+/// Which joints are given, and what else might be.
+fn told_choice(choice: &Choice) -> String {
+    let joints = choice.given.iter().map(|joint| format!("`{joint}`")).collect::<Vec<_>>().join(", ");
+    let candidates: String = choice.candidates.iter().map(|candidate| format!("  {candidate}\n")).collect();
+    format!(
+        "Given with each target: the value of {joints}. The planner chose; `--given JOINT` chooses another of\n{candidates}\n"
+    )
+}
+
+/// How the command ends: a solver with weak spots is told by the exit status.
+fn weak(checked: &witness::Report) -> Outcome {
+    if checked.weak_spots().next().is_some() { Err(Halt::WeakSpots) } else { Ok(()) }
 }
 
 /// The numeric checks of a derivation.
@@ -100,44 +149,82 @@ pub fn run(arguments: &Arguments) -> Outcome {
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
-        Proved::Chain(derived) => {
-            chain::Check::run(derived.measured(), &derived.program, derived.program.isolated, &CHAIN, watch)
-        }
-        Proved::SixAxes(derived) => {
-            chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &CHAIN, watch)
-        }
+        Proved::Chain(derived) => match &derived.unpolished {
+            None => chain::Check::run(&derived.chain, &derived.program, derived.program.isolated, &CHAIN, watch),
+            Some(ideal) => {
+                check_both(derived.measured(), &derived.program, (&derived.chain, ideal, ideal.isolated), watch)
+            }
+        },
+        Proved::SixAxes(derived) => match &derived.unpolished {
+            None => chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &CHAIN, watch),
+            Some(ideal) => {
+                let bound = Some(derived.dimension());
+                check_both(derived.measured(), &derived.program, (&derived.chain, ideal, bound), watch)
+            }
+        },
         Proved::Limbs(derived) => limbs::check(derived, &LIMBS, watch),
     }
+}
+
+/// The checks of a solver that polishes the answers of an ideal robot on the one described: on this one, and those of the ideal robot's own
+/// solver, whose solutions are counted exactly.
+fn check_both(
+    described: &Chain,
+    polished: &Program,
+    (ideal, own, bound): (&Chain, &Program, Option<usize>),
+    watch: &Watch,
+) -> Result<witness::Report> {
+    let report = chain::Check::run(described, polished, None, &POLISHED, watch)?;
+    Ok(report.with_ideal(chain::Check::run(ideal, own, bound, &IDEAL, watch)?))
 }
 
 fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
     Proved::of(source, watch).map(|proved| proved.about(source)).map_err(|error| match error.kind() {
         ErrorKind::Cancelled => error,
+        ErrorKind::Unsupported | ErrorKind::Inconsistent => advised(source, error).in_file(&source.path),
         _ => error.in_file(&source.path),
     })
 }
 
-/// Fails at the first target whose answers are wrong. An eigenvalue problem may lose answers at special targets, and so may the formulas of
-/// an ideal robot, where that one is singular and the described one is not quite: the table tells where.
+/// `error`, behind the task that fits where the joints are too few for the one that is asked, and before the tolerance that would help.
+fn advised(source: &Source, error: Error) -> Error {
+    let Some((ideal, report)) = &source.ideal else { return error };
+    if let Some(task) = fitting_task(ideal) {
+        let free = ideal.joints().len() - ideal.given().len();
+        let text = format!(
+            "{free} joints reach no generic target of the task `{}`; `{task}` asks for what they can do: {}",
+            ideal.task().name(),
+            error.message()
+        );
+        return Error::new(error.kind(), text);
+    }
+    let near = near_words(ideal);
+    let without = if report.tolerance == 0.0 { "without --exact: " } else { "" };
+    let advice = if near.is_empty() { String::new() } else { format!("; {without}{}", near.join(", ")) };
+    Error::new(error.kind(), format!("{}{advice}", error.message()))
+}
+
+/// Fails at the first ordinary target whose answers are wrong or missing; where it is `strict`, at the first target of any kind. What is wrong
+/// at singular targets is told as [weak spots](witness::Report::weak_spots), for the algebra is proved.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
-pub fn refuse_failures(derivation: &Proved, checked: &witness::Report) -> Result<()> {
-    let may_lose = match derivation {
-        Proved::SixAxes(_) => true,
-        Proved::Chain(derived) => derived.truth.is_some(),
-        Proved::Equations(_) | Proved::Limbs(_) => false,
-    };
-    let Some(row) = checked.failures().find(|row| !(may_lose && row.is_special_loss())) else { return Ok(()) };
+pub fn refuse_failures(derivation: &Proved, checked: &witness::Report, strict: bool) -> Result<()> {
+    let Some(row) = checked.failures().find(|row| strict || !row.is_weak_spot()) else { return Ok(()) };
     let target: Vec<String> = row.target.iter().map(|value| exact(*value)).collect();
     let text = format!(
-        "numeric check, row {} ({}): the answers at the target {} are wrong: {}{}",
+        "{}{}; numeric check, row {} ({}), target {}",
+        row.verdict.faults().iter().map(|fault| fault.sentence()).collect::<Vec<_>>().join("; "),
+        nearly_ideal(derivation),
         row.number,
         row.kind,
-        target.join(","),
-        row.verdict.faults().iter().map(|fault| fault.sentence()).collect::<Vec<_>>().join("; "),
-        nearly_ideal(derivation)
+        target.join(",")
     );
+    let text = if row.is_weak_spot() {
+        format!("at a singular target an answer is wrong or missing (without --strict that is told, no error): {text}")
+    } else {
+        format!("at an ordinary target an answer is wrong or missing: {text}")
+    };
     Err(Error::new(ErrorKind::Certificate, text))
 }
 

@@ -1,12 +1,16 @@
-//! `--base`, `--tip`, `--task`, `--direction`, `--free` and `--snap`: which chain of a URDF, and what is asked of it.
+//! `--base`, `--tip`, `--task`, `--plane`, `--direction`, `--given`, `--snap` and `--exact`: which chain of a URDF, and what is asked of it.
 
 use crate::derive::Ends;
-use crate::kinematics::{Chain, ExactVector, Task};
+use crate::kinematics::{Chain, ExactVector, Plane, Task};
 use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
 /// The tasks that need no plane.
 const TASKS: [Task; 5] = [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation];
+/// Those that need one.
+const PLANAR: [fn(Plane) -> Task; 2] = [|plane| Task::PlanarPosition { plane }, |plane| Task::PlanarPose { plane }];
+/// The planes.
+const PLANES: [Plane; 3] = [Plane::Xy, Plane::Xz, Plane::Yz];
 
 /// The links between which a chain is wanted, and its task.
 #[derive(clap::Args)]
@@ -17,31 +21,49 @@ pub struct EndArguments {
     /// URDF: the link where the chain ends (default: the only leaf)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// What is asked of the tip: pose, position, ray, direction or rotation (default: as described; of a URDF, pose)
+    /// What is asked of the tip: pose, position, ray, direction, rotation, planar_position or planar_pose (default: as described; of a
+    /// URDF, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
-    task: Option<Task>,
+    task: Option<AskedTask>,
+    /// The plane of the base frame in which a planar task moves: xy, xz or yz
+    #[arg(long, value_name = "PLANE", value_parser = plane)]
+    plane: Option<Plane>,
     /// The direction in the tip frame that `ray` and `direction` aim, such as 1,0,0 (default: z)
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
     /// A joint whose value is given with each target (repeatable; default: as described, else one of the planner's choice where the
-    /// task leaves one joint too many)
-    #[arg(long, value_name = "JOINT", visible_alias = "given")]
-    free: Vec<String>,
+    /// task leaves one joint too many); `auto`: as many as are too many, of the planner's choice
+    #[arg(long, value_name = "JOINT", alias = "free")]
+    given: Vec<String>,
 }
 
 /// Whether the ideal robot is meant.
 #[derive(clap::Args)]
 pub struct SnapArgument {
-    /// Take the ideal robot within this tolerance (radians, and metres), such as 1e-5: axes that almost meet do
-    #[arg(long, value_name = "TOLERANCE", value_parser = exact)]
+    /// Take the ideal robot within this tolerance, in radians and shares of the reach: axes that almost meet do (default: 1e-6)
+    #[arg(long, value_name = "TOLERANCE", value_parser = number, conflicts_with = "exact")]
     snap: Option<BigRational>,
+    /// Take each digit of the description at its word: axes that miss each other by 1e-17 do not meet
+    #[arg(long)]
+    exact: bool,
 }
 
 impl SnapArgument {
     /// What `arguments` ask, of the ideal robot.
-    pub fn ends(&self, arguments: &EndArguments) -> Ends {
-        Ends { snap: self.snap.clone(), ..arguments.ends() }
+    ///
+    /// # Errors
+    /// As [`EndArguments::ends`].
+    pub fn ends(&self, arguments: &EndArguments) -> Result<Ends> {
+        let snap = if self.exact { Some(BigRational::default()) } else { self.snap.clone() };
+        Ok(Ends { snap, ..arguments.ends()? })
     }
+}
+
+/// A task, or one that wants a plane.
+#[derive(Clone, Copy)]
+enum AskedTask {
+    Spatial(Task),
+    Planar(fn(Plane) -> Task),
 }
 
 /// Three exact numbers, as one value of an option.
@@ -50,14 +72,36 @@ struct Direction(ExactVector);
 
 impl EndArguments {
     /// The same as plain data.
-    pub fn ends(&self) -> Ends {
-        Ends {
+    ///
+    /// # Errors
+    /// [`ErrorKind::MissingKey`] for a planar task without a plane; [`ErrorKind::BadValue`] for a plane without a planar task.
+    pub fn ends(&self) -> Result<Ends> {
+        Ok(Ends {
             base: self.base.clone(),
             tip: self.tip.clone(),
-            task: self.task,
+            task: self.task()?,
             direction: self.direction.as_ref().map(|direction| direction.0.clone()),
-            given: self.free.clone(),
+            given: self.given.iter().filter(|joint| *joint != Ends::AUTO).cloned().collect(),
+            chooses: self.given.iter().any(|joint| joint == Ends::AUTO),
+            name: None,
             snap: None,
+        })
+    }
+
+    fn task(&self) -> Result<Option<Task>> {
+        match (self.task, self.plane) {
+            (Some(AskedTask::Planar(task)), Some(plane)) => Ok(Some(task(plane))),
+            (Some(AskedTask::Planar(_)), None) => {
+                let text = "a planar task moves in a plane of the base frame; give it by --plane xy, xz or yz";
+                Err(Error::new(ErrorKind::MissingKey, text))
+            }
+            (_, Some(_)) => {
+                let text =
+                    "--plane belongs to a planar task; give --task planar_position or planar_pose, or leave it out";
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+            (Some(AskedTask::Spatial(task)), None) => Ok(Some(task)),
+            (None, None) => Ok(None),
         }
     }
 
@@ -70,16 +114,24 @@ impl EndArguments {
             let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        self.ends().ask(chain)
+        self.ends()?.ask(chain)
     }
 }
 
-fn task(text: &str) -> std::result::Result<Task, String> {
-    let names = TASKS.map(Task::name).join(", ");
-    TASKS.into_iter().find(|task| task.name() == text).ok_or_else(|| format!("give one of {names}"))
+fn task(text: &str) -> std::result::Result<AskedTask, String> {
+    let spatial = TASKS.into_iter().map(|task| (task.name(), AskedTask::Spatial(task)));
+    let planar = PLANAR.into_iter().map(|task| (task(Plane::Xy).name(), AskedTask::Planar(task)));
+    let known: Vec<_> = spatial.chain(planar).collect();
+    let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+    let found = known.iter().find(|(name, _)| *name == text).map(|(_, task)| *task);
+    found.ok_or_else(|| format!("give one of {}", names.join(", ")))
 }
 
-fn exact(text: &str) -> std::result::Result<BigRational, String> {
+fn plane(text: &str) -> std::result::Result<Plane, String> {
+    PLANES.into_iter().find(|plane| plane.name() == text).ok_or_else(|| "give xy, xz or yz".to_owned())
+}
+
+fn number(text: &str) -> std::result::Result<BigRational, String> {
     parse_rational(text.trim()).map_err(|error| error.message().to_owned())
 }
 

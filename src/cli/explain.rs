@@ -36,7 +36,7 @@ pub struct Arguments {
 
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let document = told(&arguments.input, &arguments.ends.ends())?;
+    let document = told(&arguments.input, &arguments.ends.ends()?)?;
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
     match &arguments.output {
         None => console::print(&text),

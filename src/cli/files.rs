@@ -1,31 +1,46 @@
 //! Where a derivation's files go, and which they are.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::codegen::{self, c99::Pair};
+use crate::derive::ends::TASK_NAME;
 use crate::derive::input::INPUT_NAMES;
-use crate::derive::{Proved, Source, stages};
-use crate::document::{TEXT_LIMIT, read_text};
+use crate::derive::{Ends, Proved, Source, stages};
+use crate::document::{TEXT_LIMIT, read_text, word};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
 
-/// The longest file for IKFast that a folder gets, in bytes: the others are the same solver.
-const IKFAST_LIMIT: usize = 90_000;
-/// The same for one that solves an eigenvalue problem.
-const SIX_AXES_LIMIT: usize = 135_000;
-
-/// The header of the C file, which includes it.
-const HEADER: &str = "5_solver.h";
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
 /// The file of the proof.
 pub const CERTIFICATE: &str = "certificate.json";
 
+/// So many bytes of a certificate tell that it is one of ours.
+const HEAD: usize = 200;
+
 /// Whether this is a folder with a stored certificate.
 pub fn is_derived(folder: &Path) -> bool {
-    folder.join(CERTIFICATE).is_file()
+    let mut head = [0; HEAD];
+    let read = fs::File::open(folder.join(CERTIFICATE)).and_then(|mut file| file.read(&mut head));
+    read.is_ok_and(|count| String::from_utf8_lossy(&head[..count]).contains("\"groebot\""))
+}
+
+/// Fails where a file of `files` would take the place of one that groebot did not write: in a folder that nothing was derived into.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] with the folder and the file's name.
+pub fn refuse_overwriting(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    if is_derived(folder) {
+        return Ok(());
+    }
+    let is_another = |(name, bytes): &&(String, Vec<u8>)| fs::read(folder.join(name)).is_ok_and(|old| old != *bytes);
+    let Some((name, _)) = files.iter().find(is_another) else { return Ok(()) };
+    let text =
+        format!("this folder has a `{name}` that groebot did not write; give another folder by --out, or move it away");
+    Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
 }
 
 /// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
@@ -85,17 +100,18 @@ pub fn assemble_files(
             files.push((name.to_owned(), read_text(&path, TEXT_LIMIT)?.into_bytes()));
         }
     }
-    files.extend(source.task_file());
+    files.extend(source.task_file().filter(|_| !keeps_task(source, folder)));
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
     if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Limbs(_), Some((_, page))) =
         (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
     {
         page.extend(accuracy(checked).into_bytes());
+        page.extend(weak_spots(checked).into_bytes());
         if let Proved::Limbs(_) = derivation {
             page.extend(format!("\nWitnesses: {}.\n", checked.summary()).into_bytes());
         }
     }
-    files.extend(printed_solvers(derivation.program()));
+    files.extend(printed_solvers(derivation.program(), source));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
     files.sort_by(|a, b| a.0.cmp(&b.0));
     Ok(files)
@@ -111,26 +127,49 @@ fn accuracy(checked: &Report) -> String {
     )
 }
 
+/// What the page says about targets at which answers are wrong or missing; nothing where there are none.
+fn weak_spots(checked: &Report) -> String {
+    let rows: String = checked.weak_spots().map(|row| format!("* row {}, {}\n", row.number, row.weakness())).collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    format!(
+        "\n## Weak spots\n\nAt these targets of `6_check.csv`, singular or next to such, the answers are not all right:\n\n{rows}"
+    )
+}
+
 /// Whether a stage file may be written and compared: a page that a person wrote in the place of ours is left alone.
 pub fn is_ours(folder: &Path, name: &str) -> bool {
     let by_hand = |text: String| !text.contains(stages::MARK);
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
-/// The program as source code, one file a language but C's two; IKFast's only where it has a type for the task and the file is not too long.
-pub fn printed_solvers(program: &Program) -> Vec<(String, Vec<u8>)> {
-    let ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
-    let ikfast = ikfast
-        .ok()
-        .filter(|text| text.len() <= if codegen::has_six_axes(program) { SIX_AXES_LIMIT } else { IKFAST_LIMIT })
-        .map(|text| ("5_ikfast.cpp".to_owned(), text.into_bytes()));
-    let Pair { header, source } = Pair::new(program, HEADER);
+/// Whether `folder` has a task file that asks the same in words of its own.
+fn keeps_task(source: &Source, folder: &Path) -> bool {
+    Ends::read(&folder.join(TASK_NAME)).is_ok_and(|ends| ends == source.ends)
+}
+
+/// The program as source code, one file a language but C's two, named as `source` asks; IKFast's only where it has a type for the task.
+pub fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u8>)> {
+    let stems = source.ends.name.as_deref().map(word);
+    let [solver, ikfast] =
+        stems.map_or(["5_solver".into(), "5_ikfast".into()], |stem| [stem.clone(), stem + "_ikfast"]);
+    let header = format!("{solver}.h");
+    let Pair { header: declarations, source: code } = Pair::new(program, &header);
     let own = [
-        ("5_solver.c".to_owned(), source.into_bytes()),
-        (HEADER.to_owned(), header.into_bytes()),
-        ("5_solver.rs".to_owned(), codegen::rust::emit(program).into_bytes()),
+        (format!("{solver}.c"), code.into_bytes()),
+        (header, declarations.into_bytes()),
+        (format!("{solver}.rs"), codegen::rust::emit(program).into_bytes()),
     ];
-    ikfast.into_iter().chain(own).collect()
+    let for_ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
+    let for_ikfast = for_ikfast.ok().map(|text| (format!("{ikfast}.cpp"), text.into_bytes()));
+    for_ikfast.into_iter().chain(own).collect()
+}
+
+/// Why there is no file for IKFast; nothing where there is one.
+pub fn without_ikfast(program: &Program) -> Option<String> {
+    let refusal = codegen::ikfast::emit(program, &codegen::ikfast::Options::default()).err()?;
+    Some(format!("no file for IKFast: {}", refusal.message()))
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {

@@ -45,7 +45,7 @@ pub struct Arguments {
 /// Prints the pose for each joint vector that was given.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let chain = input.chain(&arguments.ends.ends())?.ok_or_else(|| {
+    let chain = input.chain(&arguments.ends.ends()?)?.ok_or_else(|| {
         let text = "this is a system of equations or of limbs; forward kinematics needs a chain (of limbs, give the file of one)";
         Error::new(ErrorKind::BadValue, text).in_file(&input.path)
     })?;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::answers::table;
-use super::plan::{self, Mechanism};
+use super::plan::Mechanism;
 use super::{Outcome, console, targets};
 use crate::kinematics::numeric::NumericSolver;
 use crate::kinematics::screw::{ScrewSolver, Solution, Target};
@@ -54,7 +54,7 @@ pub struct Arguments {
 /// Prints the answers to each target.
 pub fn run(arguments: &Arguments) -> Outcome {
     let chain = arguments.mechanism.chain()?;
-    let solver = Method::of(&chain, arguments.numeric)?;
+    let solver = Method::of(&arguments.mechanism, &chain, arguments.numeric)?;
     let degrees = arguments.degrees;
     let given = arguments.target.iter().map(|text| (text, target(&chain, text, degrees)));
     let reached = arguments.q.iter().map(|text| (text, reached(&chain, text, degrees)));
@@ -79,11 +79,11 @@ enum Method {
 }
 
 impl Method {
-    fn of(chain: &Chain, numeric: bool) -> Result<Self> {
+    fn of(mechanism: &Mechanism, chain: &Chain, numeric: bool) -> Result<Self> {
         if numeric {
             return NumericSolver::new(chain).map(|solver| Method::Numeric(Box::new(solver)));
         }
-        plan::solver(chain).map(|solver| Method::Screws(Box::new(solver)))
+        mechanism.solver(chain).map(|solver| Method::Screws(Box::new(solver)))
     }
 
     fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {

@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use super::console::{self, Paint};
 use super::ends::{EndArguments, SnapArgument};
-use super::{Halt, Outcome};
+use super::{Halt, Outcome, json};
 use crate::derive::limbs::{JointPlace, Limbs};
 use crate::derive::{Description, Ends, InputFile, formulate};
-use crate::kinematics::snap::near_misses;
 use crate::kinematics::tree::TreeJointKind;
-use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, SnapReport, Tree};
+use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, Tree};
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
 
@@ -29,12 +28,15 @@ pub struct Arguments {
     ends: EndArguments,
     #[command(flatten)]
     snap: SnapArgument,
+    /// JSON, of a chain
+    #[arg(long)]
+    json: bool,
 }
 
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let ends = arguments.snap.ends(&arguments.ends).or(&input.ends);
+    let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
         Description::Tree(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
@@ -49,26 +51,25 @@ pub fn run(arguments: &Arguments) -> Outcome {
                 Description::Tree(tree) => notes(tree, &ends)?,
                 _ => Vec::new(),
             };
-            let ideal = ends.ideal(&chain)?;
-            notes.extend(imperfections(&chain, ideal.as_ref().map(|(_, report)| report)));
-            let chain = ideal.map_or(chain, |(ideal, _)| ideal);
-            console::print(&(chain_page(&chain, &notes, paint) + &equations(&chain)?))
+            let (ideal, report) = ends.ideal(&chain)?;
+            if arguments.json {
+                return console::print(&json::text(&json::chain(&chain, &ideal, &report, &notes)));
+            }
+            notes.extend(report.lines());
+            notes.extend(near_words(&ideal));
+            console::print(&(chain_page(&ideal, &notes, paint) + &equations(&ideal)?))
         }
     }
 }
 
-/// Relations of up to this are told [rad, m].
+/// Relations of up to this are told [rad, reaches].
 const NEAR: f64 = 1e-3;
 
-/// What almost holds of the axes of `chain`, in words.
+/// What almost holds of the axes of `chain`, in words, and what takes it for meant.
 pub(super) fn near_words(chain: &Chain) -> Vec<String> {
-    near_misses(chain, NEAR).iter().map(|near| near.words(chain.length_unit())).collect()
-}
-
-/// What almost holds, or what was made of it.
-fn imperfections(chain: &Chain, snapped: Option<&SnapReport>) -> Vec<String> {
-    let near = || near_words(chain);
-    snapped.map_or_else(near, |report| report.to_string().lines().map(str::to_owned).collect())
+    let Ok((_, report)) = chain.ideal_within(NEAR) else { return Vec::new() };
+    let words = report.relations.iter().map(|relation| relation.words(chain.length_unit()));
+    words.map(|words| format!("with --snap {NEAR:e}: {words}")).collect()
 }
 
 fn notes(tree: &Tree, ends: &Ends) -> Result<Vec<String>> {

@@ -1,7 +1,7 @@
 //! The command-line tool: one file a subcommand.
 //!
 //! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
 
 mod algebra;
 mod answers;
@@ -21,6 +21,7 @@ mod fk;
 mod forms;
 mod ik;
 mod info;
+mod json;
 mod plan;
 mod progress;
 mod report;
@@ -51,7 +52,7 @@ const EXAMPLES: &str = "Examples:
   groebot basis cyclic5.txt --order lex
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 130 interrupted.";
 
 /// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
 #[derive(Parser)]
@@ -82,7 +83,12 @@ enum Halt {
     Error(Error),
     /// Nobody reads standard output any more.
     PipeClosed,
+    /// A solver was derived and written, and misses answers at some singular targets; that has been told.
+    WeakSpots,
 }
+
+/// The exit status of [`Halt::WeakSpots`].
+const WEAK: u8 = 3;
 
 impl From<Error> for Halt {
     fn from(error: Error) -> Self {
@@ -117,6 +123,7 @@ pub fn run() -> ExitCode {
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,
+        Err(Halt::WeakSpots) => ExitCode::from(WEAK),
         Err(Halt::Error(error)) => {
             tell(&error);
             ExitCode::from(if error.kind() == ErrorKind::Cancelled { 130 } else { 1 })

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::ends::EndArguments;
-use super::{Outcome, console};
+use super::ends::{EndArguments, SnapArgument};
+use super::{Outcome, console, json};
 use crate::derive::InputFile;
 use crate::kinematics::Chain;
 use crate::kinematics::screw::ScrewSolver;
@@ -22,6 +22,9 @@ Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-
 pub struct Arguments {
     #[command(flatten)]
     mechanism: Mechanism,
+    /// JSON instead of text
+    #[arg(long)]
+    json: bool,
 }
 
 /// Which chain.
@@ -32,9 +35,26 @@ pub struct Mechanism {
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
+    #[command(flatten)]
+    snap: SnapArgument,
 }
 
 impl Mechanism {
+    /// The screw solver of `chain`, which this names.
+    ///
+    /// # Errors
+    /// As [`ScrewSolver::within`].
+    pub fn solver(&self, chain: &Chain) -> Result<ScrewSolver> {
+        let tolerance = self.snap.ends(&self.ends)?.tolerance();
+        ScrewSolver::within(chain, tolerance).map_err(|error| match error.kind() {
+            ErrorKind::Unsupported => Error::new(
+                ErrorKind::Unsupported,
+                format!("{}; `groebot info` shows how its axes lie", error.message()),
+            ),
+            _ => error,
+        })
+    }
+
     /// The chain.
     ///
     /// # Errors
@@ -44,7 +64,7 @@ impl Mechanism {
             return self.ends.ask(chain);
         }
         let input = InputFile::read(&self.input)?;
-        input.chain(&self.ends.ends())?.ok_or_else(|| {
+        input.chain(&self.snap.ends(&self.ends)?)?.ok_or_else(|| {
             let text = "this is a system of equations or of limbs; screw theory needs a chain (of limbs, give the file of one)";
             Error::new(ErrorKind::BadValue, text).in_file(&input.path)
         })
@@ -70,17 +90,10 @@ impl Mechanism {
 /// Prints the plan.
 pub fn run(arguments: &Arguments) -> Outcome {
     let chain = arguments.mechanism.chain()?;
-    let solver = solver(&chain)?;
+    let solver = arguments.mechanism.solver(&chain)?;
+    if arguments.json {
+        return console::print(&json::text(&json::plan(&chain, solver.plan())));
+    }
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
     console::print(&format!("{}, task {}\n{about}\n{}\n", chain.name(), chain.task().name(), solver.plan()))
-}
-
-/// The screw solver of `chain`.
-pub fn solver(chain: &Chain) -> Result<ScrewSolver> {
-    ScrewSolver::new(chain).map_err(|error| match error.kind() {
-        ErrorKind::Unsupported => {
-            Error::new(ErrorKind::Unsupported, format!("{}; `groebot info` shows how its axes lie", error.message()))
-        }
-        _ => error,
-    })
 }

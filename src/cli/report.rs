@@ -7,12 +7,13 @@ use std::time::Duration;
 use super::algebra::{divisor, readable, with_decimals, wrap};
 use super::chain_report;
 use super::console::Paint;
+use super::files::without_ikfast;
 use super::strata;
 use crate::Result;
+use crate::derive::planner::fitting_task;
 use crate::derive::setting::{Poly, Unknowns};
 use crate::derive::triangular::{Stair, Triangular};
-use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, System};
-use crate::groebner::Basis;
+use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
 use crate::witness;
 
 /// The column where lines end.
@@ -20,6 +21,8 @@ const WIDTH: usize = 100;
 
 /// What there is to tell.
 pub struct Report<'a> {
+    /// What it began with.
+    pub source: &'a Source,
     /// What came of it.
     pub derivation: &'a Proved,
     /// What the numeric witnesses found.
@@ -47,9 +50,45 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
         Proved::SixAxes(derived) => chain_report::describe_six_axes(&mut page, derived),
         Proved::Limbs(derived) => chain_report::describe_limbs(&mut page, derived),
     }
+    meant(&mut page, told);
     checks(&mut page, told.checked);
     written(&mut page, told);
     Ok(page.text)
+}
+
+/// What the description was taken for, and what its joints cannot do.
+fn meant(page: &mut Page, told: &Report<'_>) {
+    let Some((ideal, report)) = told.source.ideal.as_ref() else { return };
+    if !report.is_empty() {
+        page.heading("What the description was taken for");
+        report.lines().iter().for_each(|line| page.line(line));
+        let how = if report.is_same() {
+            "In doubles that is the robot as described: nothing is polished.".to_owned()
+        } else {
+            format!(
+                "The closed form is that of this robot; each answer is polished and measured on the one described. \
+                 `--exact` takes each digit at its word, `--snap X` other tolerances than {:e}.",
+                report.tolerance
+            )
+        };
+        page.line(&how);
+    }
+    let usual = ideal.ideal().1;
+    if report.tolerance == 0.0 && !usual.is_empty() {
+        page.heading("Each digit at its word");
+        usual.lines().iter().for_each(|line| page.line(&format!("not taken: {line}")));
+        page.line("Without --exact that is what the description is taken for, and the solver is that much simpler.");
+    }
+    let free = ideal.joints().len() - ideal.given().len();
+    if free < ideal.task().freedoms() {
+        page.heading("Out of reach, as a rule");
+        page.line(&format!(
+            "{free} joints reach no generic target of the task `{}`, which asks for {} numbers: most have no solution.{}",
+            ideal.task().name(),
+            ideal.task().freedoms(),
+            fitting_task(ideal).map(|task| format!(" `{task}` asks for what they can do.")).unwrap_or_default()
+        ));
+    }
 }
 
 /// A derivation of equations that are solved as one block.
@@ -226,13 +265,7 @@ fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
 }
 
 fn count(page: &mut Page, derivation: &Derivation) {
-    let Some(solved) = derivation.requested.solved() else { return };
-    let basis = Basis {
-        ring: solved.triangular.ring.clone(),
-        polynomials: solved.certified.basis.clone(),
-        cofactors: Vec::new(),
-    };
-    let Some(dimension) = basis.quotient_dimension() else { return };
+    let Some(dimension) = derivation.dimension() else { return };
     page.heading("Solutions");
     let plural = if dimension == 1 { "solution" } else { "solutions" };
     page.line(&format!(
@@ -279,21 +312,24 @@ fn checks(page: &mut Page, checked: &witness::Report) {
         summary.oracle.to_string(),
         "of them: damped least squares from many seeds gives the same set".to_owned(),
     ));
-    if summary.failed > 0 {
-        let text = "more, singular ones or next to such: an answer or a family is lost there, as 6_check.csv tells";
-        entries.push((summary.failed.to_string(), text.to_owned()));
-    }
     if summary.open > 0 {
         entries.push((summary.open.to_string(), "of them: on a stratum that is not derived, and said so".to_owned()));
     }
     entries.push((format!("{:.0e}", summary.worst_residual), "the largest residual of all answers".to_owned()));
     page.entries(&entries);
+    let weak: Vec<(String, String)> =
+        checked.weak_spots().map(|row| (format!("row {}", row.number), row.weakness())).collect();
+    if !weak.is_empty() {
+        page.heading("Weak spots: singular targets, or next to such, at which the answers are not all right");
+        page.entries(&weak);
+    }
 }
 
 fn written(page: &mut Page, told: &Report<'_>) {
     let folder = if told.folder.as_os_str().is_empty() { Path::new(".") } else { told.folder };
     page.heading(&format!("Written to {}", folder.display()));
     page.line(&told.files.join(", "));
+    without_ikfast(told.derivation.program()).iter().for_each(|line| page.line(line));
     page.heading("Time");
     let mut times = String::new();
     for (stage, time) in told.timings {

@@ -37,5 +37,6 @@ fn lines(about: &About) -> Vec<String> {
     let task = (!about.task.is_empty()).then(|| format!("Task: {}", remark(&about.task)));
     let hash = (!about.hash.is_empty()).then(|| format!("Hash of the input: {}", remark(&about.hash)));
     let ends = [named("Base link", about.base.as_ref()), named("Tip link", about.tip.as_ref())];
-    [task].into_iter().chain(ends).chain([hash]).flatten().collect()
+    let solutions = about.solutions.map(|count| format!("Solutions: up to {count} at a generic target"));
+    [task, solutions].into_iter().chain(ends).chain([hash]).flatten().collect()
 }

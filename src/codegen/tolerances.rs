@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::printer::number;
 use crate::solver::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, APART, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DISTINCT, DOUBLINGS, EIGHTH,
-    FARTHER, FARTHEST, GRAZING, INVERSIONS, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT,
-    POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STIFF, TINY, TWIN,
+    ACCEPT, ADRIFT, ALIKE, ALONE, APART, APPROACHES, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DISTINCT, DOUBLINGS,
+    EIGHTH, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT,
+    PLAIN, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STEEP, STIFF,
+    TINY, TWIN,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -57,6 +58,9 @@ pub(super) struct Tolerances {
     lever: String,
     twin: String,
     inversions: usize,
+    approaches: usize,
+    plain: String,
+    steep: String,
     farther: String,
     farthest: String,
     returns: usize,
@@ -104,6 +108,9 @@ impl Tolerances {
             lever: number(LEVER),
             twin: number(TWIN),
             inversions: INVERSIONS,
+            approaches: APPROACHES,
+            plain: number(PLAIN),
+            steep: number(STEEP),
             farther: number(FARTHER),
             farthest: number(FARTHEST),
             returns: RETURNS,

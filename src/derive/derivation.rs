@@ -3,6 +3,7 @@
 use super::compile::compile;
 use super::tree::Node;
 use super::{Orders, System, derive_tree};
+use crate::groebner::Basis;
 use crate::solver::Program;
 use crate::{Result, Watch};
 
@@ -39,6 +40,13 @@ impl Derivation {
     pub(super) fn assemble(system: System, requested: Node, searched: Option<Node>) -> Result<Self> {
         let program = compile(&system, searched.as_ref().unwrap_or(&requested))?;
         Ok(Derivation { system, requested, searched, program })
+    }
+
+    /// The number of complex solutions at a generic target: the dimension of the quotient ring.
+    pub fn dimension(&self) -> Option<usize> {
+        let solved = self.requested.solved()?;
+        let (ring, polynomials) = (solved.triangular.ring.clone(), solved.certified.basis.clone());
+        Basis { ring, polynomials, cofactors: Vec::new() }.quotient_dimension()
     }
 
     /// The tree that the program is made of.

@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@crate::kinematics::chain_toml). `snap = 1e-5` asks for the
-//! ideal robot within that tolerance: [`Chain::snapped`].
+//! ideal robot within that tolerance instead of the usual one, `snap = 0` for each digit at its word: [`Chain::ideal_within`].
 
 use std::path::Path;
 
@@ -21,7 +21,8 @@ use num_traits::ToPrimitive;
 
 use crate::document::{Document, TEXT_LIMIT, read_text};
 use crate::kinematics::chain_toml::{read_given, read_task};
-use crate::kinematics::{Chain, ExactVector, Plane, SnapReport, Task};
+use crate::kinematics::ideal::{Report, TOLERANCE};
+use crate::kinematics::{Chain, ChainParts, ExactVector, Plane, Task};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
@@ -41,11 +42,18 @@ pub struct Ends {
     pub direction: Option<ExactVector>,
     /// The joints whose values the user gives; when empty, those that the description names.
     pub given: Vec<String>,
-    /// The tolerance, in radians and metres, within which the ideal robot is meant.
+    /// Whether the planner chooses the joints to give, however many: [`Ends::AUTO`].
+    pub chooses: bool,
+    /// The name of the solver, and of its files; by default that of the description, and the files are numbered stages.
+    pub name: Option<String>,
+    /// The tolerance, in radians and shares of the reach, within which the ideal robot is meant; by default [`TOLERANCE`].
     pub snap: Option<BigRational>,
 }
 
 impl Ends {
+    /// The name that stands for the planner's choice in the place of a given joint.
+    pub const AUTO: &'static str = "auto";
+
     /// What the file at `path` asks.
     ///
     /// # Errors
@@ -62,9 +70,10 @@ impl Ends {
     pub fn from_toml(text: &str) -> Result<Ends> {
         let document = Document::parse(text)?;
         let root = document.root();
-        root.deny_unknown(&["base", "tip", "given", "snap", "task"])?;
+        root.deny_unknown(&["base", "tip", "given", "name", "snap", "task"])?;
         let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
         let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
+        ends.name = name("name")?;
         ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
         if let Some(node) = root.optional("task") {
             let table = node.table()?;
@@ -78,7 +87,7 @@ impl Ends {
     pub fn to_toml(&self) -> String {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
         let mut page = String::new();
-        for (key, name) in [("base", &self.base), ("tip", &self.tip)] {
+        for (key, name) in [("base", &self.base), ("tip", &self.tip), ("name", &self.name)] {
             page += &name.as_ref().map(|name| format!("{key} = {}\n", quoted(name))).unwrap_or_default();
         }
         if !self.given.is_empty() {
@@ -109,17 +118,23 @@ impl Ends {
             task,
             direction: direction.filter(|_| self.direction.is_some() || task.is_none_or(Task::aims)),
             given: if self.given.is_empty() { other.given.clone() } else { self.given.clone() },
+            chooses: self.chooses || other.chooses,
+            name: first(&self.name, &other.name),
             snap: self.snap.clone().or_else(|| other.snap.clone()),
         }
     }
 
-    /// The ideal robot of `chain`, and how it differs; none when it is not asked for.
+    /// The tolerance within which the ideal robot is meant.
+    pub fn tolerance(&self) -> f64 {
+        self.snap.as_ref().map_or(TOLERANCE, |snap| snap.to_f64().unwrap_or(f64::NAN))
+    }
+
+    /// The ideal robot of `chain`, and what was taken for what.
     ///
     /// # Errors
-    /// As [`Chain::snapped`].
-    pub fn ideal(&self, chain: &Chain) -> Result<Option<(Chain, SnapReport)>> {
-        let tolerance = self.snap.as_ref().map(|snap| snap.to_f64().unwrap_or(f64::NAN));
-        tolerance.map(|tolerance| chain.snapped(tolerance)).transpose()
+    /// As [`Chain::ideal_within`].
+    pub fn ideal(&self, chain: &Chain) -> Result<(Chain, Report)> {
+        chain.ideal_within(self.tolerance())
     }
 
     /// `chain` for the task that is asked.
@@ -127,6 +142,10 @@ impl Ends {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a direction of a task that aims none; as [`Chain::with_task`].
     pub fn ask(&self, chain: Chain) -> Result<Chain> {
+        let chain = match &self.name {
+            Some(name) => Chain::new(ChainParts { name: name.clone(), ..chain.into() })?,
+            None => chain,
+        };
         if self.task.is_none() && self.direction.is_none() && self.given.is_empty() {
             return Ok(chain);
         }

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::ends::{Ends, TASK_NAME};
 use super::limbs::Limbs;
-use super::planner::joint_to_give;
+use super::planner::{Choice, joints_to_give};
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
+use crate::kinematics::ideal::Report;
 use crate::kinematics::urdf::URDF_LIMIT;
 use crate::kinematics::{Chain, Tree};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -130,8 +131,10 @@ pub struct Source {
     pub name: &'static str,
     /// Its text.
     pub text: String,
-    /// The chain, when it describes one.
+    /// The chain, when it describes one, as described.
     pub chain: Option<Chain>,
+    /// The ideal chain that it means, and what was taken for what.
+    pub ideal: Option<(Chain, Report)>,
     /// The equations; none for limbs, and for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
     /// The limbs, when it describes limbs that share motors.
@@ -155,7 +158,7 @@ impl Source {
     /// The same, for what `ends` asks.
     ///
     /// # Errors
-    /// As [`InputFile::read`], [`InputFile::chain`] and [`mod@formulate`], with file and line.
+    /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
         let input = InputFile::read(path)?;
         let chain = input.chain(ends)?;
@@ -169,38 +172,44 @@ impl Source {
             _ => None,
         };
         let (system, limbs) = match (&chain, description) {
-            (Some(chain), _) => (formulated(chain).map_err(|error| error.in_file(&path))?, None),
+            (Some(_), _) => (None, None),
             (None, Description::System(system)) => (Some(system), None),
             (None, Description::Limbs(limbs)) => (None, Some(*limbs)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        Ok(Source { path, name, text, chain, system, limbs, ends, links })
+        let mut source = Source { path, name, text, chain: None, ideal: None, system, limbs, ends, links };
+        chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
+        Ok(source)
     }
 
-    /// Gives the value of a joint with each target where the task leaves one joint too many and none is given: the one that the planner
-    /// chooses, whose name this returns.
+    /// Gives the values of joints with each target where the task leaves some too many: those that the planner chooses, which this returns with
+    /// what else there was. More than one are chosen only where that is asked for: [`Ends::AUTO`].
     ///
     /// # Errors
-    /// As [`joint_to_give`] and [`Ends::ideal`], with the file.
-    pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<String>> {
-        let chosen = self.with_given(watch).map_err(|error| error.in_file(&self.path))?;
-        Ok(chosen.map(|(joint, chain, system)| {
-            self.ends.given = vec![joint.clone()];
-            (self.chain, self.system) = (Some(chain), system);
-            joint
-        }))
+    /// As [`joints_to_give`] and [`Ends::ideal`]; [`ErrorKind::PositiveDimensional`] with a proposal for more than one joint too many. With the
+    /// file.
+    pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+        self.give(watch).map_err(|error| error.in_file(&self.path))
     }
 
-    /// The joint that is best given, the chain with it, and its equations.
-    fn with_given(&self, watch: &Watch) -> Result<Option<(String, Chain, Option<System>)>> {
-        let Some(chain) = self.chain_by_steps() else { return Ok(None) };
-        let ideal = self.ends.ideal(chain)?;
-        let Some(joint) = joint_to_give(ideal.as_ref().map_or(chain, |(ideal, _)| ideal), watch)? else {
-            return Ok(None);
-        };
-        let chain = chain.with_task(chain.task(), chain.direction().clone(), vec![joint.clone()])?;
-        let system = formulated(&chain)?;
-        Ok(Some((joint, chain, system)))
+    fn give(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+        let (Some(chain), Some((ideal, _))) = (self.chain_by_steps(), &self.ideal) else { return Ok(None) };
+        let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(None) };
+        if choice.given.len() > chain.given().len() + 1 && !self.ends.chooses {
+            return Err(proposed(chain, &choice));
+        }
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone())?;
+        self.ends.given.clone_from(&choice.given);
+        self.take(chain)?;
+        Ok(Some(choice))
+    }
+
+    /// `chain` is what is described: with its ideal robot and, where its task has any that are solved together, its equations.
+    fn take(&mut self, chain: Chain) -> Result<()> {
+        let (ideal, report) = self.ends.ideal(&chain)?;
+        self.system = formulated(if report.is_same() { &ideal } else { &chain })?;
+        (self.chain, self.ideal) = (Some(chain), Some((ideal, report)));
+        Ok(())
     }
 
     /// The names of the files beside the input that it refers to: those of limbs' chains.
@@ -218,6 +227,24 @@ impl Source {
     pub fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
     }
+}
+
+/// The error of a chain with several joints too many: which of them may be given.
+fn proposed(chain: &Chain, choice: &Choice) -> Error {
+    let share =
+        choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint)).map_or(0.0, |one| one.share);
+    let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
+    let text = format!(
+        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}, with solutions on {:.0} % of the last one's range",
+        choice.given.len(),
+        chain.task().name(),
+        chain.task().freedoms(),
+        chain.joints().len(),
+        Ends::AUTO,
+        options.join(" "),
+        100.0 * share
+    );
+    Error::new(ErrorKind::PositiveDimensional, text)
 }
 
 /// The equations of `chain`, where its task has any that are solved together.

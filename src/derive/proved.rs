@@ -41,7 +41,9 @@ impl Proved {
     pub fn again(source: &Source, text: &str) -> Result<Self> {
         match (source.chain_by_steps(), &source.limbs) {
             (Some(chain), _) if DerivedSixAxes::is_certificate(text) => {
-                Ok(Proved::SixAxes(Box::new(DerivedSixAxes::prove(chain, text)?)))
+                Ok(Proved::SixAxes(Box::new(Proved::six_axes(source, chain, |chain| {
+                    DerivedSixAxes::prove(chain, text)
+                })?)))
             }
             (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
             (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
@@ -54,7 +56,7 @@ impl Proved {
         let by_steps = Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch));
         match by_steps {
             Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
-                match DerivedSixAxes::of_chain(chain, watch) {
+                match Proved::six_axes(source, chain, |chain| DerivedSixAxes::of_chain(chain, watch)) {
                     Err(error) if error.kind() == ErrorKind::Unsupported => Err(refusal),
                     together => together.map(|derived| Proved::SixAxes(Box::new(derived))),
                 }
@@ -63,13 +65,23 @@ impl Proved {
         }
     }
 
-    /// The derivation of `chain`, or of the ideal one that `source` asks for instead, its answers polished on `chain`.
+    /// The derivation of the ideal robot that `chain` means, its answers polished on `chain` where that is another.
     fn chain(source: &Source, chain: &Chain, derive: impl Fn(&Chain) -> Result<Derived>) -> Result<Self> {
-        let derived = match source.ends.ideal(chain)? {
-            Some((ideal, report)) => derive(&ideal)?.polished_on(chain, report)?,
-            None => derive(chain)?,
-        };
+        let (ideal, report) = source.ends.ideal(chain)?;
+        let derived = derive(&ideal)?;
+        let derived = if report.is_same() { derived } else { derived.polished_on(chain, report)? };
         Ok(Proved::Chain(Box::new(derived)))
+    }
+
+    /// The same of an eigenvalue problem.
+    fn six_axes(
+        source: &Source,
+        chain: &Chain,
+        derive: impl Fn(&Chain) -> Result<DerivedSixAxes>,
+    ) -> Result<DerivedSixAxes> {
+        let (ideal, report) = source.ends.ideal(chain)?;
+        let derived = derive(&ideal)?;
+        if report.is_same() { Ok(derived) } else { derived.polished_on(chain, report) }
     }
 
     /// The solver.
@@ -98,14 +110,25 @@ impl Proved {
     /// The same, its program told what it comes from: the task, the links, a hash and the limits of `source`.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
+        let solutions = self.dimension();
         let program = match &mut self {
             Proved::Equations(derivation) => &mut derivation.program,
             Proved::Chain(derived) => &mut derived.program,
             Proved::SixAxes(derived) => &mut derived.program,
             Proved::Limbs(derived) => &mut derived.program,
         };
-        program.about = Some(about(source, program));
+        program.about = Some(About { solutions, ..about(source, program) });
         self
+    }
+
+    /// The number of complex solutions of a generic reachable target, where it was counted.
+    pub fn dimension(&self) -> Option<usize> {
+        match self {
+            Proved::Equations(derivation) => derivation.dimension(),
+            Proved::Chain(derived) => Some(derived.plan.dimension),
+            Proved::SixAxes(derived) => Some(derived.dimension()),
+            Proved::Limbs(derived) => Some(derived.dimension()),
+        }
     }
 }
 
@@ -130,6 +153,7 @@ fn about(source: &Source, program: &Program) -> About {
         task: task(source),
         base,
         tip,
+        solutions: None,
         hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
     }

@@ -101,6 +101,15 @@ pub struct Tip {
     pub rotation: ExactMatrix,
 }
 
+/// The axes and the tip that a description's rounded numbers mean, 1.5708 for a quarter turn, where these differ from what they say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Meant {
+    /// The joints: those of the chain, but for axes and points.
+    pub joints: Vec<Joint>,
+    /// The tip.
+    pub tip: Tip,
+}
+
 /// Which root of a quadratic is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -135,6 +144,9 @@ pub struct ChainParts {
     pub joints: Vec<Joint>,
     /// The tip frame.
     pub tip: Tip,
+    /// What joints and tip mean, where that is something else than they say: what [`Chain::ideal`] begins with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meant: Option<Box<Meant>>,
     /// What is asked of the tip.
     pub task: Task,
     /// The direction in the tip frame that the tasks `ray` and `direction` aim: not zero, of any length.
@@ -152,6 +164,13 @@ pub struct ChainParts {
 /// The direction that is aimed when none is named: the tip's z axis.
 pub fn along_z() -> ExactVector {
     [BigRational::zero(), BigRational::zero(), BigRational::one()]
+}
+
+impl Meant {
+    /// `joints` and `tip`, unless they are those of the description.
+    pub(super) fn unless_told(joints: Vec<Joint>, tip: Tip, told: (&[Joint], &Tip)) -> Option<Box<Meant>> {
+        (joints != told.0 || tip != *told.1).then(|| Box::new(Meant { joints, tip }))
+    }
 }
 
 /// A validated serial chain. It never changes.

@@ -7,8 +7,7 @@ use std::path::Path;
 use super::chain::{along_z, show};
 use super::validate::{Fault, Part, check_count};
 use super::{
-    Chain, ChainParts, Choice, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Plane, Root, Task,
-    Tip, Turn,
+    Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Placement, Plane, Root, Task, Tip, Turn,
 };
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::{Error, ErrorKind, Result};
@@ -92,6 +91,7 @@ fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<C
         length_unit: units.length,
         joints,
         tip: read_tip(tip, form, &last)?,
+        meant: None,
         task,
         direction,
         given: read_given(root)?,
@@ -183,16 +183,16 @@ fn read_origin(node: Node<'_>) -> Result<Placement> {
     let table = node.table()?;
     table.deny_unknown(&["xyz", "rpy_deg"])?;
     let origin = table.optional("xyz").map(|xyz| xyz.exact_vector()).transpose()?;
-    Ok(Placement { rotation: read_rpy(table)?, origin: origin.unwrap_or_else(|| Placement::identity().origin) })
+    Ok(Placement { origin: origin.unwrap_or_default(), ..read_rpy(table)? })
 }
 
-fn read_rpy(table: Table<'_>) -> Result<ExactRotation> {
-    let Some(node) = table.optional("rpy_deg") else { return Ok(ExactRotation::identity()) };
+fn read_rpy(table: Table<'_>) -> Result<Placement> {
+    let Some(node) = table.optional("rpy_deg") else { return Ok(Placement::identity()) };
     let degrees: ExactVector = node.exact_vector()?;
     let turns: Result<Vec<Turn>> = degrees.iter().map(Turn::from_degrees).collect();
     match turns.as_deref() {
         Ok([roll, pitch, yaw]) if [roll, pitch, yaw].iter().all(|turn| turn.is_quarter()) => {
-            Ok(ExactRotation::from_rpy([*roll, *pitch, *yaw]))
+            Ok(Placement::turned([*roll, *pitch, *yaw]))
         }
         _ => {
             let message = format!("{} has no exact rotation; give multiples of 90 degrees", shown(&show(&degrees)));
@@ -212,7 +212,7 @@ fn read_tip(table: Table<'_>, form: Form, last: &Placement) -> Result<Tip> {
     check_form(table, form)?;
     let place = table.required(form.key())?;
     let placement = match form {
-        Form::Point => Placement { rotation: read_rpy(table)?, origin: place.exact_vector()? },
+        Form::Point => Placement { origin: place.exact_vector()?, ..read_rpy(table)? },
         Form::Origin => {
             table.deny_unknown(&["origin"])?;
             last.then(&read_origin(place)?)

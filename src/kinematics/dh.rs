@@ -4,10 +4,10 @@
 
 use std::convert::Infallible;
 
-use super::chain::along_z;
-use super::frame::{Frame, ROUNDING, Rationality};
-use super::validate::{Fault, Part, check_count};
-use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
+use super::chain::{Meant, along_z};
+use super::frame::{Frame, Rationality, Reading};
+use super::validate::{Fault, check_count};
+use super::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
 use crate::Result;
 use crate::number::BigRational;
 
@@ -71,13 +71,13 @@ pub struct DhTable {
 impl DhRow {
     /// The rotation and shift about z, with the joint at zero.
     fn about_z(&self) -> Placement {
-        let turned = Placement::turned(ExactRotation::about(2, self.theta));
+        let turned = Placement::turned([Turn::default(), Turn::default(), self.theta]);
         turned.then(&Placement::shifted(2, self.d.clone()))
     }
 
     /// The rotation and shift about x.
     fn about_x(&self) -> Placement {
-        let turned = Placement::turned(ExactRotation::about(0, self.alpha));
+        let turned = Placement::turned([self.alpha, Turn::default(), Turn::default()]);
         turned.then(&Placement::shifted(0, self.a.clone()))
     }
 
@@ -112,8 +112,7 @@ impl DhTable {
         ((joints, frame.then(&self.tool)), told)
     }
 
-    /// The same mechanism in screw axes. Relations of neighbouring axes that fail by 1e-12 rad or m at most are made exact, as
-    /// [`Chain::snapped`] does.
+    /// The same mechanism in screw axes, its numbers as they are told.
     ///
     /// # Errors
     /// As [`Chain::new`].
@@ -123,24 +122,24 @@ impl DhTable {
 
     pub(super) fn assemble(&self) -> std::result::Result<Chain, Fault> {
         check_count(self.rows.len())?;
-        let Ok((joints, tip)) = Frame::walked(|base| Ok::<_, Infallible>(self.walk_from(base)));
-        let chain = Chain::assemble(ChainParts {
+        let walked = |reading| {
+            let Ok((joints, tip)) = Frame::walked(reading, |base| Ok::<_, Infallible>(self.walk_from(base)));
+            (joints, tip.tip())
+        };
+        let ((joints, tip), (meant, tip_meant)) = (walked(Reading::AsDescribed), walked(Reading::AsMeant));
+        Chain::assemble(ChainParts {
             name: self.name.clone(),
             description: self.description.clone(),
             source: self.source.clone(),
             length_unit: self.length_unit,
+            meant: Meant::unless_told(meant, tip_meant, (&joints, &tip)),
             joints,
-            tip: tip.tip(),
+            tip,
             task: self.task,
             direction: self.direction.clone(),
             given: self.given.clone(),
             order: None,
             choice: None,
-        })?;
-        chain.snapped(ROUNDING).map(|(chain, _)| chain).map_err(|error| Fault {
-            part: Part::Chain,
-            key: "joint",
-            error,
         })
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::chain::along_z;
 use super::chain_toml::{Units, line_of, read_given, read_limits, read_task, read_units};
 use super::validate::Fault;
-use super::{Chain, DhConvention, DhRow, DhTable, ExactRotation, ExactVector, JointKind, Placement, Task, Turn};
+use super::{Chain, DhConvention, DhRow, DhTable, ExactVector, JointKind, Placement, Task, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -90,7 +90,8 @@ fn read_placement(root: Table<'_>, key: &str, units: Units) -> Result<Placement>
     if let Some(rpy) = table.optional("rpy") {
         let angles: ExactVector = rpy.exact_vector()?;
         let turns = angles.iter().map(|angle| turn(rpy, angle, units)).collect::<Result<Vec<_>>>()?;
-        placement.rotation = ExactRotation::from_rpy(std::array::from_fn(|i| turns[i]));
+        let origin = placement.origin;
+        placement = Placement { origin, ..Placement::turned(std::array::from_fn(|i| turns[i])) };
     }
     Ok(placement)
 }

@@ -27,6 +27,8 @@ pub struct Turn {
     steps: u8,
     /// What is left, in \[-pi/4, pi/4\] \[rad\].
     rest: f64,
+    /// The steps of the angle that is meant, where it is another: one without a rest.
+    meant: Option<u8>,
 }
 
 impl Turn {
@@ -44,29 +46,41 @@ impl Turn {
         Turn::new(&(quarters * integer(6)), &rest)
     }
 
-    /// The angle `radians`. It is taken for a multiple of pi/4 or pi/6 when it is its rounded or truncated decimal with at least
-    /// four decimals (1.5708, 3.14159, -0.785398, 0.5236), or within 1e-15 of it.
+    /// The angle `radians`; within 1e-15 of a multiple of pi/4 or pi/6, as doubles are, it is that. Its rounded or truncated decimal with at
+    /// least four decimals (1.5708, 3.14159, -0.785398, 0.5236) is itself, and [means](Turn::meant) the multiple.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] beyond a million radians.
     pub fn from_radians(radians: &BigRational) -> Result<Self> {
         let step = pi() / integer(12);
         let turns = (radians / &step).round();
-        if is_step(&turns) && is_decimal_of(radians, &(&step * &turns)) {
+        let exact = step * &turns;
+        if is_step(&turns) && is_double_of(radians, &exact) {
             return Turn::new(&turns, &BigRational::zero());
         }
+        let told = Turn::general(radians)?;
+        let is_rounded = is_step(&turns) && is_decimal_of(radians, &exact);
+        Ok(Turn { meant: is_rounded.then(|| whole_steps(&turns)), ..told })
+    }
+
+    fn general(radians: &BigRational) -> Result<Self> {
         let quarter = pi() / integer(2);
         let quarters = (radians / &quarter).round();
         let rest = radians - quarter * &quarters;
         Turn::new(&(quarters * integer(6)), &rest)
     }
 
+    /// The multiple of pi/4 or pi/6 of which it is the rounded decimal; itself when it is none's.
+    #[must_use]
+    pub fn meant(self) -> Self {
+        self.meant.map_or(self, |steps| Turn { steps, ..Turn::default() })
+    }
+
     fn new(steps: &BigRational, rest: &BigRational) -> Result<Self> {
         if steps.abs() > integer(6 * GREATEST) {
             return Err(Error::new(ErrorKind::BadValue, "the angle is too large; give at most a million radians"));
         }
-        let steps = steps.to_integer().mod_floor(&BigInt::from(24)).to_u8().unwrap_or(0);
-        Ok(Turn { steps, rest: rest.to_f64().unwrap_or(0.0) })
+        Ok(Turn { steps: whole_steps(steps), rest: rest.to_f64().unwrap_or(0.0), meant: None })
     }
 
     /// Whether it is a multiple of 45 or of 30 degrees: its rotation is the true one. Any other rotation is exactly orthogonal too,
@@ -108,6 +122,16 @@ impl Turn {
     }
 }
 
+/// A whole number of steps of 15 degrees, without full turns.
+fn whole_steps(steps: &BigRational) -> u8 {
+    steps.to_integer().mod_floor(&BigInt::from(24)).to_u8().unwrap_or(0)
+}
+
+/// Whether `given` is within 1e-15 of `exact`.
+fn is_double_of(given: &BigRational, exact: &BigRational) -> bool {
+    (given - exact).abs() * integer(1_000_000_000_000_000) <= integer(1)
+}
+
 /// Whether a number of steps of 15 degrees is a multiple of 30 or of 45 degrees.
 fn is_step(steps: &BigRational) -> bool {
     let steps = steps.to_integer();
@@ -116,7 +140,7 @@ fn is_step(steps: &BigRational) -> bool {
 
 /// Whether `given` is within 1e-15 of `exact`, or is its rounded or truncated decimal with enough decimals.
 pub(super) fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
-    if (given - exact).abs() * integer(1_000_000_000_000_000) <= integer(1) {
+    if is_double_of(given, exact) {
         return true;
     }
     let mut shift = BigRational::one();

@@ -14,9 +14,6 @@ use num_traits::Zero;
 /// Bits of the integers that a direction is told in.
 const SHORT: u64 = 24;
 
-/// What a description's frames miss by rounding, in radians and metres: axes that are nearer to a relation than this are in it.
-pub const ROUNDING: f64 = 1e-12;
-
 /// A frame in the base frame: exactly, but for long rows of general rotations, within 1e-24 then.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -25,22 +22,32 @@ pub struct Frame {
     origin: SurdVector,
     /// Whether rotations are made rational.
     rounds: bool,
+    /// How numbers are read.
+    reading: Reading,
+}
+
+/// How the numbers of a description are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// As they stand.
+    AsDescribed,
+    /// Rounded multiples of 45 and 30 degrees, and rounded unit vectors, as what they are the decimals of.
+    AsMeant,
 }
 
 impl Frame {
-    /// The base frame.
-    pub fn base() -> Self {
-        Frame { rotation: ExactRotation::identity(), origin: Default::default(), rounds: false }
+    fn base(reading: Reading) -> Self {
+        Frame { rotation: ExactRotation::identity(), origin: Default::default(), rounds: false, reading }
     }
 
     /// What `walk` makes of the joints of a chain, starting at the base frame; where that is not rational, what it makes of them when rotations
     /// are. It tells of all axes whether they are.
-    pub fn walked<T, E>(walk: impl Fn(Frame) -> Result<(T, Rationality), E>) -> Result<T, E> {
-        let (exact, told) = walk(Frame::base())?;
+    pub fn walked<T, E>(reading: Reading, walk: impl Fn(Frame) -> Result<(T, Rationality), E>) -> Result<T, E> {
+        let (exact, told) = walk(Frame::base(reading))?;
         if told.is_exact() {
             Ok(exact)
         } else {
-            walk(Frame { rounds: true, ..Frame::base() }).map(|(rounded, _)| rounded)
+            walk(Frame { rounds: true, ..Frame::base(reading) }).map(|(rounded, _)| rounded)
         }
     }
 
@@ -64,13 +71,16 @@ impl Frame {
 
     /// The rotation of a placement in this frame, made rational where rotations are.
     fn told(&self, inner: &Placement) -> ExactRotation {
-        let rotation = inner.rotation.clone();
+        let rotation = match self.reading {
+            Reading::AsDescribed => inner.rotation.clone(),
+            Reading::AsMeant => inner.meant().clone(),
+        };
         if self.rounds { rotation.made_rational() } else { rotation }
     }
 
     /// This frame turned by `rotation`, its origin moved to `origin`.
     fn turned(&self, rotation: &ExactRotation, origin: SurdVector) -> Self {
-        Frame { rotation: self.rotation.then(rotation).shortened(), origin, rounds: self.rounds }
+        Frame { rotation: self.rotation.then(rotation).shortened(), origin, ..*self }
     }
 
     /// The frame in which this one stands at `inner`.
@@ -82,10 +92,11 @@ impl Frame {
         Frame { origin, ..turned }
     }
 
-    /// The direction `axis` of this frame in the base frame (0.866025 stands for sqrt 3 / 2 in a unit vector), in coprime integers when
-    /// it is rational and they are short, else as it is; what is not rational within 2^-80 of the greatest entry.
+    /// The direction `axis` of this frame in the base frame, in coprime integers when it is rational and they are short, else as it is;
+    /// what is not rational within 2^-80 of the greatest entry. In a unit vector 0.866025 [means](Reading::AsMeant) sqrt 3 / 2.
     pub fn direction(&self, axis: &ExactVector) -> ExactVector {
-        let axis = recognised(axis).unwrap_or_else(|| surds(axis));
+        let meant = (self.reading == Reading::AsMeant).then(|| recognised(axis)).flatten();
+        let axis = meant.unwrap_or_else(|| surds(axis));
         let direction = directed(&self.rotation.turned(&axis));
         match direction.each_ref().map(|entry| entry.rational().cloned()) {
             [Some(x), Some(y), Some(z)] if !self.rotation.is_long() => shortest([x, y, z]),

@@ -2,9 +2,9 @@
 //!
 //! Rows are (v, w), columns the joints from base to tip. `v` is in the length unit of the screws per unit of the joint.
 
-use nalgebra::Matrix6xX;
+use nalgebra::{DMatrix, Matrix6xX, Vector3};
 
-use super::Chain;
+use super::{Chain, Task};
 use crate::spatial::{Pose, Screw, Twist};
 use crate::{Error, ErrorKind, Result};
 
@@ -61,6 +61,59 @@ impl Chain {
     /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
     pub fn body_jacobian(&self, q: &[f64]) -> Result<Jacobian> {
         body(self.screws(), &self.base_from_tip(), q)
+    }
+}
+
+impl Chain {
+    /// What the chain's task sees of the motions of its joints at `q`: a row for each number that the task determines, in the order position,
+    /// turn, a column for each joint. Positions and slides are in reaches, angles in radians; an aimed direction has two rows, across it. The
+    /// columns of the joints `held` are zero.
+    ///
+    /// # Panics
+    /// When `q` has fewer values than the chain has joints.
+    pub fn task_jacobian(&self, q: &[f64], held: &[usize]) -> DMatrix<f64> {
+        let length = if self.reach() > 0.0 { self.reach() } else { 1.0 };
+        let screws = self.screws();
+        let mut befores = vec![Pose::identity()];
+        screws.iter().zip(q).for_each(|(screw, q)| befores.push(befores[befores.len() - 1] * screw.exp(*q)));
+        let pose = befores[screws.len()] * self.base_from_tip();
+        let aim = pose.rotation * self.aim().into_inner();
+        let column = |(joint, (screw, before)): (usize, (&Screw, &Pose))| {
+            let (v, w) = match screw.moved(before) {
+                _ if held.contains(&joint) => (Vector3::zeros(), Vector3::zeros()),
+                Screw::Revolute(axis) => {
+                    let w = axis.direction().into_inner();
+                    (w.cross(&(pose.translation.vector - axis.point().coords)) / length, w)
+                }
+                Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
+            };
+            self.task().sees(&v, &w, &aim)
+        };
+        let entries: Vec<f64> = screws.iter().zip(&befores).enumerate().flat_map(column).collect();
+        DMatrix::from_vec(self.task().freedoms(), screws.len(), entries)
+    }
+}
+
+impl Task {
+    /// What a task sees of a motion of the tip, by `v` and turning with `w`, where it aims along the unit vector `aim`.
+    fn sees(self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
+        let across = || {
+            let least = Vector3::ith(aim.iamin(), 1.0);
+            let first = aim.cross(&least).normalize();
+            let turned = w.cross(aim);
+            [turned.dot(&first), turned.dot(&aim.cross(&first))]
+        };
+        match self {
+            Task::Position => v.as_slice().to_vec(),
+            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| v[axis]).to_vec(),
+            Task::PlanarPose { plane } => {
+                [plane.coordinates().map(|axis| v[axis]).as_slice(), &[w[plane.normal()]]].concat()
+            }
+            Task::Pose => [v.as_slice(), w.as_slice()].concat(),
+            Task::Ray => [v.as_slice(), &across()].concat(),
+            Task::Direction => across().to_vec(),
+            Task::Rotation => w.as_slice().to_vec(),
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 //! Kinematics of serial chains: the validated exact model [`Chain`] and what is asked of it ([`Task`]), its file formats
-//! ([`chain_toml`], [`dh_toml`], [`urdf`]), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`snap`]), the
+//! ([`chain_toml`], [`dh_toml`], [`urdf`]), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`ideal`]), the
 //! screw solver ([`screw`]) and a numeric inverse ([`oracle`], [`numeric`]).
 
 pub mod chain;
@@ -12,12 +12,13 @@ mod exact_vector;
 pub mod fk;
 mod frame;
 pub mod geometry;
+pub mod ideal;
 pub mod jacobian;
 pub mod numeric;
 pub mod oracle;
 mod placement;
 pub mod screw;
-pub mod snap;
+mod shares;
 mod surd;
 mod task;
 pub mod tree;
@@ -25,12 +26,11 @@ pub mod urdf;
 mod validate;
 
 pub use chain::{
-    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Root, Tip, along_z,
+    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Meant, Root, Tip, along_z,
 };
 pub use dh::{DhConvention, DhRow, DhTable};
 pub use exact_rotation::{ExactRotation, Turn};
 pub use geometry::Geometry;
 pub use placement::Placement;
-pub use snap::SnapReport;
 pub use task::{Plane, Task};
 pub use tree::Tree;

@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use super::{ExactRotation, ExactVector};
+use super::{ExactRotation, ExactVector, Turn};
 use crate::number::BigRational;
 
 /// A frame in another one, exactly.
@@ -10,6 +10,8 @@ use crate::number::BigRational;
 pub struct Placement {
     /// Its rotation, outer_from_frame.
     pub rotation: ExactRotation,
+    /// The rotation that its rounded numbers mean, 1.5708 for a quarter turn, where that is another.
+    pub meant: Option<ExactRotation>,
     /// Its origin, in the length unit of the description.
     pub origin: ExactVector,
 }
@@ -17,12 +19,16 @@ pub struct Placement {
 impl Placement {
     /// The outer frame itself.
     pub fn identity() -> Self {
-        Placement { rotation: ExactRotation::identity(), origin: std::array::from_fn(|_| BigRational::zero()) }
+        let origin = std::array::from_fn(|_| BigRational::zero());
+        Placement { rotation: ExactRotation::identity(), meant: None, origin }
     }
 
-    /// A frame that is only turned.
-    pub fn turned(rotation: ExactRotation) -> Self {
-        Placement { rotation, ..Placement::identity() }
+    /// A frame that is only turned: by Rz(yaw) Ry(pitch) Rx(roll) about the outer axes, a URDF's `rpy`.
+    pub fn turned(turns: [Turn; 3]) -> Self {
+        let rotation = ExactRotation::from_rpy(turns);
+        let meant = turns.map(Turn::meant);
+        let meant = (meant != turns).then(|| ExactRotation::from_rpy(meant));
+        Placement { rotation, meant, ..Placement::identity() }
     }
 
     /// A frame that is only shifted, by `distance` along a coordinate axis: 0, 1, 2 (modulo 3) for x, y, z.
@@ -37,7 +43,9 @@ impl Placement {
     pub fn then(&self, inner: &Placement) -> Self {
         let moved = self.rotation.turn(&inner.origin);
         let origin = std::array::from_fn(|i| &self.origin[i] + &moved[i]);
-        Placement { rotation: self.rotation.then(&inner.rotation), origin }
+        let [outer, within] = [self, inner].map(Placement::meant);
+        let meant = (self.meant.is_some() || inner.meant.is_some()).then(|| outer.then(within));
+        Placement { rotation: self.rotation.then(&inner.rotation), meant, origin }
     }
 
     /// The outer frame in this frame.
@@ -45,6 +53,11 @@ impl Placement {
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.inverse();
         let origin = rotation.turn(&self.origin).map(|x| -x);
-        Placement { rotation, origin }
+        Placement { rotation, meant: self.meant.as_ref().map(ExactRotation::inverse), origin }
+    }
+
+    /// The rotation that its numbers mean.
+    pub fn meant(&self) -> &ExactRotation {
+        self.meant.as_ref().unwrap_or(&self.rotation)
     }
 }

@@ -4,6 +4,8 @@
 use num_traits::{One, Signed, Zero};
 
 use super::chain::{ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip, show};
+use super::exact_vector::{cosine, sine};
+use super::ideal::TOLERANCE;
 use super::task::Plane;
 use crate::document::{one_among, shown};
 use crate::number::{BigInt, BigRational};
@@ -151,12 +153,12 @@ fn check_unique(index: usize, joints: &[Joint]) -> Checked {
     Ok(())
 }
 
-/// In a planar task revolute axes are normal to the plane and prismatic axes lie in it.
+/// In a planar task revolute axes are normal to the plane and prismatic axes lie in it, up to what is taken for meant.
 fn check_plane(index: usize, joint: &Joint, plane: Plane) -> Checked {
     let normal = ["x", "y", "z"][plane.normal()];
     let stays = match joint.kind {
-        JointKind::Revolute => plane.coordinates().iter().all(|&i| joint.axis[i].is_zero()),
-        JointKind::Prismatic => joint.axis[plane.normal()].is_zero(),
+        JointKind::Revolute => sine(&joint.axis, &normal_of(plane)) <= TOLERANCE,
+        JointKind::Prismatic => cosine(&joint.axis, &normal_of(plane)) <= TOLERANCE,
     };
     if stays {
         return Ok(());
@@ -171,6 +173,10 @@ fn check_plane(index: usize, joint: &Joint, plane: Plane) -> Checked {
         plane.name()
     );
     Err(joint_fault(index, joint, "axis", ErrorKind::BadValue, &message))
+}
+
+fn normal_of(plane: Plane) -> ExactVector {
+    std::array::from_fn(|i| if i == plane.normal() { BigRational::one() } else { BigRational::zero() })
 }
 
 fn check_tip(tip: &Tip) -> Checked {

@@ -13,6 +13,9 @@ pub struct About {
     /// The link where the chain ends, when the source names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<String>,
+    /// The number of complex solutions of a generic reachable target, where it was counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solutions: Option<usize>,
     /// A hash of the source, in hexadecimal digits.
     pub hash: String,
     /// By joint: its least and greatest value in its unit, where the source says them.

@@ -122,6 +122,11 @@ impl<'a> Answers<'a> {
     fn settle(&mut self, path: &Path, q: Joints) {
         let (mut end, mut fit) = (q, refine::measure(self.program, &q, &mut self.frame));
         let missed = fit.relative;
+        if self.program.nearby
+            && let Some((end, fit)) = refine::approached(self.program, &q, missed, &mut self.frame)
+        {
+            return self.keep(path, &end, &fit);
+        }
         refine::polish(self.program, &mut end, &mut fit, &NONE_FREE, &mut self.frame);
         if !(fit.accepted && fit.relative < ROUNDING && self.way(&q, &end) <= MERGE) {
             self.unsound = self.candidates;

@@ -115,6 +115,14 @@ pub const TWIN: f64 = 10.0;
 /// How many times that square root from the one answer the other is looked for; farther where the joint that moves most, as one of a wrist
 /// that is nearly straight, only follows.
 pub const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
+/// So many plain Newton steps lead a candidate of a nearby mechanism's formulas to where the equations hold within [`ROUNDING`], or it is
+/// polished with more care.
+pub const APPROACHES: usize = 3;
+/// Such a step is taken where each pivot of the normal equations is more than this share of their size, and than [`STEEP`] times what the
+/// candidate misses: no other answer is next to it then.
+pub const PLAIN: f64 = 1e-6;
+/// See [`PLAIN`]: four times the square of [`TWIN`].
+pub const STEEP: f64 = 400.0;
 /// Inverse iterations that tell in what direction the equations change least.
 pub const INVERSIONS: usize = 3;
 /// Half-way between two answers next to each other that are one the equations hold within this share, which is hardly more than rounding

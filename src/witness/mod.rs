@@ -111,6 +111,8 @@ impl<'a> Check<'a> {
         };
         let mut row = Row::open(number, kind, target, joints, answers.as_deref());
         if let Some(answers) = answers {
+            let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
+            row.is_singular = known.into_iter().any(|q| self.model.sigma(&row.target, q) <= SINGULAR);
             let faults = self.faults(number, &mut row, &answers)?;
             row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };
         }

@@ -27,6 +27,8 @@ pub enum Kind {
     Edge(u32),
     /// Any target, reachable or not.
     Anywhere,
+    /// The same of the ideal robot, where answers are polished on the one described.
+    OfIdeal(Box<Kind>),
 }
 
 /// What is wrong with the answers at a target.
@@ -88,6 +90,8 @@ pub struct Row {
     pub worst_residual: Option<f64>,
     /// The distance of the nearest answer from `joints`: radians, or a share of the typical length.
     pub nearest: Option<f64>,
+    /// Whether the target is singular or next to such: joint values that made it or solve it are.
+    pub is_singular: bool,
     /// Whether all is right.
     pub verdict: Verdict,
 }
@@ -112,6 +116,7 @@ impl Row {
             oracle: None,
             worst_residual: None,
             nearest: None,
+            is_singular: false,
             verdict: Verdict::Open,
         }
     }
@@ -148,15 +153,16 @@ pub struct Summary {
 }
 
 impl Row {
-    /// Whether nothing is wrong but that answers are missing, at a target that is singular, next to such a one, or made from a right
-    /// angle.
-    pub fn is_special_loss(&self) -> bool {
-        let is_special =
-            matches!(self.kind, Kind::Boundary | Kind::Special | Kind::Singular | Kind::Near(_) | Kind::Edge(_));
-        let is_loss = |fault: &Fault| {
-            matches!(fault, Fault::Missing | Fault::Family | Fault::Count | Fault::Screw | Fault::Oracle)
-        };
-        is_special && matches!(&self.verdict, Verdict::Fail(faults) if faults.iter().all(is_loss))
+    /// What is wrong, in words, with the target.
+    pub fn weakness(&self) -> String {
+        let target: Vec<String> = self.target.iter().map(|value| format!("{value:?}")).collect();
+        let faults: Vec<&str> = self.verdict.faults().iter().map(|fault| fault.sentence()).collect();
+        format!("{} ({}): {}", self.kind, target.join(","), faults.join("; "))
+    }
+
+    /// Whether something is wrong at a singular target, or next to one: a weak spot of the solver. Anywhere else it is a failure.
+    pub fn is_weak_spot(&self) -> bool {
+        self.is_singular && matches!(self.verdict, Verdict::Fail(_))
     }
 }
 
@@ -164,6 +170,20 @@ impl Report {
     /// The rows that failed.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| matches!(row.verdict, Verdict::Fail(_)))
+    }
+
+    /// These rows, and behind them those of the ideal robot.
+    #[must_use]
+    pub fn with_ideal(mut self, ideal: Report) -> Report {
+        for row in ideal.rows {
+            self.rows.push(Row { number: self.rows.len() + 1, kind: Kind::OfIdeal(Box::new(row.kind)), ..row });
+        }
+        self
+    }
+
+    /// The failures that are singular targets, or next to such.
+    pub fn weak_spots(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.is_weak_spot())
     }
 
     /// The report in a few numbers.
@@ -238,6 +258,7 @@ impl fmt::Display for Kind {
             Kind::Near(k) => write!(f, "1e-{k} of singular"),
             Kind::Edge(k) => write!(f, "1e-{k} of the edge"),
             Kind::Anywhere => f.write_str("anywhere"),
+            Kind::OfIdeal(kind) => write!(f, "ideal robot: {kind}"),
         }
     }
 }

@@ -124,6 +124,7 @@ fn parts(joints: Vec<Joint>, tip: Tip, task: Task, direction: ExactVector) -> Ch
         given: Vec::new(),
         order: None,
         choice: None,
+        meant: None,
     };
     Chain::new(parts).expect("a chain")
 }

@@ -80,7 +80,7 @@ fn decimals_of_multiples_of_a_quarter_turn_are_these() {
         ("6.123e-17", 0),
     ];
     for (text, quarters) in exactly {
-        let turn = Turn::from_radians(&exact(text)).unwrap();
+        let turn = Turn::from_radians(&exact(text)).unwrap().meant();
         let degrees = Turn::from_degrees(&whole(90 * quarters)).unwrap();
         assert_eq!(turn, degrees, "{text}");
         assert!(turn.is_exact(), "{text}");
@@ -99,7 +99,7 @@ fn decimals_of_multiples_of_a_quarter_turn_are_these() {
         "0.7855",
         "0.2618",
     ] {
-        assert!(!Turn::from_radians(&exact(text)).unwrap().is_exact(), "{text}");
+        assert!(!Turn::from_radians(&exact(text)).unwrap().meant().is_exact(), "{text}");
     }
     let thirds = [
         ("0.7854", 45),
@@ -111,7 +111,7 @@ fn decimals_of_multiples_of_a_quarter_turn_are_these() {
         ("-2.0944", 240),
     ];
     for (text, degrees) in thirds {
-        let turn = Turn::from_radians(&exact(text)).unwrap();
+        let turn = Turn::from_radians(&exact(text)).unwrap().meant();
         assert_eq!(
             (turn, turn.degrees()),
             (Turn::from_degrees(&whole(degrees)).unwrap(), Some(degrees as u16)),
@@ -207,6 +207,7 @@ proptest! {
     ) {
         let value = |i: usize| decimal(numbers[i], 3);
         let placement = |i: usize| Placement {
+            meant: None,
             rotation: ExactRotation::from_rpy(turns(&[value(i), value(i + 1), value(i + 2)])),
             origin: [value(i + 3), value(i + 4), value(i + 5)],
         };

@@ -40,7 +40,8 @@ fn multiplied_out(text: &str, q: &[f64]) -> Isometry3<f64> {
 fn the_documented_example() {
     let tree = Tree::from_urdf(&example()).unwrap();
     assert_eq!((tree.name(), tree.root(), tree.leaves()), ("finger", "palm", vec!["fingertip"]));
-    let chain = tree.chain(None, None).unwrap();
+    let described = tree.chain(None, None).unwrap();
+    let (chain, report) = described.ideal();
     let joint = &chain.joints()[0];
     assert_eq!(joint.point, ["0", "0.02", "0.0451"].map(exact), "exact decimals");
     assert_eq!(joint.axis, ["-1", "0", "0"].map(exact), "y, turned by 1.5708 about z");
@@ -49,8 +50,18 @@ fn the_documented_example() {
     let tip = chain.forward(&[0.5]).unwrap().translation.vector;
     let wanted = Vector3::new(0.0, 0.02 + 0.038 * 0.5f64.sin(), 0.0451 + 0.038 * 0.5f64.cos());
     assert!((tip - wanted).norm() < 1e-16);
+    // As described, all of that is turned by 1.5708 - pi/2 about z.
+    let off = 1.5708 - std::f64::consts::FRAC_PI_2;
+    let turned =
+        nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), off) * (wanted - Vector3::new(0.0, 0.02, 0.0451));
+    let tip = described.forward(&[0.5]).unwrap().translation.vector - Vector3::new(0.0, 0.02, 0.0451);
+    assert!((tip - turned).norm() < 1e-16, "{}", (tip - turned).norm());
+    assert!((report.deviation() - off).abs() < 1e-12, "{report}");
     let notes = tree.notes(&tree.path(None, None).unwrap());
-    assert_eq!(notes, ["knuckle: yaw 1.5708 rad is taken as 90 deg exactly"]);
+    assert_eq!(
+        notes,
+        ["knuckle: yaw 1.5708 rad is taken as 90 deg where solvers are derived; poses are those of the number"]
+    );
 }
 
 #[test]
@@ -157,7 +168,7 @@ fn versions_differ_in_limits() {
 #[test]
 fn quaternions_are_read_too() {
     let text = example().replace("rpy=\"0 0 1.5708\"", "quat_xyzw=\"0 0 0.70710678 0.70710678\"");
-    let chain = |text: &str| Tree::from_urdf(text).unwrap().chain(None, None).unwrap();
+    let chain = |text: &str| Tree::from_urdf(text).unwrap().chain(None, None).unwrap().ideal().0;
     assert_eq!(chain(&text), chain(&example()));
 }
 

@@ -1,6 +1,5 @@
 //! Multiples of 45 and 30 degrees in robot descriptions: directions, sums and relations of axes are exact.
 
-use groebot::kinematics::snap::near_misses;
 use groebot::kinematics::{Chain, Geometry, Tree};
 use groebot::spatial::line::Relation;
 use proptest::prelude::*;
@@ -21,7 +20,12 @@ fn serial(places: &[([String; 3], [String; 3])]) -> Chain {
             rpy.join(" ")
         );
     }
-    Tree::from_urdf(&(text + "</robot>")).unwrap().chain(None, None).unwrap()
+    meant(&(text + "</robot>"))
+}
+
+/// The ideal chain of a URDF, in which rounded multiples of 45 and 30 degrees are exact.
+fn meant(text: &str) -> Chain {
+    Tree::from_urdf(text).unwrap().chain(None, None).unwrap().ideal().0
 }
 
 fn place(xyz: [&str; 3], rpy: [&str; 3]) -> ([String; 3], [String; 3]) {
@@ -55,7 +59,7 @@ fn a_wrist_at_60_degrees_keeps_its_relations() {
         place(["0", "0", "0.1"], ["0.5236", "0", "0"]),
     ]);
     let geometry = Geometry::of(&chain);
-    assert!(near_misses(&chain, 1e-3).is_empty());
+    assert!(chain.ideal_within(1e-3).unwrap().1.is_same());
     assert_eq!(geometry.meeting.len(), 2);
     assert_eq!(chain.joints()[0].axis, chain.joints()[2].axis);
     assert!((chain.joints()[1].location() - nalgebra::Point3::new(0.0, 0.0, 0.27)).norm() < 1e-15);
@@ -72,7 +76,7 @@ fn an_axis_of_decimals_is_the_unit_vector() {
 <joint name='one' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0.866025 0 0.5'/></joint>
 <joint name='two' type='continuous'><parent link='b'/><child link='c'/><origin xyz='0 1 0' rpy='0 -0.523599 0'/><axis xyz='1 0 0'/></joint>
 <joint name='three' type='continuous'><parent link='c'/><child link='d'/><origin rpy='0 0.5236 0'/><axis xyz='0.866 0 0.5'/></joint></robot>";
-    let chain = Tree::from_urdf(text).unwrap().chain(None, None).unwrap();
+    let chain = meant(text);
     let directions: Vec<_> = chain.joints().iter().map(|joint| joint.direction().into_inner()).collect();
     assert_eq!(Geometry::of(&chain).parallel.first(), Some(&(0..2)));
     assert_eq!(chain.joints()[0].axis, chain.joints()[1].axis);
@@ -95,7 +99,8 @@ proptest! {
     fn axes_that_meet_meet_exactly(places in prop::collection::vec((prop::array::uniform3(angle()), -9i32..9), 3..8)) {
         let places: Vec<_> = places.iter().map(|(rpy, d)| (["0".into(), "0".into(), format!("0.{}", d + 11)], rpy.clone())).collect();
         let chain = serial(&places);
-        prop_assert!(near_misses(&chain, 1e-7).is_empty(), "{:?}", near_misses(&chain, 1e-7));
+        let report = chain.ideal_within(1e-7).unwrap().1;
+        prop_assert!(report.is_same(), "{}", report);
         for pair in Geometry::of(&chain).neighbours {
             prop_assert!(matches!(pair.relation, Some(Relation::Intersecting { .. } | Relation::Coincident)), "{pair:?}");
         }

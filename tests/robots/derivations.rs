@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use groebot::derive::InputFile;
-use groebot::kinematics::snap::near_misses;
 use groebot::kinematics::{Chain, Geometry, LengthUnit, Task};
 use groebot::robots;
 
@@ -40,11 +39,11 @@ fn a_rounded_robot_is_snapped() {
     let input = InputFile::read(folder.as_ref()).unwrap();
     let chain = input.chain(&Default::default()).unwrap().unwrap();
     assert!(Geometry::of(&chain).meeting.is_empty());
-    let (ideal, report) = input.ends.ideal(&chain).unwrap().unwrap();
+    let (ideal, report) = input.ends.ideal(&chain).unwrap();
     let geometry = Geometry::of(&ideal);
     assert_eq!((geometry.parallel.len(), geometry.parallel[0].clone()), (1, 1..3));
     assert_eq!((geometry.meeting.len(), geometry.meeting[0].joints.clone()), (1, 3..6));
-    assert!(near_misses(&ideal, 1e-3).is_empty() && report.near.len() >= 2, "{report}");
+    assert!(ideal.ideal_within(1e-3).unwrap().1.is_empty() && report.relations.len() >= 2, "{report}");
     for q in [0.0, 0.7, -2.0] {
         let [a, b] = [&chain, &ideal].map(|chain| chain.forward(&[q; 6]).unwrap());
         assert!((a.translation.vector - b.translation.vector).norm() < 2e-4);

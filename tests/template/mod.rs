@@ -95,6 +95,7 @@ pub fn chain_of(axes: &[([BigRational; 3], [BigRational; 3])], sliding: &[usize]
         given: Vec::new(),
         order: None,
         choice: None,
+        meant: None,
     })
     .unwrap()
 }

@@ -28,6 +28,7 @@ pub use coupled::{Coupled, Side};
 pub use eliminate::{Elimination, SymbolPlace};
 pub(super) use frame::frame_of;
 pub use half_angle::{HalfAngle, HalfAngles};
+pub(super) use program::checks_on;
 pub use shape::Shape;
 pub(super) use shape::{Symbolic, TargetPoly};
 pub(super) use stages::{joint_unknowns, name};
@@ -38,7 +39,7 @@ use slack::Slack;
 use super::closure::{Mechanism, Relation};
 use super::planner::{self, Plan, PlanStep};
 use crate::kinematics::Chain;
-use crate::kinematics::snap::SnapReport;
+use crate::kinematics::ideal::Report;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -69,7 +70,7 @@ pub struct Derived {
     /// The chain whose loop is solved.
     pub chain: Chain,
     /// The chain that answers are polished and measured on, where `chain` is its ideal, and how they differ.
-    pub truth: Option<(Chain, SnapReport)>,
+    pub truth: Option<(Chain, Report)>,
     /// In which order its joints are found.
     pub plan: Plan,
     /// The steps.
@@ -80,6 +81,8 @@ pub struct Derived {
     pub half_angles: Option<HalfAngles>,
     /// The solver.
     pub program: Program,
+    /// The solver of the ideal chain itself, where `program` polishes its answers on another.
+    pub unpolished: Option<Box<Program>>,
 }
 
 impl Derived {
@@ -98,19 +101,19 @@ impl Derived {
         Derived::of_plan(chain, &mechanism, plan, watch).map_err(told)
     }
 
-    /// This solver, of an ideal chain, for the chain `truth` that was meant by it: `report` of [`Chain::snapped`] tells how they
-    /// differ. Every answer of the closed form is polished by Newton's method on `truth`, and measured there.
+    /// This solver, of an ideal chain, for the chain `truth` that means it: `report` of [`Chain::ideal`] tells how they differ. Every answer of the closed form is polished by Newton's method on `truth`, and measured there.
     ///
     /// # Errors
     /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
-    pub fn polished_on(self, truth: &Chain, report: SnapReport) -> Result<Self> {
-        let Derived { chain, plan, steps, templates, half_angles, .. } = self;
+    pub fn polished_on(self, truth: &Chain, report: Report) -> Result<Self> {
+        let Derived { chain, plan, steps, templates, half_angles, program: unpolished, .. } = self;
         let parts = Parts { plan, steps, templates, half_angles };
         let mechanism = Mechanism::new(&chain)?;
-        let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.tolerance))?;
+        let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.deviation()))?;
         derived.program.checks = program::checks_on(truth)?;
         derived.program.nearby = true;
         derived.truth = Some((truth.clone(), report));
+        derived.unpolished = Some(Box::new(unpolished));
         Ok(derived)
     }
 
@@ -134,7 +137,16 @@ impl Derived {
     fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts, slack: Slack) -> Result<Self> {
         let program = program::compile(chain, mechanism, &parts, slack)?;
         let Parts { plan, steps, templates, half_angles } = parts;
-        Ok(Derived { chain: chain.clone(), truth: None, plan, steps, templates, half_angles, program })
+        Ok(Derived {
+            chain: chain.clone(),
+            truth: None,
+            plan,
+            steps,
+            templates,
+            half_angles,
+            program,
+            unpolished: None,
+        })
     }
 }
 

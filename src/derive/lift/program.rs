@@ -63,7 +63,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
 ///
 /// # Errors
 /// As [`Mechanism::new`].
-pub(super) fn checks_on(chain: &Chain) -> Result<Checks> {
+pub(in crate::derive) fn checks_on(chain: &Chain) -> Result<Checks> {
     let mechanism = Mechanism::new(chain)?;
     Ok(checks(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
 }

@@ -29,7 +29,7 @@ const FEW: Samples = Samples { angles: 8, lengths: 5 };
 const MORE: Samples = Samples { angles: 16, lengths: 16 };
 /// Where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a family, and each is looked for
 /// from the places next to it.
-const MANY: Samples = Samples { angles: 32, lengths: 5 };
+const MANY: Samples = Samples { angles: 16, lengths: 5 };
 
 impl Samples {
     /// Those of a program of these steps, whose formulas are off by `slack`.

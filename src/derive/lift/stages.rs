@@ -161,10 +161,10 @@ impl Derived {
         if let Some((_, report)) = &self.truth {
             let _ = writeln!(
                 text,
-                "The closed form is that of the ideal robot within {:e} rad and m. Each answer is polished by Newton's method on the robot \
-                 as described, and measured on it. What was made ideal:\n\n{}\n",
+                "The closed form is that of the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on \
+                 the robot as described, and measured on it. What was taken to be meant:\n\n{}\n",
                 report.tolerance,
-                report.to_string().lines().map(|line| format!("* {line}\n")).collect::<String>()
+                report.lines().iter().map(|line| format!("* {line}\n")).collect::<String>()
             );
         }
         text += &self.steps_text(mechanism);

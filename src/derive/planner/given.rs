@@ -1,6 +1,7 @@
-//! Which joint's value is to be given when a task leaves one joint too many: [`joint_to_give`].
+//! Which joints' values are to be given when a task leaves some too many: [`joints_to_give`]. Main types: [`Choice`], [`Candidate`].
 
 use std::cmp::Reverse;
+use std::fmt;
 
 use super::plan;
 use super::refuse::{self, driven};
@@ -8,46 +9,124 @@ use super::types::Plan;
 use crate::derive::closure::Mechanism;
 use crate::derive::template::fits;
 use crate::kinematics::Chain;
+use crate::kinematics::screw::{ScrewSolver, Target};
 use crate::{ErrorKind, Result, Watch};
 
-/// The joint of `chain` with which, when its value is given, the others are found most easily: by polynomials of the least degree, then
-/// with the fewest solutions; of equals the last. Where the others have no order whichever is given, the last, if the other six are found
-/// together. `None` for a chain that has a joint given, or not just one too many for its task.
+/// A joint is as good to give as the best one when its share is this part of the best one's at least.
+const AS_GOOD: f64 = 0.8;
+/// Random poses of which a share is counted.
+const POSES: usize = 250;
+
+/// The joints whose values are given, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Their names, from the base; those that were given before too.
+    pub given: Vec<String>,
+    /// All that the last one was chosen from, from the base.
+    pub candidates: Vec<Candidate>,
+}
+
+/// A joint that might be given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// Its name.
+    pub joint: String,
+    /// The share of its range, and of reachable poses, that has solutions: counted by screw theory, or else [`Chain::shares`].
+    pub share: f64,
+    /// The greatest degree of a step, and the number of solutions, where the other joints are found one at a time.
+    pub plan: Option<[usize; 2]>,
+}
+
+/// The joints of `chain` to give so that its task determines the others. Of one too many: of those whose range has solutions for the greatest
+/// share of values, the one with which the others are found by polynomials of the least degree, then with the fewest solutions, the last of
+/// equals; where the others have no order whichever is given, the last, if the other six are found together. Of more, all but one are chosen by
+/// their shares alone, the first from the base of those that are as good as the best. `None` for a chain without a joint too many.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] when there is no such joint, with the number of solutions for each; what `watch` stops with.
-pub fn joint_to_give(chain: &Chain, watch: &Watch) -> Result<Option<String>> {
-    if !chain.given().is_empty() || chain.joints().len() != chain.task().freedoms() + 1 {
+pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
+    let names = |joints: &[usize]| joints.iter().map(|&joint| chain.joints()[joint].name.clone()).collect();
+    let mut given = chain.given();
+    let Some(excess) = (chain.joints().len() - given.len()).checked_sub(chain.task().freedoms()).filter(|n| *n > 0)
+    else {
         return Ok(None);
+    };
+    for _ in 1..excess {
+        given.push(of_greatest_share(&chain.shares(&given), &given));
+        given.sort_unstable();
     }
-    let mechanism = Mechanism::new(chain)?;
-    let places = driven(&mechanism);
-    let mut plans = Vec::new();
-    let mut refusals = Vec::new();
+    let (joint, candidates) = last_to_give(chain, &given, watch)?;
+    given.push(joint);
+    given.sort_unstable();
+    Ok(Some(Choice { given: names(&given), candidates }))
+}
+
+/// The first joint whose share is as good as the greatest.
+fn of_greatest_share(shares: &[f64], given: &[usize]) -> usize {
+    let best = shares.iter().copied().fold(0.0, f64::max);
+    let free = || (0..shares.len()).filter(|joint| !given.contains(joint));
+    free().find(|&joint| shares[joint] >= AS_GOOD * best).or_else(|| free().next()).unwrap_or(0)
+}
+
+/// The last joint to give behind those of `given`, and all candidates.
+fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize, Vec<Candidate>)> {
+    let mechanism = Mechanism::new(chain)?.with_given(given)?;
+    let (places, mut shares) = (driven(&mechanism), chain.shares(given));
+    let (mut plans, mut refusals) = (Vec::new(), Vec::new());
     for &joint in &places {
-        watch.report("choose the joint that is given", joint, places.len() - joint);
-        match plan(&mechanism.clone().with_given(&[joint])?, watch) {
-            Ok(plan) => plans.push((joint, plan)),
+        watch.report("choose the joint that is given", joint, places.len());
+        let with: Vec<usize> = given.iter().copied().chain([joint]).collect();
+        match plan(&mechanism.clone().with_given(&with)?, watch) {
+            Ok(plan) => plans.push((joint, [hardest(&plan), plan.dimension])),
             Err(error) if is_refusal(error.kind()) => refusals.push((joint, error)),
             Err(error) => return Err(error),
         }
     }
-    let best = plans.iter().min_by_key(|(joint, plan)| (hardest(plan), plan.dimension, Reverse(*joint)));
-    let best = best.map(|(joint, _)| *joint).or_else(|| together(chain));
-    match best {
-        Some(joint) => Ok(Some(chain.joints()[joint].name.clone())),
+    for (joint, _) in &plans {
+        shares[*joint] = counted_share(chain, given, *joint).unwrap_or(shares[*joint]);
+    }
+    let candidate = |&joint: &usize| Candidate {
+        joint: chain.joints()[joint].name.clone(),
+        share: shares[joint],
+        plan: plans.iter().find(|(other, _)| *other == joint).map(|(_, plan)| *plan),
+    };
+    let greatest = plans.iter().map(|(joint, _)| shares[*joint]).fold(0.0, f64::max);
+    let good = plans.iter().filter(|(joint, _)| shares[*joint] >= AS_GOOD * greatest);
+    let best = good.min_by_key(|(joint, plan)| (*plan, Reverse(*joint))).map(|(joint, _)| *joint);
+    match best.or_else(|| together(chain, given)) {
+        Some(joint) => Ok((joint, places.iter().map(candidate).collect())),
         None => Err(refuse::none_to_give(&mechanism, &refusals)),
     }
 }
 
+/// The share of random values of `joint`, between its limits, and of random reachable poses with these joints `given`, that have solutions; none
+/// where screw theory does not find them.
+fn counted_share(chain: &Chain, given: &[usize], joint: usize) -> Option<f64> {
+    let mut places: Vec<usize> = given.iter().copied().chain([joint]).collect();
+    places.sort_unstable();
+    let names = places.iter().map(|&place| chain.joints()[place].name.clone()).collect();
+    let asked = chain.with_task(chain.task(), chain.direction().clone(), names).ok()?;
+    let solver = ScrewSolver::within(&asked, 0.0).ok()?;
+    let mut draws = chain.draws();
+    let mut solved = 0;
+    for _ in 0..POSES {
+        let mut q = draws.posture();
+        let target = Target::reached(&asked, &q).ok()?;
+        q[joint] = draws.value(joint);
+        let values: Vec<f64> = places.iter().map(|&place| q[place]).collect();
+        solved += usize::from(!solver.solve_given(&target, &values).ok()?.is_empty());
+    }
+    Some(solved as f64 / POSES as f64)
+}
+
 /// The joint that leaves six which are found together: the last one, or the first.
-fn together(chain: &Chain) -> Option<usize> {
+fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
     let fits_with = |place: &usize| {
-        let given = vec![chain.joints()[*place].name.clone()];
+        let given = given.iter().chain([place]).map(|&joint| chain.joints()[joint].name.clone()).collect();
         let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
         asked.is_ok_and(|chain| fits(&chain).is_ok())
     };
-    [chain.joints().len() - 1, 0].into_iter().find(fits_with)
+    [chain.joints().len() - 1, 0].into_iter().filter(|place| !given.contains(place)).find(fits_with)
 }
 
 fn is_refusal(kind: ErrorKind) -> bool {
@@ -56,4 +135,15 @@ fn is_refusal(kind: ErrorKind) -> bool {
 
 fn hardest(plan: &Plan) -> usize {
     plan.steps.iter().map(|step| step.degree).max().unwrap_or(0)
+}
+
+/// `shoulder: 62 % of its range, 8 solutions`.
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: solutions on {:.0} % of its range", self.joint, 100.0 * self.share)?;
+        match self.plan {
+            Some([_, dimension]) => write!(f, ", up to {dimension} of them"),
+            None => f.write_str(", which are not found one joint at a time"),
+        }
+    }
 }

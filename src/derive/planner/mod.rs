@@ -9,6 +9,7 @@
 mod echelon;
 mod eliminated;
 mod evidence;
+mod fitting;
 mod given;
 mod one_joint;
 mod refuse;
@@ -17,7 +18,8 @@ mod sights;
 mod specimen;
 mod types;
 
-pub use given::joint_to_give;
+pub use fitting::fitting_task;
+pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use refuse::not_lifted;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};

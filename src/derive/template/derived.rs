@@ -7,8 +7,10 @@ use super::program::program;
 use super::{Determinant, Regular, ranked};
 use crate::derive::certificate::{check_head, refused, unread, written};
 use crate::derive::closure::Mechanism;
+use crate::derive::lift::checks_on;
 use crate::derive::planner::{self, Evidence};
 use crate::kinematics::Chain;
+use crate::kinematics::ideal::Report;
 use crate::solver::Program;
 use crate::solver::template::{Formulation, SIZE};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -21,6 +23,8 @@ const FORMAT: u32 = 4;
 pub struct DerivedSixAxes {
     /// The chain.
     pub chain: Chain,
+    /// The chain that answers are polished and measured on, where `chain` is its ideal, and what was taken for what.
+    pub truth: Option<(Chain, Report)>,
     /// Its six joints that are found together, the given one, if there is one, at zero.
     pub six: Chain,
     /// How many complex solutions random targets modulo primes had.
@@ -29,6 +33,8 @@ pub struct DerivedSixAxes {
     pub formulations: Vec<Regular>,
     /// The solver.
     pub program: Program,
+    /// The solver of the ideal chain itself, where `program` polishes its answers on another.
+    pub unpolished: Option<Box<Program>>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -99,6 +105,23 @@ impl DerivedSixAxes {
         })
     }
 
+    /// This solver, of an ideal chain, for the chain `truth` that means it, as [`Derived::polished_on`](super::super::lift::Derived::polished_on).
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    pub fn polished_on(mut self, truth: &Chain, report: Report) -> Result<Self> {
+        self.unpolished = Some(Box::new(self.program.clone()));
+        self.program.checks = checks_on(truth)?;
+        (self.program.nearby, self.program.isolated) = (true, None);
+        self.truth = Some((truth.clone(), report));
+        Ok(self)
+    }
+
+    /// The chain that answers are measured on.
+    pub fn measured(&self) -> &Chain {
+        self.truth.as_ref().map_or(&self.chain, |(truth, _)| truth)
+    }
+
     /// The number of complex solutions of a generic reachable target.
     pub fn dimension(&self) -> usize {
         dimension(&self.evidence)
@@ -107,7 +130,15 @@ impl DerivedSixAxes {
     fn assemble(chain: &Chain, six: Six, evidence: Vec<Evidence>, formulations: Vec<Regular>) -> Result<Self> {
         let order = formulations.iter().map(|regular| regular.formulation).collect();
         let program = program(chain, &six, order, dimension(&evidence))?;
-        Ok(DerivedSixAxes { chain: chain.clone(), six: six.chain, evidence, formulations, program })
+        Ok(DerivedSixAxes {
+            chain: chain.clone(),
+            truth: None,
+            six: six.chain,
+            evidence,
+            formulations,
+            program,
+            unpolished: None,
+        })
     }
 }
 

@@ -11,6 +11,7 @@ use super::reduced::{Goal, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
 use super::target::{Solution, Target};
+use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::{Chain, Geometry, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
@@ -25,10 +26,16 @@ const ENOUGH: f64 = 2e-14;
 const MERGE: f64 = 1e-9;
 
 /// Inverse kinematics of a serial chain by screw theory. Lengths in the chain's unit, angles in radians.
+///
+/// The subproblems are those of the [ideal](Chain::ideal) robot; answers are refined and measured on the chain as described.
 #[derive(Clone, Debug)]
 pub struct ScrewSolver {
     chain: Chain,
+    /// The ideal robot, in which axes meet and are parallel exactly.
+    ideal: Chain,
     model: Model,
+    /// The chain as described, where it is another.
+    described: Option<Model>,
     orders: Orders,
     reach: f64,
 }
@@ -47,6 +54,7 @@ struct Trail {
 /// What the steps of one order find for a goal.
 struct Visit<'a> {
     order: &'a Order,
+    /// What answers are measured by: the goal of the chain as described.
     goal: &'a Goal,
     found: &'a mut Vec<Solution>,
     /// The steps, a bit each, that told less than there is: that left a joint free which the other steps do not, or that have no
@@ -61,12 +69,22 @@ impl ScrewSolver {
     /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined;
     /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain.
     pub fn new(chain: &Chain) -> Result<Self> {
-        let mut model = Model::of(chain)?;
+        ScrewSolver::within(chain, TOLERANCE)
+    }
+
+    /// The same by the ideal robot within `tolerance`, radians and shares of the reach; with zero each digit is taken at its word.
+    ///
+    /// # Errors
+    /// As [`ScrewSolver::new`] and [`Chain::ideal_within`].
+    pub fn within(chain: &Chain, tolerance: f64) -> Result<Self> {
+        let (ideal, report) = chain.ideal_within(tolerance)?;
+        let mut model = Model::of(&ideal)?;
         model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
-        let samples = samples(chain, &model)?;
+        let samples = samples(&ideal, &model)?;
         let scale = scale_of(&samples[0].start, model.reach);
-        let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(chain)) };
-        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), model, orders })
+        let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(&ideal)) };
+        let described = if report.is_same() { None } else { Some(Model::of(chain)?) };
+        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), ideal, model, described, orders })
     }
 
     /// The order of subproblems. Others are taken as well where one of its steps degenerates and the chain does not, or no answer is
@@ -99,8 +117,8 @@ impl ScrewSolver {
     /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each given joint.
     pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         self.chain.check_given(given)?;
-        let goal = target.goal(&self.chain)?;
-        let start = self.model.start(goal, given.iter().map(|&value| Half::new(value)));
+        let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
+        let goal = target.goal(if self.described.is_some() { &self.chain } else { &self.ideal })?;
         let mut found = Vec::with_capacity(self.plan().most_solutions());
         let doubtful = self.visit(&self.orders.first, &start, &goal, given, &mut found);
         let none = found.is_empty();
@@ -166,10 +184,14 @@ impl ScrewSolver {
 
     /// Refines and checks a complete answer, and keeps it when it is new.
     fn finish(&self, trail: &Trail, visit: &mut Visit) {
-        let Model { screws, tip, given, joints, .. } = &self.model;
+        let Model { screws, tip, given, joints, .. } = self.described.as_ref().unwrap_or(&self.model);
         let goal = visit.goal;
         let values = trail.q.map(|half| half.q);
-        let miss = Miss::of(&trail.motions[..screws.len()], goal, tip);
+        let mut motions = trail.motions;
+        if self.described.is_some() {
+            motions.iter_mut().zip(screws).zip(&trail.q).for_each(|((motion, screw), q)| *motion = screw.exp_half(*q));
+        }
+        let miss = Miss::of(&motions[..screws.len()], goal, tip);
         let fixed = std::array::from_fn(|i| trail.free[i] || given.contains(&i));
         let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
         let reaches = miss.size(self.reach) <= ACCEPT;

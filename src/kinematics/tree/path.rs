@@ -4,9 +4,10 @@ use std::collections::HashMap;
 
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
+use crate::kinematics::chain::Meant;
 use crate::kinematics::chain::along_z;
-use crate::kinematics::frame::{Frame, ROUNDING, Rationality};
-use crate::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, SnapReport, Task};
+use crate::kinematics::frame::{Frame, Rationality, Reading};
+use crate::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, Task, Tip};
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
 
@@ -66,8 +67,7 @@ impl Tree {
 
     /// The chain from the link `base` to the link `tip` (defaults as in [`Tree::path`]), in the frame of `base`, with the task
     /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
-    /// reversed, so that its values and limits stay its own. Relations of neighbouring axes that fail by 1e-12 rad or m at most are
-    /// made exact, as [`Chain::snapped`] does.
+    /// reversed, so that its values and limits stay its own. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
     ///
     /// # Errors
     /// As [`Tree::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way, and for joints on the way that
@@ -75,12 +75,11 @@ impl Tree {
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
         let path = self.path(base, tip)?;
         self.check_independent(&path)?;
-        Ok(self.raw_chain(&path)?.snapped(ROUNDING)?.0)
+        self.chain_along(&path)
     }
 
-    /// The chain along `path` before its roundings are taken off.
-    fn raw_chain(&self, path: &TreePath) -> Result<Chain> {
-        let (joints, frame) = self.walk(path)?;
+    fn chain_along(&self, path: &TreePath) -> Result<Chain> {
+        let (joints, tip) = self.walk(path, Reading::AsDescribed)?;
         if joints.is_empty() {
             let text = format!(
                 "nothing moves between `{}` and `{}`; choose links with moving joints between them",
@@ -90,13 +89,15 @@ impl Tree {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let name: String = format!("{}_{}", self.name, path.tip).chars().take(MAX_NAME).collect();
+        let (meant, tip_meant) = self.walk(path, Reading::AsMeant)?;
         Chain::new(ChainParts {
             name: name.trim().to_owned(),
             description: Some(format!("from link {} to link {}", path.base, path.tip)),
             source: None,
             length_unit: LengthUnit::Metre,
+            meant: Meant::unless_told(meant, tip_meant, (&joints, &tip)),
             joints,
-            tip: frame.tip(),
+            tip,
             task: Task::Pose,
             direction: along_z(),
             given: Vec::new(),
@@ -128,9 +129,6 @@ impl Tree {
                 up.join(", ")
             ));
         }
-        notes.extend(
-            self.raw_chain(path).and_then(|chain| chain.snapped(ROUNDING)).ok().and_then(|(_, report)| off(&report)),
-        );
         notes
     }
 
@@ -175,9 +173,9 @@ impl Tree {
         std::iter::successors(Some(joint), next).last().unwrap_or(joint)
     }
 
-    /// The moving joints in the base frame, and the frame of the tip.
-    fn walk(&self, path: &TreePath) -> Result<(Vec<Joint>, Frame)> {
-        Frame::walked(|base| self.walk_from(base, path))
+    /// The moving joints in the base frame, and the tip.
+    fn walk(&self, path: &TreePath, reading: Reading) -> Result<(Vec<Joint>, Tip)> {
+        Frame::walked(reading, |base| self.walk_from(base, path)).map(|(joints, frame)| (joints, frame.tip()))
     }
 
     /// The same from a base frame, and whether the joints' axes are rational.
@@ -206,17 +204,6 @@ impl Tree {
         }
         Ok(((joints, frame), told))
     }
-}
-
-/// Which axes were moved by less than a rounding.
-fn off(report: &SnapReport) -> Option<String> {
-    let names: Vec<String> =
-        report.moved.iter().map(|moved| moved.joint.as_deref().map_or("the tip".into(), shown)).collect();
-    let text = format!(
-        "moved by 1e-12 rad or m at most, so that axes are parallel, meet or pass exactly: {}",
-        names.join(", ")
-    );
-    (!names.is_empty()).then_some(text)
 }
 
 /// `Leader`, or `2 * Leader + 0.1`.

@@ -101,7 +101,7 @@ fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Tr
     let axis = read_axis(element.child("axis")?)?;
     if recognised(&axis).is_some() {
         notes.push(
-            "its axis is taken as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that it is the decimal of"
+            "its axis is taken as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that it is the decimal of, where solvers are derived"
                 .to_owned(),
         );
     }
@@ -150,7 +150,10 @@ fn read_origin(element: &Element) -> Result<(Placement, Vec<String>)> {
         (Some(_), Some(_)) => {
             return Err(element.error(ErrorKind::BadValue, "has both `rpy` and `quat_xyzw`; give one of them"));
         }
-        (Some(rpy), None) => (placement.rotation, notes) = read_rpy(element, &rpy)?,
+        (Some(rpy), None) => {
+            let (turned, told) = read_rpy(element, &rpy)?;
+            (placement, notes) = (Placement { origin: placement.origin, ..turned }, told);
+        }
         (None, Some(xyzw)) => {
             let zero =
                 || element.error(ErrorKind::BadValue, "has `quat_xyzw` = 0 0 0 0; give a quaternion that is not zero");
@@ -161,7 +164,7 @@ fn read_origin(element: &Element) -> Result<(Placement, Vec<String>)> {
     Ok((placement, notes))
 }
 
-fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(ExactRotation, Vec<String>)> {
+fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(Placement, Vec<String>)> {
     let turns: Vec<Turn> = rpy
         .iter()
         .map(|angle| Turn::from_radians(angle).map_err(|error| element.error(error.kind(), error.message())))
@@ -169,12 +172,17 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(ExactRotation, Vec<
     let mut notes = Vec::new();
     for ((name, angle), turn) in ["roll", "pitch", "yaw"].into_iter().zip(rpy).zip(&turns) {
         let angle = angle.to_f64().unwrap_or(f64::NAN);
-        match turn.degrees() {
+        match turn.meant().degrees() {
             Some(_) if angle == 0.0 => {}
             Some(degrees) => {
                 let whole = (angle / std::f64::consts::TAU - f64::from(degrees) / 360.0).round();
                 let degrees = f64::from(degrees) + 360.0 * whole;
-                notes.push(format!("{name} {angle} rad is taken as {degrees} deg exactly"));
+                let told = if turn.is_exact() {
+                    "exactly"
+                } else {
+                    "where solvers are derived; poses are those of the number"
+                };
+                notes.push(format!("{name} {angle} rad is taken as {degrees} deg {told}"));
             }
             None => {
                 let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
@@ -182,8 +190,7 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(ExactRotation, Vec<
             }
         }
     }
-    let turns: [Turn; 3] = std::array::from_fn(|i| turns[i]);
-    Ok((ExactRotation::from_rpy(turns), notes))
+    Ok((Placement::turned(std::array::from_fn(|i| turns[i])), notes))
 }
 
 /// The direction; (1, 0, 0) when there is none.

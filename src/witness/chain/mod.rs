@@ -131,6 +131,9 @@ impl<'a> Check<'a> {
         if faults.contains(&Fault::Range) {
             return Ok(faults);
         }
+        let is_singular = |q: &[f64]| self.model.sigma(q) <= ORDINARY;
+        row.is_singular =
+            row.joints.as_deref().into_iter().chain(answers.iter().map(|answer| answer.q.as_slice())).any(is_singular);
         faults.extend(self.together(answers));
         faults.extend(self.known(row, answers));
         let wrong = row.exact.is_some_and(|exact| exact != answers.len()) && !self.is_tie(row, answers);
@@ -141,6 +144,7 @@ impl<'a> Check<'a> {
                 Err(error) => return Err(error),
                 Ok(others) => {
                     row.screw = Some(others.len());
+                    row.is_singular |= others.iter().any(|other| is_singular(&other.q));
                     faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
                 }
             }

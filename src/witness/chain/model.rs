@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::DMatrix;
 
 use super::family::Families;
 use super::singular::smallest_singular_value;
@@ -11,7 +11,7 @@ use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::kinematics::{Chain, JointKind, Task};
 use crate::solver::{BLUR, Solution};
-use crate::spatial::{Pose, Screw, angle};
+use crate::spatial::{Pose, angle};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
 pub(super) const RESIDUAL: f64 = 1e-11;
@@ -143,45 +143,7 @@ impl<'a> Model<'a> {
     /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
     /// task has freedoms.
     pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
-        let pose = self.forward(q);
-        let tip = pose.translation.vector;
-        let aim = pose.rotation * self.chain.aim().into_inner();
-        let mut before = Pose::identity();
-        let mut columns = Vec::new();
-        for (joint, (screw, &value)) in self.chain.screws().iter().zip(q).enumerate() {
-            if !self.given.contains(&joint) {
-                let (v, w) = match screw.moved(&before) {
-                    Screw::Revolute(axis) => {
-                        let w = axis.direction().into_inner();
-                        (w.cross(&(tip - axis.point().coords)) / self.length, w)
-                    }
-                    Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
-                };
-                columns.extend(self.rows(&v, &w, &aim));
-            }
-            before *= screw.exp(value);
-        }
-        DMatrix::from_vec(self.chain.task().freedoms(), self.unknown.len(), columns)
-    }
-
-    /// What the task sees of a twist of the tip.
-    fn rows(&self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
-        let across = || {
-            let [first, second] = across(aim);
-            let turned = w.cross(aim);
-            vec![turned.dot(&first), turned.dot(&second)]
-        };
-        match self.chain.task() {
-            Task::Position => v.as_slice().to_vec(),
-            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| v[axis]).to_vec(),
-            Task::PlanarPose { plane } => {
-                [plane.coordinates().map(|axis| v[axis]).to_vec(), vec![w[plane.normal()]]].concat()
-            }
-            Task::Pose => [v.as_slice(), w.as_slice()].concat(),
-            Task::Ray => [v.as_slice().to_vec(), across()].concat(),
-            Task::Direction => across(),
-            Task::Rotation => w.as_slice().to_vec(),
-        }
+        self.chain.task_jacobian(q, &self.given).select_columns(&self.unknown)
     }
 }
 
@@ -332,10 +294,4 @@ impl Configuration for Model<'_> {
         let free = answer.free.iter().map(|&place| self.unknown[place]).collect();
         Solution { q, free, ..answer }
     }
-}
-
-/// Two unit vectors that make a right-handed frame with the unit vector `u`.
-fn across(u: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let first = u.cross(&Vector3::ith(u.iamin(), 1.0)).normalize();
-    [first, u.cross(&first)]
 }

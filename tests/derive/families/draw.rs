@@ -118,6 +118,7 @@ impl Draw {
             given: given.iter().map(|place| format!("joint{}", place + 1)).collect(),
             order: None,
             choice: None,
+            meant: None,
         })
         .expect("a chain")
     }

@@ -49,6 +49,7 @@ fn chain(joints: &[Placed], tip: Vector, task: Task) -> Chain {
         given: Vec::new(),
         order: None,
         choice: None,
+        meant: None,
     })
     .unwrap()
 }

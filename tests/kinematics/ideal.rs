@@ -1,7 +1,7 @@
 //! Imperfect descriptions: what is almost there is told, and made exact; what is exact stays as it is.
 
 use groebot::ErrorKind;
-use groebot::kinematics::snap::{NearRelation, near_misses};
+use groebot::kinematics::ideal::RelationKind;
 use groebot::kinematics::{Chain, ChainParts, ExactRotation, ExactVector, Geometry, JointKind};
 use groebot::number::BigRational;
 use groebot::robots;
@@ -53,7 +53,8 @@ fn turned(chain: &Chain, xyzw: [i64; 4]) -> Chain {
 
 /// Nothing is left that almost holds, and the same axes are parallel and meet as in `exact`.
 fn same_structure(ideal: &Chain, exact: &Chain) {
-    assert_eq!(near_misses(ideal, 1e-2), near_misses(exact, 1e-2), "{}", exact.name());
+    let left = ideal.ideal_within(1e-2).unwrap().1;
+    assert!(left.relations.is_empty(), "{}: {left}\n{ideal}", exact.name());
     let [ideal, exact] = [ideal, exact].map(Geometry::of);
     assert_eq!(ideal.parallel, exact.parallel);
     let joints =
@@ -62,6 +63,11 @@ fn same_structure(ideal: &Chain, exact: &Chain) {
     for (a, b) in ideal.neighbours.iter().zip(&exact.neighbours) {
         assert!((a.angle - b.angle).abs() < 1e-2);
     }
+}
+
+/// The tolerance that is `length` metres at least.
+fn shared(chain: &Chain, length: f64) -> f64 {
+    length / (chain.reach() * chain.length_unit().metres()).min(1.0)
 }
 
 /// The greatest distance of the two tips, with all joints at `q`.
@@ -75,9 +81,9 @@ fn an_exact_chain_is_not_changed() {
     for robot in robots::ALL {
         let chain = robot.chain();
         for tolerance in [0.0, 1e-9, 1e-5, 1e-3] {
-            let (ideal, report) = chain.snapped(tolerance).unwrap();
+            let (ideal, report) = chain.ideal_within(tolerance).unwrap();
             assert_eq!(ideal, chain, "{report}");
-            assert!(report.is_empty() && report.near.is_empty(), "{}: {report}", robot.name());
+            assert!(report.is_empty() && report.relations.is_empty(), "{}: {report}", robot.name());
         }
     }
 }
@@ -92,19 +98,19 @@ fn what_is_almost_there_is_told() {
             "axis = [0, 1, 0.00002]\npoint = [0.175, 0, 1.395]",
         ))
         .unwrap();
-    let told: Vec<_> = near_misses(&chain, 1e-4).iter().map(|near| (near.joints.clone(), near.relation)).collect();
-    let expected = [(1..3, NearRelation::Parallel), (3..6, NearRelation::Meeting)];
+    let near = chain.ideal_within(1e-4).unwrap().1.relations;
+    let told: Vec<_> = near.iter().map(|near| (near.joints.clone(), near.kind)).collect();
+    let expected = [(1..3, RelationKind::Parallel), (3..6, RelationKind::Meeting)];
     assert_eq!(told, expected);
-    let near = near_misses(&chain, 1e-4);
     assert!((near[0].by - 2e-5).abs() < 1e-14);
     // Axis 6 passes the crossing of axes 4 and 5 at 4e-5 m in y and 3e-5 m in z.
     assert!((near[1].by - 5e-5).abs() < 1e-14, "{}", near[1].by);
-    let (ideal, report) = chain.snapped(1e-4).unwrap();
+    let (ideal, report) = chain.ideal_within(1e-4).unwrap();
     same_structure(&ideal, &irb4600());
     for words in [
-        "joints 2-3 are almost parallel, by 2.0e-5 rad",
-        "joints 4-6 almost meet in one point, by 5.0e-5 m",
-        "the axis of 6 turned by 0.0e0 rad and shifted by 5.0e-5 m",
+        "axes 2 and 3 are parallel; they are 2.0e-5 rad off",
+        "axes 4 to 6 meet in one point; they miss it by 5.0e-5 m",
+        "the axis of 6 is turned by 0.0e0 rad and shifted by 5.0e-5 m",
     ] {
         assert!(report.to_string().contains(words), "{report}");
     }
@@ -113,16 +119,16 @@ fn what_is_almost_there_is_told() {
 #[test]
 fn an_offset_beyond_the_tolerance_stays() {
     let chain = Chain::from_toml(&IRB4600.replace("point = [1.135, 0, 1.57]", "point = [1.135, 0, 1.5702]")).unwrap();
-    let (ideal, report) = chain.snapped(1e-4).unwrap();
+    let (ideal, report) = chain.ideal_within(5e-5).unwrap();
     assert!(ideal == chain && report.is_empty());
-    let (ideal, _) = chain.snapped(1e-3).unwrap();
+    let (ideal, _) = chain.ideal_within(1e-3).unwrap();
     same_structure(&ideal, &irb4600());
 }
 
 #[test]
 fn a_tolerance_out_of_range_is_refused() {
     for tolerance in [-1e-9, 0.2, f64::NAN] {
-        assert_error(&irb4600().snapped(tolerance).unwrap_err(), ErrorKind::BadValue, None, "0 to 0.1");
+        assert_error(&irb4600().ideal_within(tolerance).unwrap_err(), ErrorKind::BadValue, None, "0 to 0.1");
     }
 }
 
@@ -136,10 +142,11 @@ proptest! {
         for exact in robots::ALL.iter().map(|robot| robot.chain()).chain([irb4600()]) {
             for exact in [turned(&exact, xyzw), exact] {
                 let given = rounded(&exact, &noise, 50);
-                let (ideal, report) = given.snapped(3e-5).unwrap();
+                let tolerance = shared(&exact, 3e-5);
+                let (ideal, report) = given.ideal_within(tolerance).unwrap();
                 same_structure(&ideal, &exact);
                 prop_assert!(apart(&ideal, &given, 0.7) < 4e-4, "{}: {report}", exact.name());
-                prop_assert!(ideal.snapped(3e-5).unwrap().0 == ideal, "{}", exact.name());
+                prop_assert!(ideal.ideal_within(tolerance).unwrap().0 == ideal, "{}", exact.name());
             }
         }
     }
@@ -149,7 +156,7 @@ proptest! {
     fn a_calibrated_robot_is_the_ideal_one(noise in prop::collection::vec(-100_000i64..100_000, 53)) {
         for exact in [irb4600(), robots::ur5(), robots::nao_left_leg(), robots::puma()] {
             let given = rounded(&exact, &noise, 5000);
-            let (ideal, report) = given.snapped(3e-3).unwrap();
+            let (ideal, report) = given.ideal_within(shared(&exact, 3e-3)).unwrap();
             same_structure(&ideal, &exact);
             prop_assert!(apart(&ideal, &given, 0.7) < 4e-2, "{}: {report}", exact.name());
             for (ideal, exact) in ideal.joints().iter().zip(exact.joints()).filter(|(_, exact)| exact.kind == JointKind::Revolute) {

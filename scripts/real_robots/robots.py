@@ -1,0 +1,59 @@
+"""The list of chains (robots.toml), and where their URDFs lie in the installed packages."""
+
+import tomllib
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+LIST = Path(__file__).resolve().with_name("robots.toml")
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One row of the table: what `groebot derive` is asked."""
+
+    id: str
+    robot: str
+    package: str
+    urdf: str
+    base: str
+    tip: str
+    task: str = "pose"
+    direction: str = ""
+    ci: bool = False
+
+    @property
+    def asked(self) -> str:
+        """The task in words."""
+        return f"{self.task} of {self.direction}" if self.direction else self.task
+
+    def path(self) -> Path:
+        """The URDF: the one file of the package whose path ends as `urdf` says."""
+        files = metadata.files(self.package) or []
+        found = [file for file in files if f"/{file}".endswith(f"/{self.urdf}")]
+        if len(found) != 1:
+            raise FileNotFoundError(f"{self.package} has {len(found)} files {self.urdf}; give the path that one file ends with")
+        return Path(found[0].locate()).resolve()
+
+
+def read() -> list[Chain]:
+    """All chains, in the order of robots.toml."""
+    with LIST.open("rb") as file:
+        robots = tomllib.load(file)["robot"]
+    return [
+        Chain(robot=robot["name"], package=robot["package"], urdf=robot["urdf"], **chain)
+        for robot in robots
+        for chain in robot["chains"]
+    ]
+
+
+def chosen(only: str, ci: bool) -> list[Chain]:
+    """The chains named in `only` (identifiers with commas between them), those marked for CI, or all."""
+    chains = read()
+    if only:
+        wanted = only.split(",")
+        unknown = set(wanted) - {chain.id for chain in chains}
+        if unknown:
+            raise SystemExit(f"no chain {', '.join(sorted(unknown))} in {LIST.name}")
+        return [chain for chain in chains if chain.id in wanted]
+    return [chain for chain in chains if chain.ci or not ci]

@@ -1,0 +1,83 @@
+"""The results as the Markdown page docs/robots.md."""
+
+import datetime
+import statistics
+
+from measure import Row
+
+HEAD = """# Real robots
+
+Chains of robots whose descriptions come with public Python packages, derived by `groebot derive URDF --base LINK --tip LINK --task TASK` on
+one core, and solved at {poses:,} poses each. [Pinocchio](https://pypi.org/project/pin/) makes the poses, from joint values drawn uniformly
+within their limits, and checks every answer ([scripts/real_robots](../scripts/real_robots/README.md)). Made on {date} by
+
+    {command}
+
+* *joints*: those between base and tip. Where the planner chose one whose value is given with each target, the task names it.
+* *seconds*: processor time of the whole derivation: reading, deriving, proving, checking, printing.
+* *solutions*: the most answers to one of the poses, of so many complex ones.
+* *found*: poses for which the drawn joint values are among the answers, angles modulo 2 pi: within 1e-6 where the pose is ordinary, that is
+  where no singular value of the Jacobian (lengths over the chain's reach) is below 1e-3, else within 1e-4. Where not all are found,
+  parentheses tell how many of the ordinary ones are.
+* *residual*: the most by which a coordinate (metres, entries of a rotation) of an answer's pose differs from the target.
+* *C*, *Rust*: the printed solvers, in kilobytes.
+"""
+
+COLUMNS = ("robot", "chain", "joints", "task", "seconds", "solutions", "found", "residual", "C", "Rust")
+RULE = "| --- | --- | --: | --- | --: | --: | --: | --: | --: | --: |"
+
+
+def page(rows: list[Row], command: str) -> str:
+    """The whole page."""
+    poses = max((row.poses for row in rows), default=0)
+    head = HEAD.format(poses=poses, date=datetime.date.today().isoformat(), command=command)
+    return "\n".join([head, _cells(COLUMNS), RULE, *map(_line, rows), "", *_totals(rows), ""])
+
+
+def _cells(cells) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _line(row: Row) -> str:
+    task = row.task + (f", `{row.given}` given" if row.given else "")
+    seconds = f"{row.cpu:.2f}" if row.cpu == row.cpu else ""
+    start = [row.robot, f"`{row.id}`", str(row.joints), task, seconds]
+    if row.status != "derived":
+        return _cells([*start, "", f"{row.status}: {shortened(row.reason)}", "", "", ""])
+    sizes = [f"{size / 1000:.0f}" for size in (row.c_bytes, row.rust_bytes)]
+    return _cells([*start, f"{row.most} of {row.complex_solutions}", found(row), f"{row.residual:.0e}", *sizes])
+
+
+def found(row: Row) -> str:
+    """Such as 1000, or 998 (997 of 999)."""
+    return str(row.found) + ("" if row.found == row.poses else f" ({row.ordinary_found} of {row.ordinary})")
+
+
+def shortened(reason: str, most: int = 15) -> str:
+    """The first words of a reason, without what would break a table."""
+    words = reason.replace("|", "/").split()
+    return " ".join(words[:most]) + (" ..." if len(words) > most else "")
+
+
+def _totals(rows: list[Row]) -> list[str]:
+    """Sums and medians, a sentence each."""
+    derived, robots = [row for row in rows if row.status == "derived"], len({row.robot for row in rows})
+    lines = [f"* {len(rows)} chains of {robots} robots: {len(derived)} derived, {len(rows) - len(derived)} not."]
+    if not derived:
+        return lines
+    seconds, sizes = [row.cpu for row in derived], [row.c_bytes / 1000 for row in derived]
+    rounded = [row.rounding for row in rows if row.rounding > 1e-9]
+    return [
+        *lines,
+        f"* {sum(row.found == row.poses for row in derived)} chains find all their poses; all together {_share(derived, 'found', 'poses')}, "
+        f"of ordinary poses {_share(derived, 'ordinary_found', 'ordinary')}.",
+        f"* A derivation takes {statistics.median(seconds):.2f} s in the median, {max(seconds):.1f} s at most. A solver in C has "
+        f"{statistics.median(sizes):.0f} KB in the median, {max(sizes):.0f} KB at most.",
+        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers stand twice.",
+        f"* {len(rounded)} chains have rounded angles such as 1.5708, which are taken for what they stand for ([docs/urdf.md](urdf.md)), by "
+        f"Pinocchio too; as written, a tip's pose differs by up to {max(rounded, default=0):.0e}.",
+    ]
+
+
+def _share(rows: list[Row], part: str, whole: str) -> str:
+    return f"{sum(getattr(row, part) for row in rows):,} of {sum(getattr(row, whole) for row in rows):,}"

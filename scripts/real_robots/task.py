@@ -1,0 +1,52 @@
+"""A task in numbers: its targets, how far an answer is from one, and how singular a pose is for it."""
+
+import math
+
+import numpy
+import pinocchio
+
+from groebot import Derivation
+from robots import Chain
+from witness import Witness
+
+
+class Task:
+    """What a derivation asks of a chain."""
+
+    def __init__(self, chain: Chain, witness: Witness, derivation: Derivation):
+        self.kind, self.witness, self.derivation = chain.task, witness, derivation
+        aim = numpy.array([float(number) for number in (chain.direction or "0,0,1").split(",")])
+        self.aim = aim / numpy.linalg.norm(aim)
+
+    def target(self, pose: pinocchio.SE3, values: dict[str, float]) -> list[float]:
+        """The numbers of a target in the order of the inputs: position, rotation by rows, direction, given joints."""
+        named = dict(zip(("px", "py", "pz"), pose.translation))
+        named |= {f"r{i + 1}{j + 1}": pose.rotation[i, j] for i in range(3) for j in range(3)}
+        named |= dict(zip(("dx", "dy", "dz"), pose.rotation @ self.aim))
+        return [float(values[name] if name in values else named[name]) for name in self.derivation.inputs]
+
+    def residual(self, target: list[float], answer: dict[str, float]) -> float:
+        """The largest difference of a coordinate [m or 1] between a target and the pose of an answer."""
+        asked = dict(zip(self.derivation.inputs, target))
+        given = {name: asked[name] for name in self.derivation.given}
+        return float(numpy.abs(numpy.subtract(target, self.target(self.witness.forward(answer), given))).max())
+
+    def least_singular_value(self, values: dict[str, float], length: float) -> float:
+        """Of the task's Jacobian by the joints that are not given; lengths are in units of `length`."""
+        twists = self.witness.jacobian(values)
+        moves, turns = twists[:3] / length, twists[3:]
+        aims = numpy.cross(turns, self.aim, axis=0)
+        rows = {"pose": [moves, turns], "position": [moves], "rotation": [turns], "ray": [moves, aims], "direction": [aims]}
+        units = [length if joint.slides else 1.0 for joint in self.witness.joints]
+        asked = [name not in self.derivation.given for name in self.witness.names]
+        jacobian = (numpy.vstack(rows[self.kind]) * units)[:, asked]
+        return float(numpy.linalg.svd(jacobian, compute_uv=False).min())
+
+    def same(self, one: dict[str, float], other: dict[str, float], tolerance: float) -> bool:
+        """Whether two sets of joint values are one, angles up to whole turns."""
+
+        def apart(name: str) -> float:
+            difference = one[name] - other[name]
+            return abs(difference if name in self.witness.sliding else math.remainder(difference, math.tau))
+
+        return all(apart(name) < tolerance for name in self.witness.names)

@@ -1,0 +1,143 @@
+"""Forward kinematics that is not ours: a chain of a URDF in Pinocchio."""
+
+from collections.abc import Iterable
+from functools import cached_property
+from xml.parsers import expat
+
+import numpy
+import pinocchio
+
+PI = numpy.pi
+"""Where a slider has no limits, or equal ones, it is drawn between -1 m and 1 m; a turning joint between -pi and pi."""
+SLIDE = 1.0
+
+
+class Joint:
+    """A joint whose value can be chosen, with the bounds between which it is drawn."""
+
+    def __init__(self, model: pinocchio.Model, index: int):
+        joint = model.joints[index]
+        self.name = model.names[index]
+        self.slides = joint.shortname().startswith("JointModelP")
+        self.row, self.column, self.size = joint.idx_q, joint.idx_v, joint.nq
+        self.low, self.high = self._bounds(model)
+
+    def _bounds(self, model: pinocchio.Model) -> tuple[float, float]:
+        reach = SLIDE if self.slides else PI
+        if self.size == 2:
+            return -reach, reach
+        low, high = model.lowerPositionLimit[self.row], model.upperPositionLimit[self.row]
+        return (low, high) if 0 < high - low < 100 else (-reach, reach)
+
+    def put(self, q: numpy.ndarray, value: float) -> None:
+        """Writes the joint's value [rad or m] into a configuration: cosine and sine where the joint is continuous."""
+        q[self.row : self.row + self.size] = (numpy.cos(value), numpy.sin(value)) if self.size == 2 else value
+
+
+class Witness:
+    """The chain from `base` to `tip` of a URDF, given as text.
+
+    `joints` are those whose values can be chosen. Of joints that move together by `mimic` and all lie in the chain, that is the one
+    that the others follow; where the leader lies outside the chain, a single follower moves freely, as it does in groebot.
+    """
+
+    def __init__(self, urdf: str, base: str, tip: str):
+        self.model = _model(urdf, base, tip)
+        self.data = self.model.createData()
+        self.base, self.tip = _frame(self.model, base), _frame(self.model, tip)
+        path = _path(self.model, self.base, self.tip)
+        self.followers = {self.model.names[i]: _follower(self.model, i) for i in path if i in list(self.model.mimicking_joints)}
+        leaders = {self.model.getJointId(leader) for leader, _, _ in self.followers.values()}
+        driven = [i for i in path if self.model.names[i] not in self.followers]
+        self.joints = [Joint(self.model, i) for i in sorted(leaders - set(driven)) + driven]
+
+    def draw(self, count: int, seed: int) -> list[dict[str, float]]:
+        """Joint values, uniform between the bounds."""
+        random = numpy.random.default_rng(seed)
+        low, high = ([getattr(joint, side) for joint in self.joints] for side in ("low", "high"))
+        return [dict(zip(self.names, map(float, row))) for row in random.uniform(low, high, (count, len(low)))]
+
+    @property
+    def names(self) -> list[str]:
+        return [joint.name for joint in self.joints]
+
+    @cached_property
+    def sliding(self) -> set[str]:
+        """The joints whose values are lengths."""
+        return {joint.name for joint in self.joints if joint.slides}
+
+    def chosen(self, values: dict[str, float]) -> dict[str, float]:
+        """The values of `joints`, from those of any names that determine them."""
+        out = {name: values[name] for name in self.names if name in values}
+        for name, (leader, factor, offset) in self.followers.items():
+            if leader not in out and name in values:
+                out[leader] = (values[name] - offset) / factor
+        return out
+
+    def forward(self, values: dict[str, float]) -> pinocchio.SE3:
+        """base_from_tip at joint values."""
+        pinocchio.forwardKinematics(self.model, self.data, self._configuration(values))
+        world_from_base = pinocchio.updateFramePlacement(self.model, self.data, self.base)
+        world_from_tip = pinocchio.updateFramePlacement(self.model, self.data, self.tip)
+        return world_from_base.actInv(world_from_tip)
+
+    def jacobian(self, values: dict[str, float]) -> numpy.ndarray:
+        """The twist (v, w) of the tip against the base, in the tip's frame, by the rates of `joints`: 6 rows."""
+        q = self._configuration(values)
+        tip_from_base = self.forward(values).inverse()
+        of_tip = pinocchio.computeFrameJacobian(self.model, self.data, q, self.tip, pinocchio.LOCAL)
+        of_base = pinocchio.computeFrameJacobian(self.model, self.data, q, self.base, pinocchio.LOCAL)
+        twists = of_tip - tip_from_base.toActionMatrix() @ of_base
+        return twists[:, [joint.column for joint in self.joints]]
+
+    def _configuration(self, values: dict[str, float]) -> numpy.ndarray:
+        q = pinocchio.neutral(self.model)
+        for joint in self.joints:
+            joint.put(q, values[joint.name])
+        return q
+
+
+def _model(urdf: str, base: str, tip: str) -> pinocchio.Model:
+    """The model with `mimic` where two joints of the chain move together, otherwise without."""
+    model = pinocchio.buildModelFromXML(urdf)
+    path = [model.names[i] for i in _path(model, _frame(model, base), _frame(model, tip))]
+    leaders = _leaders(urdf)
+    led = [leaders.get(name, name) for name in path]
+    return model if len(set(led)) == len(led) else pinocchio.buildModelFromXML(urdf, True)
+
+
+def _frame(model: pinocchio.Model, link: str) -> int:
+    """The frame of a link."""
+    if not model.existFrame(link, pinocchio.FrameType.BODY):
+        raise LookupError(f"no link {link}")
+    return model.getFrameId(link, pinocchio.FrameType.BODY)
+
+
+def _path(model: pinocchio.Model, base: int, tip: int) -> list[int]:
+    """The moving joints between two frames."""
+    to_base, to_tip = (set(model.supports[model.frames[frame].parentJoint]) for frame in (base, tip))
+    return sorted(to_base ^ to_tip)
+
+
+def _leaders(urdf: str) -> dict[str, str]:
+    """The joint that each mimicking joint of a URDF follows. (Prefixes that the file does not declare are no matter here.)"""
+    leaders, names = {}, [""]
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if tag == "joint":
+            names[0] = attributes.get("name", "")
+        if tag == "mimic":
+            leaders[names[0]] = attributes["joint"]
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = start
+    parser.Parse(urdf, True)
+    return leaders
+
+
+def _follower(model: pinocchio.Model, index: int) -> tuple[str, float, float]:
+    """The leader, factor and offset of a joint that mimics."""
+    leaders: Iterable[int] = model.mimicked_joints
+    leader = dict(zip(model.mimicking_joints, leaders))[index]
+    mimic = model.joints[index].extract()
+    return model.names[leader], mimic.scaling, mimic.offset

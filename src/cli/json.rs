@@ -1,0 +1,166 @@
+//! What `derive`, `info`, `check` and `plan` tell, as JSON for programs.
+
+use std::path::Path;
+use std::time::Duration;
+
+use num_traits::ToPrimitive;
+use serde_json::{Value, json};
+
+use crate::derive::planner::Choice;
+use crate::derive::{Proved, Source};
+use crate::kinematics::ideal::{RelationKind, Report};
+use crate::kinematics::screw::Plan;
+use crate::kinematics::{Chain, ExactVector, Geometry, JointKind};
+use crate::solver::Program;
+use crate::witness;
+
+/// The version of these forms.
+const FORMAT: u32 = 1;
+
+/// What a derivation came to.
+pub struct Told<'a> {
+    pub source: &'a Source,
+    pub derivation: &'a Proved,
+    pub checked: &'a witness::Report,
+    pub choice: Option<&'a Choice>,
+    pub folder: &'a Path,
+    pub files: &'a [&'a str],
+    pub laps: &'a [(&'static str, Duration)],
+}
+
+impl Told<'_> {
+    /// Name, task, inputs, joints, solutions, ideal robot, checks with their weak spots, files, seconds.
+    pub fn json(&self) -> Value {
+        let program = self.derivation.program();
+        let candidates = |choice: &Choice| -> Vec<Value> {
+            let one = |candidate: &crate::derive::planner::Candidate| json!({ "joint": candidate.joint, "share": candidate.share, "solutions": candidate.plan.map(|[_, count]| count) });
+            choice.candidates.iter().map(one).collect()
+        };
+        json!({
+            "format": FORMAT,
+            "name": program.name,
+            "task": program.about.as_ref().map(|about| about.task.as_str()),
+            "inputs": names(program, true),
+            "joints": names(program, false),
+            "solutions": self.derivation.dimension(),
+            "method": method(self.derivation),
+            "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
+            "given": self.choice.map(|choice| json!({ "joints": choice.given, "candidates": candidates(choice) })),
+            "checked": checked(self.checked),
+            "folder": self.folder.display().to_string(),
+            "files": self.files,
+            "seconds": self.laps.iter().map(|(_, lap)| lap.as_secs_f64()).sum::<f64>(),
+        })
+    }
+}
+
+fn names(program: &Program, of_inputs: bool) -> Vec<&str> {
+    if of_inputs {
+        program.inputs.iter().map(|input| input.name.as_str()).collect()
+    } else {
+        program.joints.iter().map(|joint| joint.name.as_str()).collect()
+    }
+}
+
+fn method(derivation: &Proved) -> &'static str {
+    match derivation {
+        Proved::Equations(_) => "one block",
+        Proved::Chain(_) => "one joint at a time",
+        Proved::SixAxes(_) => "eigenvalue problem",
+        Proved::Limbs(_) => "one limb at a time",
+    }
+}
+
+/// What was taken for what: angles in radians, lengths in the chain's unit.
+pub fn ideal(report: &Report) -> Value {
+    let relations = report.relations.iter().map(|relation| {
+        let kind = match relation.kind {
+            RelationKind::Parallel => "parallel",
+            RelationKind::Perpendicular => "perpendicular",
+            RelationKind::Meeting => "meeting",
+            RelationKind::Coincident => "coincident",
+            RelationKind::Level => "level",
+        };
+        json!({ "first": relation.joints.start + 1, "last": relation.joints.end, "kind": kind, "by": relation.by })
+    });
+    let moved = report.moved.iter();
+    let moved = moved.map(|moved| json!({ "joint": moved.joint, "angle": moved.angle, "distance": moved.distance }));
+    json!({
+        "tolerance": report.tolerance,
+        "deviation": report.deviation(),
+        "polishes": !report.is_same(),
+        "relations": relations.collect::<Vec<_>>(),
+        "moved": moved.collect::<Vec<_>>(),
+    })
+}
+
+fn checked(report: &witness::Report) -> Value {
+    let summary = report.summary();
+    let weak = report.weak_spots().map(|row| {
+        let faults: Vec<String> = row.verdict.faults().iter().map(ToString::to_string).collect();
+        json!({ "row": row.number, "kind": row.kind.to_string(), "target": row.target, "faults": faults })
+    });
+    json!({
+        "targets": summary.rows,
+        "right": summary.rows - summary.failed,
+        "counted_exactly": summary.exact,
+        "worst_residual": summary.worst_residual,
+        "weak_spots": weak.collect::<Vec<_>>(),
+    })
+}
+
+/// A chain with its axes, how these lie, and what the description was taken for; lengths in its unit, angles in radians.
+pub fn chain(described: &Chain, meant: &Chain, report: &Report, notes: &[String]) -> Value {
+    let joints = described.joints().iter().map(|joint| {
+        let axis = joint.direction().into_inner();
+        json!({
+            "name": joint.name,
+            "kind": if joint.kind == JointKind::Revolute { "revolute" } else { "prismatic" },
+            "axis": [axis.x, axis.y, axis.z],
+            "point": doubles(&joint.point),
+            "limits": joint.limits,
+        })
+    });
+    let geometry = Geometry::of(meant);
+    let row = |joints: &std::ops::Range<usize>| [joints.start + 1, joints.end];
+    let meeting = geometry.meeting.iter();
+    let meeting = meeting
+        .map(|group| json!({ "joints": row(&group.joints), "point": [group.point.x, group.point.y, group.point.z] }));
+    json!({
+        "format": FORMAT,
+        "name": described.name(),
+        "task": described.asked(),
+        "length_unit": described.length_unit().symbol(),
+        "joints": joints.collect::<Vec<_>>(),
+        "tip": doubles(&described.tip().point),
+        "reach": described.reach(),
+        "parallel": geometry.parallel.iter().map(row).collect::<Vec<_>>(),
+        "meeting": meeting.collect::<Vec<_>>(),
+        "ideal": ideal(report),
+        "notes": notes,
+    })
+}
+
+/// The order of subproblems of a chain.
+pub fn plan(chain: &Chain, plan: &Plan) -> Value {
+    let steps = plan.steps.iter().map(|step| {
+        let joints: Vec<&str> = step.joints.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect();
+        json!({ "subproblem": step.subproblem.name(), "joints": joints, "answers": step.answers, "text": step.text })
+    });
+    json!({
+        "format": FORMAT,
+        "name": chain.name(),
+        "task": chain.asked(),
+        "steps": steps.collect::<Vec<_>>(),
+        "solutions": plan.most_solutions(),
+    })
+}
+
+/// `value` as a text of several lines.
+pub fn text(value: &Value) -> String {
+    format!("{value:#}\n")
+}
+
+fn doubles(vector: &ExactVector) -> [f64; 3] {
+    vector.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN))
+}

@@ -1,0 +1,102 @@
+//! The ideal robot that a description means: [`Chain::ideal`]. Main type: [`Report`].
+//!
+//! A description is a measurement: exporters write 6.1e-17 for zero, 1.5707963 for a quarter turn, five decimals. Closed forms need axes that
+//! meet, are parallel or perpendicular exactly. [`Chain::ideal`] takes what holds within a tolerance for what is meant, from the base to the
+//! tip, each joint relative to the one before, so that each relation of neighbouring axes is decided once and roundings do not add up. All
+//! numbers stay rational, and a relation that holds, or fails by more, is left alone.
+
+mod directions;
+mod meeting;
+mod places;
+mod report;
+
+use super::{Chain, ChainParts, Joint, JointKind, Task, Tip};
+use crate::{Error, ErrorKind, Result};
+pub use report::{Moved, Relation, RelationKind, Report};
+
+use super::exact_vector::Line;
+
+/// What holds within this is meant, unless another tolerance is asked for: radians, and shares of the reach.
+pub const TOLERANCE: f64 = 1e-6;
+/// The greatest tolerance.
+pub const WIDEST: f64 = 0.1;
+/// Where answers are polished anyway, lengths are rounded to decimals within this share of the tolerance.
+const GRAIN: f64 = 1e-3;
+/// Numbers this near to one another are the same in doubles: radians, and shares of the reach.
+pub const SAME: f64 = 1e-15;
+
+impl Chain {
+    /// The ideal robot within [`TOLERANCE`] of this one, and what was taken for what.
+    ///
+    /// Directions that are almost parallel to the axis before, or perpendicular to it, become so, along coordinate axes and bisectors where that
+    /// is near; axes of neighbours that almost meet do, so that three or more meet in one point where they almost do; parallel axes that are
+    /// almost one line become it; offsets along an axis that are almost zero become zero, and so does the tip's from the last axis. What the
+    /// description [means](super::chain::Meant) by rounded numbers is taken first. A chain of which nothing is to be changed is returned as it is.
+    pub fn ideal(&self) -> (Chain, Report) {
+        self.ideal_within(TOLERANCE).unwrap_or_else(|_| (self.clone(), Report::of_exact(self, TOLERANCE)))
+    }
+
+    /// The same within `tolerance`, in radians and shares of the reach; with zero each digit is taken at its word.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a tolerance that is not in \[0, 0.1\].
+    pub fn ideal_within(&self, tolerance: f64) -> Result<(Chain, Report)> {
+        if !(0.0..=WIDEST).contains(&tolerance) {
+            let text = format!(
+                "the tolerance is {tolerance}; give radians, which are shares of the reach as well, from 0 to {WIDEST}, such as 1e-5"
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let told = ChainParts { meant: None, ..self.parts().clone() };
+        if tolerance == 0.0 {
+            return Ok((Chain::new(told)?, Report::of_exact(self, tolerance)));
+        }
+        let meant = match self.parts().meant.as_deref().cloned() {
+            Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..told })?,
+            None => Chain::new(told)?,
+        };
+        let exact = self.compared(places::ideal(&meant, tolerance, 0.0)?, tolerance)?;
+        if exact.1.is_same() { Ok(exact) } else { self.compared(places::ideal(&meant, tolerance, GRAIN)?, tolerance) }
+    }
+
+    /// `ideal` as it stands for this chain, and what was taken for what.
+    fn compared(&self, ideal: Chain, tolerance: f64) -> Result<(Chain, Report)> {
+        let chain = self.with_own_tip(ideal)?;
+        let report = Report::new(self, &chain, tolerance);
+        Ok((chain, report))
+    }
+
+    /// `ideal`, with the tip turned as described where nothing else differs and the tip is asked for a pose: no relation of axes depends on it.
+    fn with_own_tip(&self, ideal: Chain) -> Result<Chain> {
+        let report = Report::new(self, &ideal, 0.0);
+        let is_same = |moved: &Moved| {
+            let angle = if moved.joint.is_some() { moved.angle } else { 0.0 };
+            angle.max(moved.distance / report.reach) <= SAME
+        };
+        if self.task() != Task::Pose || report.is_same() || !report.moved.iter().all(is_same) {
+            return Ok(ideal);
+        }
+        let tip = Tip { rotation: self.tip().rotation.clone(), ..ideal.tip().clone() };
+        Chain::new(ChainParts { tip, ..ideal.into() })
+    }
+}
+
+/// A length that is `tolerance` of the reach of `chain`, in its unit.
+fn lengths(chain: &Chain, tolerance: f64) -> f64 {
+    tolerance * size(chain)
+}
+
+/// The reach; one for a chain that is a point.
+fn size(chain: &Chain) -> f64 {
+    if chain.reach() > 0.0 { chain.reach() } else { 1.0 }
+}
+
+/// The line of a revolute joint's axis, or through a prismatic joint's point.
+fn line(joint: &Joint) -> Line {
+    Line { point: joint.point.clone(), direction: joint.axis.clone() }
+}
+
+/// Whether all of these turn.
+fn turn(joints: &[Joint]) -> bool {
+    joints.iter().all(|joint| joint.kind == JointKind::Revolute)
+}

@@ -1,0 +1,131 @@
+//! How much of each joint's range has solutions, of a chain with more joints than its task determines: [`Chain::shares`].
+//!
+//! Where the tip stands still, the joints can still move: the self-motion. A joint that is swept through all of its range on the way may be
+//! given any value; an elbow, whose angle follows from the distance that is to be bridged, hardly moves.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::DVector;
+
+use super::{Chain, JointKind};
+
+/// Random poses that are tried.
+const POSES: usize = 16;
+/// How far the joint moves in a step \[rad, or reaches\].
+const STEP: f64 = 0.05;
+/// The farthest that any joint moves in a step.
+const LONGEST: f64 = 0.2;
+/// A joint turns back where it has less than this share of the self-motion that moves it most.
+const TURNS_BACK: f64 = 0.02;
+/// A singular value below this share of the greatest is zero.
+const RANK: f64 = 1e-6;
+
+/// Values of a chain's joints, one after the other.
+pub(crate) struct Draws<'a> {
+    chain: &'a Chain,
+    state: u64,
+}
+
+impl Draws<'_> {
+    /// A value of each joint.
+    pub fn posture(&mut self) -> Vec<f64> {
+        (0..self.chain.joints().len()).map(|joint| self.value(joint)).collect()
+    }
+
+    /// A value of a joint's range, by the generator of Park and Miller 1988.
+    pub fn value(&mut self, joint: usize) -> f64 {
+        self.state = self.state * 48_271 % 2_147_483_647;
+        let (low, high) = self.chain.range(joint);
+        low + self.state as f64 / 2_147_483_647.0 * (high - low)
+    }
+}
+
+impl Chain {
+    /// For each joint the share of its range, between its limits or all round, that it is swept through while the tip stands still and the
+    /// joints `held` do too: the mean of random reachable poses, each followed to where the joint turns back. Zero for the joints that are held.
+    /// It is measured by walking: values that no way leads to do not count.
+    pub fn shares(&self, held: &[usize]) -> Vec<f64> {
+        let mut shares = vec![0.0; self.joints().len()];
+        let mut draws = self.draws();
+        for _ in 0..POSES {
+            let q = draws.posture();
+            for (joint, share) in shares.iter_mut().enumerate().filter(|(joint, _)| !held.contains(joint)) {
+                *share += self.swept(&q, joint, held) / POSES as f64;
+            }
+        }
+        shares
+    }
+
+    /// The values that a joint may have: between its limits, all round, or a reach to either side.
+    fn range(&self, joint: usize) -> (f64, f64) {
+        let joint = &self.joints()[joint];
+        let reach = self.reach();
+        match (joint.limits.filter(|(low, high)| low < high), joint.kind) {
+            (Some(limits), JointKind::Prismatic) => limits,
+            (Some((low, high)), JointKind::Revolute) if high - low < TAU => (low, high),
+            (_, JointKind::Revolute) => (-PI, PI),
+            (None, JointKind::Prismatic) => (-reach, reach),
+        }
+    }
+
+    /// Values of the joints' ranges, always the same.
+    pub(crate) fn draws(&self) -> Draws<'_> {
+        Draws { chain: self, state: 1 }
+    }
+
+    /// The share of its range that `joint` is swept through from `q`.
+    fn swept(&self, q: &[f64], joint: usize, held: &[usize]) -> f64 {
+        let (low, high) = self.range(joint);
+        let [back, forth] = [-1.0, 1.0].map(|way| self.driven(q, joint, way, held));
+        let (start, end) = (q[joint] - back, q[joint] + forth);
+        let overlap = |turn: f64| (end.min(high + turn) - start.max(low + turn)).max(0.0);
+        let turns = if self.joints()[joint].kind == JointKind::Revolute { &[-TAU, 0.0, TAU][..] } else { &[0.0] };
+        let covered: f64 = turns.iter().map(|turn| overlap(*turn)).sum();
+        (covered / (high - low)).min(1.0)
+    }
+
+    /// How far `joint` can be moved from `q` in one direction while the tip stands still: a turn at most, or two reaches.
+    fn driven(&self, q: &[f64], joint: usize, way: f64, held: &[usize]) -> f64 {
+        let unit = self.unit(joint);
+        let most = if self.joints()[joint].kind == JointKind::Revolute { TAU } else { 2.0 * unit };
+        let (mut at, mut gone) = (q.to_vec(), 0.0);
+        while gone < most {
+            // The midpoint rule: what is left of the tip's motion does not matter to a share.
+            let middle = self.self_motion(&at, joint, held).map(|motion| self.stepped(&at, &motion, joint, 0.5 * way));
+            let Some(motion) = middle.and_then(|middle| self.self_motion(&middle, joint, held)) else { break };
+            let next = self.stepped(&at, &motion, joint, way);
+            gone += (next[joint] - at[joint]).abs();
+            at = next;
+        }
+        gone.min(most)
+    }
+
+    /// `q` behind a step of `motion` in which `joint` moves by `way` steps, less where others would move too far.
+    fn stepped(&self, q: &[f64], motion: &DVector<f64>, joint: usize, way: f64) -> Vec<f64> {
+        let length = (STEP / motion[joint]).min(LONGEST / motion.amax());
+        q.iter().enumerate().map(|(i, value)| value + way * length * motion[i] * self.unit(i)).collect()
+    }
+
+    /// The unit motion of all joints (radians, and reaches) that leaves the tip and the joints `held` where they are and moves `joint` most,
+    /// forwards; none where it hardly moves it.
+    fn self_motion(&self, q: &[f64], joint: usize, held: &[usize]) -> Option<DVector<f64>> {
+        let svd = self.task_jacobian(q, held).svd(false, true);
+        let greatest = svd.singular_values.amax();
+        let mut wish = DVector::zeros(q.len());
+        wish[joint] = 1.0;
+        for (value, row) in svd.singular_values.iter().zip(svd.v_t?.row_iter()) {
+            if *value > RANK * greatest {
+                wish -= row.transpose() * row[joint];
+            }
+        }
+        held.iter().for_each(|&other| wish[other] = 0.0);
+        let share = wish[joint].max(0.0).sqrt();
+        (share > TURNS_BACK).then(|| wish / share)
+    }
+
+    /// One radian, or the reach.
+    fn unit(&self, joint: usize) -> f64 {
+        let slides = self.joints()[joint].kind == JointKind::Prismatic;
+        if slides && self.reach() > 0.0 { self.reach() } else { 1.0 }
+    }
+}
