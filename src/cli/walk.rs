@@ -23,6 +23,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 --length 0 --aside 0.02 --amplitude 0.04
   groebot walk nao --steps 12 --gait preview -o dynamic.csv
   groebot walk nao --footsteps steps.csv -o curve.json
+  groebot walk nao --goal 2,0 --plot goal.svg
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv

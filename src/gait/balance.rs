@@ -48,8 +48,8 @@ pub fn balance(humanoid: &Humanoid, references: &[Reference], motion: &Motion, t
             angular: (after.angular - before.angular) / tick,
         };
         let falls = || {
-            let text =
-                format!("t = {:.2} s: nothing presses the robot to the floor; walk slower", sample as f64 * tick);
+            let time = sample as f64 * tick;
+            let text = format!("nothing presses the robot to the floor; walk slower (--period) (t = {time:.2} s)");
             Error::new(ErrorKind::BadValue, text)
         };
         let zmp = zero_moment_point(humanoid.body.mass(), &centre, &rate).ok_or_else(falls)?;

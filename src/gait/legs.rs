@@ -262,7 +262,7 @@ impl Leg {
     fn out_of_reach(&self, torso_from_sole: &Pose) -> Error {
         let at = torso_from_sole.translation.vector;
         let text = format!(
-            "the {} sole is out of reach at ({:.3}, {:.3}, {:.3}) m from the torso; lower the hip or shorten the steps",
+            "the {} sole is out of reach at ({:.3}, {:.3}, {:.3}) m from the torso; lower the hip (--hip-height) or shorten the steps (--length)",
             self.side.name(),
             at.x,
             at.y,

@@ -56,7 +56,8 @@ pub fn realise(
         samples.map(move |sample| {
             let centre = pursuit.follow(humanoid, legs, &references[sample], &known(sample));
             let time = sample as f64 * tick;
-            let centre = centre.map_err(|error| error.with_context(format!("t = {time:.2} s")))?;
+            let centre =
+                centre.map_err(|error| Error::new(error.kind(), format!("{} (t = {time:.2} s)", error.message())))?;
             Ok((pursuit.last.clone(), centre))
         })
     })?;
@@ -167,9 +168,9 @@ impl Pursuit {
 
     fn failure(&self, legs: &Legs) -> Error {
         let text = if legs.disagreement(&self.last).abs() > AGREED {
-            "no heading of the torso lets both legs share the motor that turns them; turn the feet less against one another"
+            "no heading of the torso lets both legs share the motor that turns them; turn the feet less against one another (--max-turn)"
         } else {
-            "the centre of mass cannot be brought to where the gait asks for it; lower the hip or shorten the steps"
+            "the centre of mass cannot be brought to where the gait asks for it; lower the hip (--hip-height) or shorten the steps (--length)"
         };
         Error::new(ErrorKind::BadValue, text)
     }

@@ -46,7 +46,8 @@ pub const NAO_SEED: Usual = Usual {
     rest: 0.5,
     margin: 0.01,
     speed_share: 0.9,
-    most_turn: 0.0,
+    // At 0.14 rad a swinging foot's AnkleRoll meets its limit on the way to some goals, at 0.2 rad the feet meet.
+    most_turn: 0.1,
     tick: TICK,
 };
 
@@ -56,7 +57,6 @@ pub const NAO_ONE_STEP: Usual = Usual {
     amplitude: 0.04,
     period: 2.4,
     rest: 0.0,
-    most_turn: 0.1,
     ..NAO_SEED
 };
 

@@ -22,7 +22,7 @@ pub const TICK: f64 = 0.01;
 const SLOWER: f64 = 1.15;
 /// No phase lasts longer than this many times what was asked for.
 const SLOWEST: f64 = 12.0;
-/// The most samples of a walk: half an hour.
+/// The most samples of a walk: half an hour at 100 Hz.
 const MOST_SAMPLES: usize = 180_000;
 
 /// How the centre of mass is moved.
@@ -110,8 +110,9 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
         let schedule = Schedule::new(request.route.clone(), &actions, &request.durations, &slowed, request.tick);
         if schedule.samples() > MOST_SAMPLES {
             let text = format!(
-                "the walk would last {:.0} s; walk fewer steps or faster",
-                schedule.samples() as f64 * request.tick
+                "the walk would last {:.0} s, {:.0} s are the most; walk fewer steps (--steps, --goal) or faster (--period)",
+                schedule.samples() as f64 * request.tick,
+                MOST_SAMPLES as f64 * request.tick
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }

@@ -1,4 +1,4 @@
-//! Why a walk is refused, in words, and which figure would make it feasible.
+//! Why a walk is refused, in words: the cause, which figure would make it feasible, with its option of `groebot walk`, then where and when.
 
 use nalgebra::Point2;
 
@@ -18,7 +18,6 @@ pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
 /// The error for what was found.
 pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, found: &Found) -> Error {
     let time = found.sample as f64 * request.tick;
-    let when = format!("t = {time:.2} s, {}", phase(schedule, found.phase));
     let text = match &found.fault {
         Fault::Static { margin } => {
             let asked = request.margin;
@@ -38,7 +37,7 @@ pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, fo
         Fault::Limit { joint, value } => {
             let range = &humanoid.joints[*joint];
             format!(
-                "joint `{}` would be at {:.2} deg, its limits are {:.2}..{:.2} deg; change the hip height, the length, lift or turn of the steps",
+                "joint `{}` would be at {:.2} deg, its limits are {:.2}..{:.2} deg; give less --lift, --length or turn (--max-turn), or another --hip-height",
                 range.name,
                 value.to_degrees(),
                 range.limits.0.to_degrees(),
@@ -48,15 +47,18 @@ pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, fo
         Fault::Speed { joint, rate } => {
             let range = &humanoid.joints[*joint];
             format!(
-                "joint `{}` would turn at {:.2} rad/s, its limit is {:.2} rad/s times {}; give a longer period or shorter steps",
+                "joint `{}` would turn at {:.2} rad/s, its limit is {:.2} rad/s times {}; give a longer --period or less --length",
                 range.name, rate, range.speed, request.speed_share
             )
         }
         Fault::Feet { apart } => {
-            format!("the feet come within {:.1} mm of one another; widen the steps or turn less", 1e3 * apart)
+            format!(
+                "the feet come within {:.1} mm of one another; turn less in a step (--max-turn, or more --steps) or widen them (--half-width)",
+                1e3 * apart
+            )
         }
     };
-    Error::new(ErrorKind::BadValue, format!("{when}: {text}"))
+    Error::new(ErrorKind::BadValue, format!("{text} (t = {time:.2} s, {})", phase(schedule, found.phase)))
 }
 
 fn phase(schedule: &Schedule, place: usize) -> String {
@@ -89,10 +91,10 @@ fn feasible(humanoid: &Humanoid, request: &Request) -> String {
     let (margin, style) = (request.margin, &request.style);
     let most = ((front - back).min(left - right)) / 2.0;
     if margin > most {
-        return format!("the sole allows a margin of {most:.4} m at most");
+        return format!("the sole allows a margin of {most:.4} m at most (--margin)");
     }
     format!(
-        "the soles allow an amplitude of {:.4}..{:.4} m and a centre of mass {:.4}..{:.4} m ahead of the ankles",
+        "the soles allow an amplitude of {:.4}..{:.4} m (--amplitude) and a centre of mass {:.4}..{:.4} m ahead of the ankles (--ahead)",
         style.half_width + right + margin,
         style.half_width + left - margin,
         back + margin,

@@ -61,7 +61,6 @@ impl Summary {
         let phases = &walk.schedule.phases;
         let walks = |phase: &&super::Phase| !matches!(phase.action, Action::Rest | Action::Lower | Action::Rise);
         let walking = phases.iter().filter(walks).map(|phase| phase.samples).sum::<usize>() as f64 * walk.schedule.tick;
-        let least = |figure: &dyn Fn(usize) -> f64| extreme(walk, &|sample| -figure(sample), -1.0);
         let slowed = phases.iter().filter(|phase| phase.slowed > 1.0);
         Summary {
             robot: humanoid.name.clone(),
@@ -74,8 +73,8 @@ impl Summary {
             turn: middles[1].yaw - middles[0].yaw,
             torso_height: walk.request.style.torso_height,
             speed: distance / walking,
-            margin: least(&|sample| walk.balances[sample].margin),
-            static_margin: least(&|sample| walk.balances[sample].static_margin),
+            margin: least_margin(walk),
+            static_margin: extreme(walk, &|sample| -walk.balances[sample].static_margin, -1.0),
             pendulum_error: extreme(
                 walk,
                 &|sample| (walk.balances[sample].zmp - walk.balances[sample].pendulum).norm(),
@@ -86,6 +85,11 @@ impl Summary {
             slowed: (slowed.clone().count(), slowed.map(|phase| phase.slowed).fold(1.0, f64::max)),
         }
     }
+}
+
+/// The least margin of the zero moment point, RH0 (3-5) \[m\].
+pub(super) fn least_margin(walk: &Walk) -> Extreme {
+    extreme(walk, &|sample| -walk.balances[sample].margin, -1.0)
 }
 
 /// The greatest figure, times `sign`, with its time.

@@ -99,7 +99,7 @@ impl Route {
     pub fn towards(goal: &Point2<f64>, first: Side, measures: &Measures) -> Result<Self> {
         let mut traveller = Traveller::new(measures)?;
         if !goal.iter().all(|x| x.is_finite()) {
-            return Err(bad("the goal must be two finite numbers"));
+            return Err(bad("the goal is not finite; give --goal two numbers, in metres: ahead, to the left"));
         }
         let start = traveller.level();
         let turning_circle = 2.0 * measures.length / measures.most_turn;
@@ -133,8 +133,14 @@ impl Route {
 impl Traveller {
     fn new(measures: &Measures) -> Result<Self> {
         let Measures { length, half_width, most_turn } = *measures;
-        if ![length, half_width, most_turn].iter().all(|value| value.is_finite() && *value > 0.0) {
-            return Err(bad("the length, the width and the greatest turn of a step must be positive numbers"));
+        let positive = [
+            ("length of a step", length, "--length"),
+            ("half width", half_width, "--half-width"),
+            ("greatest turn of a step", most_turn, "--max-turn"),
+        ];
+        if let Some((name, value, option)) = positive.iter().find(|(_, value, _)| !(value.is_finite() && *value > 0.0))
+        {
+            return Err(bad(&format!("the {name} is {value}; give {option} a positive number")));
         }
         let middle = Footprint::default();
         Ok(Traveller { measures: *measures, middle, ahead: [0.0; 2], steps: Vec::new(), rests: vec![middle] })
@@ -193,7 +199,9 @@ impl Traveller {
 
     fn land(&mut self, side: Side) -> Result<()> {
         if self.steps.len() == MAX_STEPS {
-            return Err(bad(&format!("the walk has more than {MAX_STEPS} steps")));
+            return Err(bad(&format!(
+                "the walk has more than {MAX_STEPS} steps; give longer ones (--length) or a nearer goal"
+            )));
         }
         self.steps.push(Footstep { side, print: self.beside(side) });
         self.rests.push(self.middle);

@@ -127,3 +127,65 @@ fn three_robots_walk_by_one_step_goal() {
         assert_eq!(run(wrong).code, 2, "{wrong:?}");
     }
 }
+
+/// The columns of a table in the order of `names`, at its last row.
+fn last_row<const N: usize>(table: &str, names: [&str; N]) -> [f64; N] {
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let last: Vec<&str> = table.lines().last().unwrap().split(',').collect();
+    names.map(|name| last[header.iter().position(|column| *column == name).unwrap()].parse().unwrap())
+}
+
+#[test]
+fn nao_walks_to_a_goal_without_further_options() {
+    let folder = tempdir().unwrap();
+    let [csv, svg] = ["goal.csv", "goal.svg"].map(|name| folder.path().join(name));
+    let told = succeed(&["walk", "nao", "--goal", "2,0", "-o", text(&csv), "--plot", text(&svg)]);
+    for word in ["51 steps by the seed's sine", "2.000 m, turn 0.0 deg", "none had to be slowed down"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    let table = fs::read_to_string(&csv).unwrap();
+    let feet = last_row(&table, ["left_x", "left_y", "right_x", "right_y", "left_yaw", "right_yaw"]);
+    for (value, wanted) in feet.iter().zip([2.0, 0.05, 2.0, -0.05, 0.0, 0.0]) {
+        assert!((value - wanted).abs() < 1e-9, "{feet:?}");
+    }
+    // The picture, the summary and the table tell the same least margin.
+    let margin = table.lines().next().unwrap().split(',').position(|name| name == "margin").unwrap();
+    let rows = table.lines().skip(1).map(|row| row.split(',').nth(margin).unwrap().parse::<f64>().unwrap());
+    let least = format!("{:.1} mm at", 1e3 * rows.fold(f64::INFINITY, f64::min));
+    assert!(told.contains(&format!("least margin    {least}")), "{least}: {told}");
+    assert!(fs::read_to_string(&svg).unwrap().contains(&format!("least: {least}")), "{least}");
+}
+
+#[test]
+fn every_gait_of_nao_reaches_goals_on_all_sides() {
+    let folder = tempdir().unwrap();
+    let csv = folder.path().join("goal.csv");
+    for gait in ["seed", "preview", "osg"] {
+        for (x, y) in [(0.3, 0.1), (0.0, -0.2), (-0.4, 0.05), (0.02, 0.0)] {
+            let goal = format!("--goal={x},{y}");
+            succeed(&["walk", "nao", "--gait", gait, &goal, "-o", text(&csv)]);
+            let [left_x, left_y, right_x, right_y] =
+                last_row(&fs::read_to_string(&csv).unwrap(), ["left_x", "left_y", "right_x", "right_y"]);
+            let miss = ((left_x + right_x) / 2.0 - x).hypot((left_y + right_y) / 2.0 - y);
+            assert!(miss < 1e-3, "{gait} {goal}: {miss}");
+        }
+    }
+}
+
+#[test]
+fn a_goal_that_is_refused_names_the_option_that_helps() {
+    for (arguments, cause, option) in [
+        (&["--goal", "2,0", "--max-turn", "0"][..], "error: the greatest turn of a step is 0", "--max-turn"),
+        (&["--goal", "2,0", "--length", "0"], "error: the length of a step is 0", "--length"),
+        (&["--goal", "0,1", "--max-turn", "15"], "error: the feet come within", "--max-turn"),
+        (&["--goal", "2,0", "--length", "0.15"], "error: the ", "--length"),
+        (&["--goal", "100,0"], "error: the walk would last", "--goal"),
+        (&["--goal", "nan,0"], "error: the goal is not finite", "--goal"),
+        (&["--goal", "2,0", "--lift", "0.05"], "error: joint `", "--lift"),
+    ] {
+        let mut all = vec!["walk", "nao"];
+        all.extend(arguments);
+        let told = refused(&all);
+        assert!(told.starts_with(cause) && told.contains(option), "{arguments:?}: {told}");
+    }
+}

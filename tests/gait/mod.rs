@@ -1,6 +1,7 @@
 //! Walking: polygons and zero moment points against their definitions, walks against forward kinematics and against the documents.
 
 mod any;
+mod drawing;
 mod errata;
 mod nao;
 mod one_step;
