@@ -63,8 +63,10 @@ pub const TINY: f64 = 1e-30;
 pub const PIVOT: f64 = 1e-9;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
 pub const POLISH_STEPS: usize = 32;
-/// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration.
-pub const DAMPINGS: [f64; 5] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3];
+/// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration. The last is
+/// for an answer that is singular twice: there one direction's derivative is rounding, which leads the plain step astray, and another's falls
+/// with the square root of the miss, so that the other shares outweigh it while the miss is still more than an answer may have.
+pub const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-18];
 /// Where no step halves the miss, the joints leap: by at most these ways (rad, or relative to the length scale), the first that helps.
 pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 /// A Newton step that raises the residual by no more than this may have led beyond one of two roots next to each other.

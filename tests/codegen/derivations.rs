@@ -1,5 +1,6 @@
 //! The committed mechanisms: their files are what a derivation writes today, and their printed solvers answer like the program.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -145,6 +146,23 @@ fn printed_solvers_of_chains_answer_like_the_program() {
         if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 400)) {
             assert!(report.answers > 400 && report.refused > 10, "{report:?}");
         }
+    }
+}
+
+/// A UR5 with its elbow and wrist straight and the wrist's offset in line, where the last step of polishing differs most, and poses next to that.
+#[test]
+fn printed_solvers_answer_poses_that_are_singular_twice() {
+    let [ur5] = &named(&["ur5"])[..] else { panic!("it is stored") };
+    let mut between = random();
+    let mut joints = |k: usize| {
+        let off = [0.0, 1e-8, 1e-6, 1e-4][k % 4];
+        let mut q = [0.0; 6].map(|_| between(-PI, PI));
+        (q[2], q[3], q[4]) = (off, -FRAC_PI_2, [0.0, PI][k / 4 % 2]);
+        ur5.program.reached(&q).unwrap()
+    };
+    let targets: Vec<_> = (0..40).map(&mut joints).collect();
+    if let Some(report) = compare(&ur5.program, &targets) {
+        assert!(report.answers >= 40, "{report:?}");
     }
 }
 

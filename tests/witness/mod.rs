@@ -2,6 +2,7 @@
 
 mod chain;
 mod chains;
+mod corners;
 mod derived;
 mod mounted;
 mod rail;
