@@ -18,7 +18,6 @@ import pinocchio
 import ssik
 from eaik.IK_HP import HPRobot
 
-import meant
 from measure import seed
 from robots import Chain, chosen
 from witness import Witness
@@ -109,7 +108,7 @@ def _reaches(witness: Witness, answer: Values, pose: pinocchio.SE3) -> bool:
 
 def row(chain: Chain) -> dict:
     """Both peers on a chain."""
-    witness = Witness(meant.urdf(chain.path().read_text()), chain.base, chain.tip)
+    witness = Witness(chain.path().read_text(), chain.base, chain.tip)
     if len(witness.joints) not in (6, 7) or witness.sliding:
         return {"id": chain.id, "skipped": f"{len(witness.joints)} joints, {len(witness.sliding)} sliding"}
     eaik = tried(eaik_solver, witness, chain.id, sampled=False)

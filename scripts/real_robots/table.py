@@ -8,7 +8,7 @@ from measure import Row
 HEAD = """# Real robots
 
 Chains of robots whose descriptions come with public Python packages, derived by `groebot derive URDF --base LINK --tip LINK --task TASK` on
-one core, and solved at {poses:,} poses each. [Pinocchio](https://pypi.org/project/pin/) makes the poses, from joint values drawn uniformly
+one core, and solved at {poses:,} poses each. Pinocchio (the package `pin`) makes the poses, from joint values drawn uniformly
 within their limits, and checks every answer ([scripts/real_robots](../scripts/real_robots/README.md)). Made on {date} by
 
     {command}
@@ -66,7 +66,6 @@ def _totals(rows: list[Row]) -> list[str]:
     if not derived:
         return lines
     seconds, sizes = [row.cpu for row in derived], [row.c_bytes / 1000 for row in derived]
-    rounded = [row.rounding for row in rows if row.rounding > 1e-9]
     return [
         *lines,
         f"* {sum(row.found == row.poses for row in derived)} chains find all their poses; all together {_share(derived, 'found', 'poses')}, "
@@ -74,8 +73,6 @@ def _totals(rows: list[Row]) -> list[str]:
         f"* A derivation takes {statistics.median(seconds):.2f} s in the median, {max(seconds):.1f} s at most. A solver in C has "
         f"{statistics.median(sizes):.0f} KB in the median, {max(sizes):.0f} KB at most.",
         f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers stand twice.",
-        f"* {len(rounded)} chains have rounded angles such as 1.5708, which are taken for what they stand for ([docs/urdf.md](urdf.md)), by "
-        f"Pinocchio too; as written, a tip's pose differs by up to {max(rounded, default=0):.0e}.",
     ]
 
 

@@ -181,7 +181,7 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     }
     let page = succeed(&["info", text(&file), "--snap", "5e-5"]);
     assert!(
-        page.contains("joints 2-3 are almost parallel")
+        page.contains("axes 2 and 3 are parallel; they are 1.0e-5 rad off")
             && page.contains("2-4  shoulder_lift, elbow, wrist_1  parallel axes"),
         "{page}"
     );
@@ -218,6 +218,8 @@ fn what_the_robot_does_not_have_is_refused() {
         (with(&["--free", "LElbowYaw", "--free", "LElbowYaw"]), &["`LElbowYaw`", "twice"]),
         (with(&["--direction", "1,0,0"]), &["`pose`", "aims no direction"]),
         (with(&["--task", "ray", "--direction", "0,0,0"]), &["direction"]),
+        (with(&["--task", "planar_pose"]), &["--plane xy, xz or yz"]),
+        (with(&["--plane", "xy"]), &["--plane belongs to a planar task"]),
         (with(&["--snap", "0.2"]), &["tolerance", "from 0 to 0.1"]),
         (with(&["--snap=-1"]), &["tolerance", "from 0 to 0.1"]),
     ];
@@ -232,7 +234,7 @@ fn what_is_no_option_ends_with_the_usage() {
     let robot = urdf("ur5.urdf");
     for wrong in [
         ["--task", "dance"],
-        ["--task", "planar_pose"],
+        ["--plane", "diagonal"],
         ["--direction", "1,0"],
         ["--direction", "1,0,up"],
         ["--snap", "little"],

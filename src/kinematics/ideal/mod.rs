@@ -55,8 +55,13 @@ impl Chain {
             Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..told })?,
             None => Chain::new(told)?,
         };
-        let exact = self.compared(places::ideal(&meant, tolerance, 0.0)?, tolerance)?;
-        if exact.1.is_same() { Ok(exact) } else { self.compared(places::ideal(&meant, tolerance, GRAIN)?, tolerance) }
+        // What is exact stays as it is; what is off by rounding is rounded back; where answers are polished anyway, lengths may be short.
+        let untouched = places::ideal(&meant, tolerance, 0.0)?;
+        if untouched == meant {
+            return self.compared(untouched, tolerance);
+        }
+        let same = self.compared(places::ideal(&meant, tolerance, SAME / tolerance)?, tolerance)?;
+        if same.1.is_same() { Ok(same) } else { self.compared(places::ideal(&meant, tolerance, GRAIN)?, tolerance) }
     }
 
     /// `ideal` as it stands for this chain, and what was taken for what.
