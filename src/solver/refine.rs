@@ -106,8 +106,7 @@ fn normal_step(program: &Program, missed: f64, frame: &mut Frame<'_>) -> Option<
     let least = PLAIN.max(STEEP * missed) * size;
     for k in 0..joints {
         let pivot = square[k][k];
-        // Not a number is no pivot either.
-        if !(pivot > least) {
+        if pivot.is_nan() || pivot <= least {
             return None;
         }
         for i in k + 1..joints {
