@@ -252,6 +252,8 @@ fn formulated(chain: &Chain) -> Result<Option<System>> {
     match formulate(chain) {
         Ok(system) => Ok(Some(system)),
         Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        // A chain that is solved joint by joint needs no names that equations can have.
+        Err(_) if chain.order().is_none() && chain.choice().is_none() => Ok(None),
         Err(error) => Err(error),
     }
 }
