@@ -7,10 +7,13 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::DVector;
 
+use super::screw::{ScrewSolver, Target};
 use super::{Chain, JointKind};
 
 /// Random poses that are tried.
 const POSES: usize = 16;
+/// Random poses of which a share is counted.
+const COUNTED: usize = 250;
 /// How far the joint moves in a step \[rad, or reaches\].
 const STEP: f64 = 0.05;
 /// The farthest that any joint moves in a step.
@@ -21,19 +24,19 @@ const TURNS_BACK: f64 = 0.02;
 const RANK: f64 = 1e-6;
 
 /// Values of a chain's joints, one after the other.
-pub(crate) struct Draws<'a> {
+struct Draws<'a> {
     chain: &'a Chain,
     state: u64,
 }
 
 impl Draws<'_> {
     /// A value of each joint.
-    pub fn posture(&mut self) -> Vec<f64> {
+    fn posture(&mut self) -> Vec<f64> {
         (0..self.chain.joints().len()).map(|joint| self.value(joint)).collect()
     }
 
     /// A value of a joint's range, by the generator of Park and Miller 1988.
-    pub fn value(&mut self, joint: usize) -> f64 {
+    fn value(&mut self, joint: usize) -> f64 {
         self.state = self.state * 48_271 % 2_147_483_647;
         let (low, high) = self.chain.range(joint);
         low + self.state as f64 / 2_147_483_647.0 * (high - low)
@@ -68,8 +71,28 @@ impl Chain {
         }
     }
 
+    /// The share of random values of `joint`, of its range, and of random reachable poses with the joints `given`, that have solutions; none
+    /// where screw theory does not find them.
+    pub fn counted_share(&self, given: &[usize], joint: usize) -> Option<f64> {
+        let mut places: Vec<usize> = given.iter().copied().chain([joint]).collect();
+        places.sort_unstable();
+        let names = places.iter().map(|&place| self.joints()[place].name.clone()).collect();
+        let asked = self.with_task(self.task(), self.direction().clone(), names).ok()?;
+        let solver = ScrewSolver::within(&asked, 0.0).ok()?;
+        let mut draws = self.draws();
+        let mut solved = 0;
+        for _ in 0..COUNTED {
+            let mut q = draws.posture();
+            let target = Target::reached(&asked, &q).ok()?;
+            q[joint] = draws.value(joint);
+            let values: Vec<f64> = places.iter().map(|&place| q[place]).collect();
+            solved += usize::from(!solver.solve_given(&target, &values).ok()?.is_empty());
+        }
+        Some(solved as f64 / COUNTED as f64)
+    }
+
     /// Values of the joints' ranges, always the same.
-    pub(crate) fn draws(&self) -> Draws<'_> {
+    fn draws(&self) -> Draws<'_> {
         Draws { chain: self, state: 1 }
     }
 

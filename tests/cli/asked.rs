@@ -135,7 +135,7 @@ fn the_planner_chooses_the_joint_that_is_given() {
     Asked { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
     let out = tempdir().unwrap();
     let told = succeed(&["derive", &robot, "--out", text(out.path())]);
-    assert!(told.starts_with("The value of `A7` is given with each target: the planner chose it"), "{told}");
+    assert!(told.starts_with("Given with each target: the value of `A7`. The planner chose"), "{told}");
 }
 
 /// Names of URDFs may have any characters; the functions of printed solvers may not.
@@ -175,7 +175,8 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     // Without a tolerance, or with one that is too small, the robot is solved as it is described: six axes in any place.
     for more in [&[][..], &["--snap", "1e-9"]] {
         let out = tempdir().unwrap();
-        succeed(&[&["derive", text(&file), "--quiet", "--out", text(out.path())], more].concat());
+        let ran = run(&[&["derive", text(&file), "--quiet", "--out", text(out.path())], more].concat());
+        assert!([0, 3].contains(&ran.code), "derived, perhaps with weak spots: {}", ran.err);
         let plan = fs::read_to_string(out.path().join("2_plan.txt")).unwrap();
         assert!(plan.contains("16"), "{plan}");
     }

@@ -51,7 +51,7 @@ fn the_documented_example() {
     let wanted = Vector3::new(0.0, 0.02 + 0.038 * 0.5f64.sin(), 0.0451 + 0.038 * 0.5f64.cos());
     assert!((tip - wanted).norm() < 1e-16);
     // As described, all of that is turned by 1.5708 - pi/2 about z.
-    let off = 1.5708 - std::f64::consts::FRAC_PI_2;
+    let off = "1.5708".parse::<f64>().unwrap() - std::f64::consts::FRAC_PI_2;
     let turned =
         nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), off) * (wanted - Vector3::new(0.0, 0.02, 0.0451));
     let tip = described.forward(&[0.5]).unwrap().translation.vector - Vector3::new(0.0, 0.02, 0.0451);

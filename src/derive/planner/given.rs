@@ -9,13 +9,10 @@ use super::types::Plan;
 use crate::derive::closure::Mechanism;
 use crate::derive::template::fits;
 use crate::kinematics::Chain;
-use crate::kinematics::screw::{ScrewSolver, Target};
 use crate::{ErrorKind, Result, Watch};
 
 /// A joint is as good to give as the best one when its share is this part of the best one's at least.
 const AS_GOOD: f64 = 0.8;
-/// Random poses of which a share is counted.
-const POSES: usize = 250;
 
 /// The joints whose values are given, and why.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +80,7 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
         }
     }
     for (joint, _) in &plans {
-        shares[*joint] = counted_share(chain, given, *joint).unwrap_or(shares[*joint]);
+        shares[*joint] = chain.counted_share(given, *joint).unwrap_or(shares[*joint]);
     }
     let candidate = |&joint: &usize| Candidate {
         joint: chain.joints()[joint].name.clone(),
@@ -97,26 +94,6 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
         Some(joint) => Ok((joint, places.iter().map(candidate).collect())),
         None => Err(refuse::none_to_give(&mechanism, &refusals)),
     }
-}
-
-/// The share of random values of `joint`, between its limits, and of random reachable poses with these joints `given`, that have solutions; none
-/// where screw theory does not find them.
-fn counted_share(chain: &Chain, given: &[usize], joint: usize) -> Option<f64> {
-    let mut places: Vec<usize> = given.iter().copied().chain([joint]).collect();
-    places.sort_unstable();
-    let names = places.iter().map(|&place| chain.joints()[place].name.clone()).collect();
-    let asked = chain.with_task(chain.task(), chain.direction().clone(), names).ok()?;
-    let solver = ScrewSolver::within(&asked, 0.0).ok()?;
-    let mut draws = chain.draws();
-    let mut solved = 0;
-    for _ in 0..POSES {
-        let mut q = draws.posture();
-        let target = Target::reached(&asked, &q).ok()?;
-        q[joint] = draws.value(joint);
-        let values: Vec<f64> = places.iter().map(|&place| q[place]).collect();
-        solved += usize::from(!solver.solve_given(&target, &values).ok()?.is_empty());
-    }
-    Some(solved as f64 / POSES as f64)
 }
 
 /// The joint that leaves six which are found together: the last one, or the first.
