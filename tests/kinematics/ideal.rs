@@ -67,7 +67,8 @@ fn same_structure(ideal: &Chain, exact: &Chain) {
 
 /// The tolerance that is `length` metres at least.
 fn shared(chain: &Chain, length: f64) -> f64 {
-    length / (chain.reach() * chain.length_unit().metres()).min(1.0)
+    let distance = chain.joints()[0].location().coords.norm();
+    length / (chain.reach().max(0.1 * distance) * chain.length_unit().metres()).min(1.0)
 }
 
 /// The greatest distance of the two tips, with all joints at `q`.

@@ -91,9 +91,12 @@ fn lengths(chain: &Chain, tolerance: f64) -> f64 {
     tolerance * size(chain)
 }
 
-/// The reach; one for a chain that is a point.
+/// The reach, or a tenth of the first joint's distance from the base where that is more, as of a head whose axes meet at its tip; one for a chain
+/// that is a point there.
 fn size(chain: &Chain) -> f64 {
-    if chain.reach() > 0.0 { chain.reach() } else { 1.0 }
+    let distance = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
+    let size = chain.reach().max(0.1 * distance);
+    if size > 0.0 { size } else { 1.0 }
 }
 
 /// The line of a revolute joint's axis, or through a prismatic joint's point.
