@@ -6,12 +6,11 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde_json::{Value, json};
 
-use crate::derive::planner::Choice;
+use crate::derive::planner::{Candidate, Choice};
 use crate::derive::{Proved, Source};
 use crate::kinematics::ideal::{RelationKind, Report};
 use crate::kinematics::screw::Plan;
 use crate::kinematics::{Chain, ExactVector, Geometry, JointKind};
-use crate::solver::Program;
 use crate::witness;
 
 /// The version of these forms.
@@ -32,20 +31,16 @@ impl Told<'_> {
     /// Name, task, inputs, joints, solutions, ideal robot, checks with their weak spots, files, seconds.
     pub fn json(&self) -> Value {
         let program = self.derivation.program();
-        let candidates = |choice: &Choice| -> Vec<Value> {
-            let one = |candidate: &crate::derive::planner::Candidate| json!({ "joint": candidate.joint, "share": candidate.share, "solutions": candidate.plan.map(|[_, count]| count) });
-            choice.candidates.iter().map(one).collect()
-        };
         json!({
             "format": FORMAT,
             "name": program.name,
             "task": program.about.as_ref().map(|about| about.task.as_str()),
-            "inputs": names(program, true),
-            "joints": names(program, false),
+            "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
+            "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
             "solutions": self.derivation.dimension(),
             "method": method(self.derivation),
             "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
-            "given": self.choice.map(|choice| json!({ "joints": choice.given, "candidates": candidates(choice) })),
+            "given": self.choice.map(given),
             "checked": checked(self.checked),
             "folder": self.folder.display().to_string(),
             "files": self.files,
@@ -54,12 +49,12 @@ impl Told<'_> {
     }
 }
 
-fn names(program: &Program, of_inputs: bool) -> Vec<&str> {
-    if of_inputs {
-        program.inputs.iter().map(|input| input.name.as_str()).collect()
-    } else {
-        program.joints.iter().map(|joint| joint.name.as_str()).collect()
-    }
+fn given(choice: &Choice) -> Value {
+    let candidate = |candidate: &Candidate| {
+        let solutions = candidate.plan.map(|[_, count]| count);
+        json!({ "joint": candidate.joint, "share": candidate.share, "solutions": solutions })
+    };
+    json!({ "joints": choice.given, "candidates": choice.candidates.iter().map(candidate).collect::<Vec<_>>() })
 }
 
 fn method(derivation: &Proved) -> &'static str {

@@ -73,8 +73,8 @@ fn meant(page: &mut Page, told: &Report<'_>) {
         };
         page.line(&how);
     }
-    let usual = ideal.ideal().1;
-    if report.tolerance == 0.0 && !usual.is_empty() {
+    let usual = (report.tolerance == 0.0).then(|| ideal.ideal().1).filter(|usual| !usual.is_empty());
+    if let Some(usual) = usual {
         page.heading("Each digit at its word");
         usual.lines().iter().for_each(|line| page.line(&format!("not taken: {line}")));
         page.line("Without --exact that is what the description is taken for, and the solver is that much simpler.");

@@ -67,7 +67,7 @@ impl Proved {
 
     /// The derivation of the ideal robot that `chain` means, its answers polished on `chain` where that is another.
     fn chain(source: &Source, chain: &Chain, derive: impl Fn(&Chain) -> Result<Derived>) -> Result<Self> {
-        let (ideal, report) = source.ends.ideal(chain)?;
+        let (ideal, report) = source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)?;
         let derived = derive(&ideal)?;
         let derived = if report.is_same() { derived } else { derived.polished_on(chain, report)? };
         Ok(Proved::Chain(Box::new(derived)))
@@ -79,7 +79,7 @@ impl Proved {
         chain: &Chain,
         derive: impl Fn(&Chain) -> Result<DerivedSixAxes>,
     ) -> Result<DerivedSixAxes> {
-        let (ideal, report) = source.ends.ideal(chain)?;
+        let (ideal, report) = source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)?;
         let derived = derive(&ideal)?;
         if report.is_same() { Ok(derived) } else { derived.polished_on(chain, report) }
     }

@@ -2,6 +2,7 @@
 
 use super::angle::angle;
 use super::apart::difference;
+use super::approach::approached;
 use super::evaluate::{Nearest, Solution};
 use super::frame::Frame;
 use super::pairs::{Pairs, UsualPairs};
@@ -123,7 +124,7 @@ impl<'a> Answers<'a> {
         let (mut end, mut fit) = (q, refine::measure(self.program, &q, &mut self.frame));
         let missed = fit.relative;
         if self.program.nearby
-            && let Some((end, fit)) = refine::approached(self.program, &q, missed, &mut self.frame)
+            && let Some((end, fit)) = approached(self.program, &q, missed, &mut self.frame)
         {
             return self.keep(path, &end, &fit);
         }

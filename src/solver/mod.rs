@@ -6,6 +6,7 @@ mod about;
 mod angle;
 mod answers;
 mod apart;
+mod approach;
 mod batch;
 mod compose;
 mod condition;

@@ -64,6 +64,19 @@ fn the_documented_example() {
     );
 }
 
+/// The maker's numbers as they stand: a UR5's 1.5708 is no quarter turn.
+#[test]
+fn rounded_angles_are_those_of_the_file() {
+    let chain = Tree::from_urdf(UR5).unwrap().chain(None, None).unwrap();
+    for k in 0..8 {
+        let q: Vec<f64> = (0..6).map(|joint| f64::from((7 * k + 5 * joint) % 13) / 2.0 - 3.0).collect();
+        let (described, multiplied) = (chain.forward(&q).unwrap(), multiplied_out(UR5, &q));
+        let meant = chain.ideal().0.forward(&q).unwrap();
+        assert!(close(&described, &multiplied) < 1e-14, "{}", close(&described, &multiplied));
+        assert!(close(&meant, &multiplied) > 1e-7, "{}", close(&meant, &multiplied));
+    }
+}
+
 #[test]
 fn another_reader_finds_the_same_links_and_joints() {
     for text in [NAO, UR5, &example()] {

@@ -12,6 +12,7 @@ mod report;
 
 use super::{Chain, ChainParts, Joint, JointKind, Task, Tip};
 use crate::{Error, ErrorKind, Result};
+use report::moved;
 pub use report::{Moved, Relation, RelationKind, Report};
 
 use super::exact_vector::Line;
@@ -55,30 +56,32 @@ impl Chain {
             Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..told })?,
             None => Chain::new(told)?,
         };
-        // What is exact stays as it is; what is off by rounding is rounded back; where answers are polished anyway, lengths may be short.
-        let untouched = places::ideal(&meant, tolerance, 0.0)?;
-        if untouched == meant {
-            return self.compared(untouched, tolerance);
-        }
-        let same = self.compared(places::ideal(&meant, tolerance, SAME / tolerance)?, tolerance)?;
-        if same.1.is_same() { Ok(same) } else { self.compared(places::ideal(&meant, tolerance, GRAIN)?, tolerance) }
-    }
-
-    /// `ideal` as it stands for this chain, and what was taken for what.
-    fn compared(&self, ideal: Chain, tolerance: f64) -> Result<(Chain, Report)> {
-        let chain = self.with_own_tip(ideal)?;
+        let chain = self.chosen(&meant, tolerance)?;
         let report = Report::new(self, &chain, tolerance);
         Ok((chain, report))
     }
 
+    /// What is exact stays as it is; what is off by rounding is rounded back; where answers are polished anyway, lengths may be short.
+    fn chosen(&self, meant: &Chain, tolerance: f64) -> Result<Chain> {
+        let placed = |grain: f64| places::ideal(meant, tolerance, grain);
+        let untouched = placed(0.0)?;
+        if untouched == *meant {
+            return self.with_own_tip(untouched);
+        }
+        let rounded = self.with_own_tip(placed(SAME / tolerance)?)?;
+        let is_same = moved(self, &rounded).iter().all(|moved| moved.deviation(size(self)) <= SAME);
+        if is_same { Ok(rounded) } else { self.with_own_tip(placed(GRAIN)?) }
+    }
+
     /// `ideal`, with the tip turned as described where nothing else differs and the tip is asked for a pose: no relation of axes depends on it.
     fn with_own_tip(&self, ideal: Chain) -> Result<Chain> {
-        let report = Report::new(self, &ideal, 0.0);
+        let (moved, reach) = (moved(self, &ideal), size(self));
         let is_same = |moved: &Moved| {
             let angle = if moved.joint.is_some() { moved.angle } else { 0.0 };
-            angle.max(moved.distance / report.reach) <= SAME
+            angle.max(moved.distance / reach) <= SAME
         };
-        if self.task() != Task::Pose || report.is_same() || !report.moved.iter().all(is_same) {
+        let is_whole = moved.iter().all(|moved| moved.deviation(reach) <= SAME);
+        if self.task() != Task::Pose || is_whole || !moved.iter().all(is_same) {
             return Ok(ideal);
         }
         let tip = Tip { rotation: self.tip().rotation.clone(), ..ideal.tip().clone() };

@@ -96,11 +96,11 @@ impl Report {
 fn relations(described: &Chain, ideal: &Chain) -> Vec<Relation> {
     let pairs = described.joints().windows(2).zip(ideal.joints().windows(2)).enumerate();
     let mut found: Vec<Relation> = pairs.flat_map(|(first, (told, meant))| of_pair(first, told, meant)).collect();
-    for group in gatherings(ideal.joints(), 0.0) {
-        let axes = &described.joints()[group.joints.clone()];
+    for joints in gatherings(ideal.joints()) {
+        let axes = &described.joints()[joints.clone()];
         let point = line(&axes[0]).nearest(&line(&axes[1]));
         let by = axes.iter().map(|axis| line(axis).distance(&point)).fold(0.0, f64::max);
-        found.push(Relation { joints: group.joints, kind: RelationKind::Meeting, by });
+        found.push(Relation { joints, kind: RelationKind::Meeting, by });
     }
     let triples = described.joints().windows(3).zip(ideal.joints().windows(3)).enumerate();
     found.extend(triples.filter_map(|(first, (told, meant))| level(first, told, meant)));
@@ -144,7 +144,7 @@ fn level(first: usize, told: &[Joint], meant: &[Joint]) -> Option<Relation> {
 }
 
 /// The axes, and the tip, that differ.
-fn moved(described: &Chain, ideal: &Chain) -> Vec<Moved> {
+pub(super) fn moved(described: &Chain, ideal: &Chain) -> Vec<Moved> {
     let joints = described.joints().iter().zip(ideal.joints());
     let axes = joints.map(|(a, b)| Moved {
         joint: Some(a.name.clone()),
