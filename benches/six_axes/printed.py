@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Times the printed solvers of six axes, Rust and C, at random targets, and counts lost joints.
+"""Times printed solvers, Rust and C, of six axes unless others are named, at random targets, and counts lost joints.
 
-    python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like] > record.csv
+    python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like,/tmp/mine] > record.csv
 
-Needs rustc and cc. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
+Needs rustc and cc. A folder is one of `derivations`, or a path. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
 within 1e-6 of them. `us_mean` is processor time of all solving over the number of targets, so that other work on the machine does not count
 but by its use of the caches; the percentiles are wall time.
 """
 
 import argparse
+import json
 import pathlib
 import re
 import subprocess
@@ -22,13 +23,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def sliding(folder):
     """The indices of the joints that slide."""
-    text = (folder / "0_chain.toml").read_text()
-    return [index for index, joint in enumerate(text.split("[[joint]]")[1:]) if re.search(r'type\s*=\s*"prismatic"', joint)]
+    joints = json.loads((folder / "5_program.json").read_text())["joints"]
+    return [index for index, joint in enumerate(joints) if joint["unit"] != "radian"]
 
 
 def build(name, work):
     """The two programs that measure a folder's solver: language, bytes of the solver, path."""
     folder = ROOT / "derivations" / name
+    name = re.search(r"int (\w+)_solve\(", (folder / "5_solver.h").read_text())[1]
     slides = sum(1 << joint for joint in sliding(folder))
     rust = folder / "5_solver.rs"
     main = (HERE / "printed.rs").read_text().replace("SOLVER", str(rust)).replace("SLIDES", str(slides))

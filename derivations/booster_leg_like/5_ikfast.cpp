@@ -95,6 +95,18 @@ void booster_leg_like_forward(const double *q, double *target);
 static const int INPUTS = BOOSTER_LEG_LIKE_INPUTS;
 static const int JOINTS = BOOSTER_LEG_LIKE_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -276,21 +288,21 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r207 = r86 + (r85 + (r84 + (r83 + (r81 + r82)))), r214 = r95 + (r94 + (r92 + r93));
     const double r218 = r76 + (r70 + r72 - r74), r222 = r86 + (r85 + (r83 + r84)), r228 = r37 - r39;
     const double r229 = r59 - r60, r231 = r228 * r98, r232 = r97 * r99, r238 = r96 * r97 + r228 * r229;
-    const double r249 = r229 * r99 + r96 * r98, r269 = 0.0 - (r11 * r228 + r53 * r96);
-    const double r272 = r53 * r99 - r46 * r228, r276 = 0.0 - (r46 * r96 + r11 * r99);
-    const double r278 = c6 * r46 - s6 * r48, r302 = r11 * r129 - r53 * r128, r307 = r46 * r129 - r53 * r278;
-    const double r310 = r11 * r278 - r46 * r128, r330 = r53 * r229 - r11 * r97, r334 = r53 * r98 - r46 * r97;
-    const double r339 = r46 * r229 - r11 * r98;
+    const double r249 = r229 * r99 + r96 * r98, r251 = c6 * r46 - s6 * r48;
+    const double r270 = 0.0 - (r11 * r228 + r53 * r96), r273 = r53 * r99 - r46 * r228;
+    const double r277 = 0.0 - (r46 * r96 + r11 * r99), r302 = r11 * r129 - r53 * r128;
+    const double r307 = r46 * r129 - r53 * r251, r310 = r11 * r251 - r46 * r128, r330 = r53 * r229 - r11 * r97;
+    const double r334 = r53 * r98 - r46 * r97, r339 = r46 * r229 - r11 * r98;
     const Jacobian result = { {
         {r95 - (r106 - r93 - r94), s1 * r77, s2 * r167 - r3 * r176, r11 * r195 + r53 * r201, r11 * r214 + r53 * r218, 0.03 * r238},
         {0.0, s1 * (r146 + r86) + c1 * (r155 - r95), r2 * r167 - r3 * r186, r46 * r195 - r53 * r207, r46 * r214 - r53 * r222, 0.03 * (r231 - r232)},
         {r86 + (r85 + (r84 + (r83 + r115))), c1 * r77, r2 * r176 - s2 * r186, r46 * r201 + r11 * r207, r46 * r218 + r11 * r222, 0.03 * r249},
-        {r39 - r37, s1 * r96, s2 * r228 - r3 * r96, r269, r269, 0.0},
-        {0.0, c1 * r228 - s1 * r99, r3 * r99 + r2 * r228, r272, r272, 0.0},
-        {r31 - r29, c1 * r96, r2 * r96 + s2 * r99, r276, r276, 0.0},
+        {r39 - r37, s1 * r96, s2 * r228 - r3 * r96, r270, r270, 0.0},
+        {0.0, c1 * r228 - s1 * r99, r3 * r99 + r2 * r228, r273, r273, 0.0},
+        {r31 - r29, c1 * r96, r2 * r96 + s2 * r99, r277, r277, 0.0},
         {r129, s1 * r128, 0.0 - (s2 * r129 + r3 * r128), r302, r302, r96 * r129 + r228 * r128},
-        {0.0, s1 * r278 - c1 * r129, 0.0 - (r3 * r278 + r2 * r129), r307, r307, r228 * r278 - r99 * r129},
-        {r278, c1 * r128, r2 * r128 - s2 * r278, r310, r310, r99 * r128 + r96 * r278},
+        {0.0, s1 * r251 - c1 * r129, 0.0 - (r3 * r251 + r2 * r129), r307, r307, r228 * r251 - r99 * r129},
+        {r251, c1 * r128, r2 * r128 - s2 * r251, r310, r310, r99 * r128 + r96 * r251},
         {0.0 - r97, 0.0 - s1 * r229, s2 * r97 + r3 * r229, r330, r330, 0.0 - r238},
         {0.0, c1 * r97 - s1 * r98, r3 * r98 + r2 * r97, r334, r334, r232 - r231},
         {0.0 - r98, 0.0 - c1 * r229, s2 * r98 - r2 * r229, r339, r339, 0.0 - r249},
@@ -316,12 +328,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -480,7 +492,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -506,8 +518,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -525,7 +537,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -551,7 +563,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -648,7 +660,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -668,9 +680,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -718,7 +730,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -778,7 +790,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -853,7 +865,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1031,7 +1043,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -3289,7 +3301,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -206,23 +218,23 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r117 = s6 * r46 + c6 * r48, r129 = r70 + (r64 + r66 - r68) - r72;
     const double r136 = r85 + (r83 + (r75 - r77 - r79 - r81)), r142 = r96 + (r92 + (r88 - r90) - r94) - r98;
     const double r151 = r72 + (r68 - r70), r155 = r79 + r81 - r83 - r85, r159 = r96 + (r92 - r94) - r98;
-    const double r164 = r38 - r39, r195 = 0.0 - c1 * r164, r198 = 0.0 - s1 * r164;
-    const double r203 = 0.0 - (s1 * r100 + c1 * r101), r210 = r47 - r49, r231 = 0.0 - c1 * r109;
-    const double r235 = 0.0 - s1 * r109, r239 = c1 * r210 - s1 * r110, r243 = c1 * r116, r244 = s1 * r116;
-    const double r245 = s6 * r50 - c6 * r52, r274 = s1 * r245 - c1 * r117;
+    const double r164 = r38 - r39, r178 = r47 - r49, r179 = s6 * r50 - c6 * r52, r197 = 0.0 - c1 * r164;
+    const double r200 = 0.0 - s1 * r164, r205 = 0.0 - (s1 * r100 + c1 * r101), r232 = 0.0 - c1 * r109;
+    const double r236 = 0.0 - s1 * r109, r240 = c1 * r178 - s1 * r110, r244 = c1 * r116, r245 = s1 * r116;
+    const double r274 = s1 * r179 - c1 * r117;
     const Jacobian result = { {
         {0.0 - r86, c1 * r73, 0.0 - c1 * r129, r37 * r136 - r33 * r129, r50 * r151 - r23 * r155, 0.0},
         {r99, s1 * r73, 0.0 - s1 * r129, r29 * r129 - r37 * r142, r46 * r151 - r23 * r159, 0.0},
         {0.0, 0.0 - (s1 * r86 + c1 * r99), 0.0 - (s1 * r136 + c1 * r142), r29 * r136 - r33 * r142, r46 * r155 - r50 * r159, 0.0},
-        {0.0 - r100, r195, r195, r37 * r100 - r33 * r164, r23 * r100 - r50 * r164, 0.0},
-        {r101, r198, r198, r29 * r164 - r37 * r101, 0.0 - (r23 * r101 + r46 * r164), 0.0},
-        {0.0, r203, r203, r29 * r100 - r33 * r101, 0.0 - (r46 * r100 + r50 * r101), 0.0},
-        {0.0 - r110, r231, r231, r37 * r110 - r33 * r109, r23 * r110 - r50 * r109, r164 * r110 - r100 * r109},
-        {r49 - r47, r235, r235, r37 * r210 + r29 * r109, r23 * r210 - r46 * r109, r164 * r210 + r101 * r109},
-        {0.0, r239, r239, r29 * r110 + r33 * r210, r50 * r210 - r46 * r110, r101 * r110 + r100 * r210},
-        {r245, r243, r243, r33 * r116 - r37 * r245, r50 * r116 - r23 * r245, r100 * r116 - r164 * r245},
-        {r117, r244, r244, 0.0 - (r37 * r117 + r29 * r116), r46 * r116 - r23 * r117, 0.0 - (r164 * r117 + r101 * r116)},
-        {0.0, r274, r274, 0.0 - (r29 * r245 + r33 * r117), r46 * r245 - r50 * r117, 0.0 - (r101 * r245 + r100 * r117)},
+        {0.0 - r100, r197, r197, r37 * r100 - r33 * r164, r23 * r100 - r50 * r164, 0.0},
+        {r101, r200, r200, r29 * r164 - r37 * r101, 0.0 - (r23 * r101 + r46 * r164), 0.0},
+        {0.0, r205, r205, r29 * r100 - r33 * r101, 0.0 - (r46 * r100 + r50 * r101), 0.0},
+        {0.0 - r110, r232, r232, r37 * r110 - r33 * r109, r23 * r110 - r50 * r109, r164 * r110 - r100 * r109},
+        {r49 - r47, r236, r236, r37 * r178 + r29 * r109, r23 * r178 - r46 * r109, r164 * r178 + r101 * r109},
+        {0.0, r240, r240, r29 * r110 + r33 * r178, r50 * r178 - r46 * r110, r101 * r110 + r100 * r178},
+        {r179, r244, r244, r33 * r116 - r37 * r179, r50 * r116 - r23 * r179, r100 * r116 - r164 * r179},
+        {r117, r245, r245, 0.0 - (r37 * r117 + r29 * r116), r46 * r116 - r23 * r117, 0.0 - (r164 * r117 + r101 * r116)},
+        {0.0, r274, r274, 0.0 - (r29 * r179 + r33 * r117), r46 * r179 - r50 * r117, 0.0 - (r101 * r179 + r100 * r117)},
     } };
     return result;
 }
@@ -245,12 +257,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -409,7 +421,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -435,8 +447,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -454,7 +466,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -480,7 +492,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -577,7 +589,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -597,9 +609,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -647,7 +659,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -707,7 +719,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -782,7 +794,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -960,7 +972,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -3214,7 +3226,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -3330,7 +3342,7 @@ double crx_like_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -3379,7 +3391,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -3388,7 +3400,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + CRX_LIKE_MOST_TURNS);
+    *last = lesser(*last, *first + CRX_LIKE_MOST_TURNS);
 }
 
 size_t crx_like_count_turns(const double *q, const double *limits)
@@ -3401,7 +3413,7 @@ size_t crx_like_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), CRX_LIKE_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), CRX_LIKE_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -129,7 +141,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -228,7 +240,7 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double c4 = at[3], s4 = at[4], c5 = at[5], s5 = at[6], c6 = at[7], s6 = at[8], r5 = c4 * c5;
     const double r6 = s4 * c5, r7 = c4 * s5, r8 = s4 * s5, r11 = c6 * r6, r12 = c4 * s6, r13 = s5 * c6;
     const double r14 = s6 * r5, r15 = s4 * c6, r18 = s5 * s6, r30 = r11 - r12, r31 = c6 * r5 + s4 * s6;
-    const double r36 = s6 * r6 + c4 * c6, r55 = s4 * r8 + c4 * r7, r79 = r14 - r15;
+    const double r36 = s6 * r6 + c4 * c6, r55 = s4 * r8 + c4 * r7, r57 = r14 - r15;
     const Jacobian result = { {
         {1.0, 0.0, 0.0, 0.12 * r8, 0.0 - 0.12 * r5, 0.0},
         {0.0, 1.0, 0.0, 0.0 - 0.12 * r7, 0.0 - 0.12 * r6, 0.0},
@@ -237,8 +249,8 @@ static Jacobian jacobian(const Parameters *p, const double *at)
         {0.0, 0.0, 0.0, r31, 0.0 - s4 * r13, 0.0 - (c5 * r31 + r7 * r13)},
         {0.0, 0.0, 0.0, 0.0, 0.0 - (s4 * r30 + c4 * r31), r8 * r31 - r7 * r30},
         {0.0, 0.0, 0.0, r36, c4 * r18, 0.0 - (r8 * r18 + c5 * r36)},
-        {0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r79 + r7 * r18},
-        {0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r79, r7 * r36 - r8 * r79},
+        {0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r57 + r7 * r18},
+        {0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r57, r7 * r36 - r8 * r57},
         {0.0, 0.0, 0.0, r8, 0.0 - r5, 0.0},
         {0.0, 0.0, 0.0, 0.0 - r7, 0.0 - r6, 0.0},
         {0.0, 0.0, 0.0, 0.0, r55, 0.0},
@@ -264,12 +276,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -421,7 +433,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -447,8 +459,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -469,7 +481,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.02);
+        longest = larger(IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.02, longest);
     }
     return longest;
 }
@@ -495,7 +507,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -592,7 +604,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -612,9 +624,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
+        weight[i] = IS_ANGLE[i] ? lesser(weight[i], 1.0) : 1.0;
     }
 }
 
@@ -622,7 +634,7 @@ static void weights(const Parameters *p, const double *q, double *weight)
 static void move(const double *q, size_t i, double way, double *next)
 {
     copy(q, next);
-    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(1.02, fabs(q[i]));
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * larger(fabs(q[i]), 1.02);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -656,7 +668,7 @@ static void differences(const double *a, const double *b, double *difference)
 static void spans(const double *q, double tolerance, double *limit)
 {
     for (size_t i = 0; i < JOINTS; i++) {
-        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(1.02, fabs(q[i]));
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * larger(fabs(q[i]), 1.02);
     }
 }
 
@@ -668,7 +680,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -679,9 +691,9 @@ static bool is_within(const double *a, const double *b, double tolerance)
     return fabs(shorter(a[5] - b[5])) <= tolerance
         && fabs(shorter(a[4] - b[4])) <= tolerance
         && fabs(shorter(a[3] - b[3])) <= tolerance
-        && fabs(a[2] - b[2]) <= tolerance * fmax(1.02, fabs(a[2]))
-        && fabs(a[1] - b[1]) <= tolerance * fmax(1.02, fabs(a[1]))
-        && fabs(a[0] - b[0]) <= tolerance * fmax(1.02, fabs(a[0]));
+        && fabs(a[2] - b[2]) <= tolerance * larger(fabs(a[2]), 1.02)
+        && fabs(a[1] - b[1]) <= tolerance * larger(fabs(a[1]), 1.02)
+        && fabs(a[0] - b[0]) <= tolerance * larger(fabs(a[0]), 1.02);
 }
 
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
@@ -728,7 +740,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -803,7 +815,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -981,7 +993,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1292,7 +1304,7 @@ typedef struct {
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r4 = shared->r3 - shared->r2, r5 = shared->r1 - shared->r0;
-    const double r10 = 1.0 / sqrt(fmax(r5 * r5 + r4 * r4, 0.0)), c6 = r5 * r10, s6 = r4 * r10;
+    const double r10 = 1.0 / sqrt(larger(r5 * r5 + r4 * r4, 0.0)), c6 = r5 * r10, s6 = r4 * r10;
     const double at[PLACES] = {
         known->d1, known->d2, known->d3, known->c4, known->s4, known->c5, known->s5, c6, s6,
     };
@@ -1322,7 +1334,7 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r6 = sqrt(fmax(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
+    const double r6 = sqrt(larger(p->r33_ * p->r33_ + shared->r2 * shared->r2, 0.0)), r7 = 1.0 / r6;
     const double c5 = 0.0 - p->r33_ * r7, s5 = 0.0 - shared->r2 * r7;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
@@ -1460,7 +1472,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -1601,7 +1613,7 @@ double gantry_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1650,7 +1662,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1659,7 +1671,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + GANTRY_MOST_TURNS);
+    *last = lesser(*last, *first + GANTRY_MOST_TURNS);
 }
 
 size_t gantry_count_turns(const double *q, const double *limits)
@@ -1672,7 +1684,7 @@ size_t gantry_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), GANTRY_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), GANTRY_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -681,7 +681,7 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r5 = c4 * c5; let r6 = s4 * c5; let r7 = c4 * s5; let r8 = s4 * s5; let r11 = c6 * r6;
     let r12 = c4 * s6; let r13 = s5 * c6; let r14 = s6 * r5; let r15 = s4 * c6; let r18 = s5 * s6;
     let r30 = r11 - r12; let r31 = c6 * r5 + s4 * s6; let r36 = s6 * r6 + c4 * c6; let r55 = s4 * r8 + c4 * r7;
-    let r79 = r14 - r15;
+    let r57 = r14 - r15;
     [
         [1.0, 0.0, 0.0, 0.12 * r8, 0.0 - 0.12 * r5, 0.0],
         [0.0, 1.0, 0.0, 0.0 - 0.12 * r7, 0.0 - 0.12 * r6, 0.0],
@@ -690,8 +690,8 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         [0.0, 0.0, 0.0, r31, 0.0 - s4 * r13, 0.0 - (c5 * r31 + r7 * r13)],
         [0.0, 0.0, 0.0, 0.0, 0.0 - (s4 * r30 + c4 * r31), r8 * r31 - r7 * r30],
         [0.0, 0.0, 0.0, r36, c4 * r18, 0.0 - (r8 * r18 + c5 * r36)],
-        [0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r79 + r7 * r18],
-        [0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r79, r7 * r36 - r8 * r79],
+        [0.0, 0.0, 0.0, r15 - r14, s4 * r18, c5 * r57 + r7 * r18],
+        [0.0, 0.0, 0.0, 0.0, s4 * r36 + c4 * r57, r7 * r36 - r8 * r57],
         [0.0, 0.0, 0.0, r8, 0.0 - r5, 0.0],
         [0.0, 0.0, 0.0, 0.0 - r7, 0.0 - r6, 0.0],
         [0.0, 0.0, 0.0, 0.0, r55, 0.0],
@@ -1587,9 +1587,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [self.at[0][k], self.at[1][k], self.at[2][k], angles[0][k], angles[1][k], angles[2][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [self.at[0][k], self.at[1][k], self.at[2][k], angles[0][k], angles[1][k], angles[2][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

@@ -96,6 +96,18 @@ void gen3_like_forward(const double *q, double *target);
 static const int INPUTS = GEN3_LIKE_INPUTS;
 static const int JOINTS = GEN3_LIKE_JOINTS;
 static const int EQUATIONS = 14;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -295,14 +307,14 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r287 = 0.00017505 * r41 + 0.00017505 * r42 - r103 - r104;
     const double r293 = 0.00017505 * r39 + 0.00017505 * r40 - r112 - r113;
     const double r308 = s1 * (r171 - r102 + r103 + r104) + c1 * (r181 - r110 - r111 + r112 + r113);
-    const double r314 = c7_ * r71 - s7_ * r73, r317 = r68 - r70;
+    const double r314 = c7_ * r71 - s7_ * r73, r315 = r68 - r70;
     const Jacobian result = { {
         {0.0 - (r104 + (r103 + (r122 - r101 - r102))), c1 * r95, r3 * r194 - c2 * r204, r13 * r235 - r34 * r225, r55 * r264 - r51 * r256, r73 * r287 - r69 * r281, 0.0},
         {0.0 - (r113 + (r112 + (r133 - r110 - r111))), 0.0 - s1 * r95, r2 * r194 - c2 * r214, r13 * r245 - r30 * r225, r55 * r272 - r47 * r256, r73 * r293 - r65 * r281, 0.0},
         {0.0, 0.0 - r308, r2 * r204 - r3 * r214, r30 * r235 - r34 * r245, r47 * r264 - r51 * r272, r65 * r287 - r69 * r293, 0.0},
-        {r70 - r68, 0.0 - c1 * r314, 0.0 - (r3 * r314 + c2 * r317), r34 * r314 - r13 * r317, r55 * r317 - r51 * r314, r69 * r314 - r73 * r317, r115 * r317 - r114 * r314},
+        {r70 - r68, 0.0 - c1 * r314, 0.0 - (r3 * r314 + c2 * r315), r34 * r314 - r13 * r315, r55 * r315 - r51 * r314, r69 * r314 - r73 * r315, r115 * r315 - r114 * r314},
         {r66 - r64, s1 * r314, 0.0 - (c2 * r142 + r2 * r314), r30 * r314 - r13 * r142, r55 * r142 - r47 * r314, r65 * r314 - r73 * r142, r115 * r142 - r116 * r314},
-        {0.0, 0.0 - (s1 * r317 + c1 * r142), r2 * r317 - r3 * r142, r34 * r142 - r30 * r317, r47 * r317 - r51 * r142, r69 * r142 - r65 * r317, r116 * r317 - r114 * r142},
+        {0.0, 0.0 - (s1 * r315 + c1 * r142), r2 * r315 - r3 * r142, r34 * r142 - r30 * r315, r47 * r315 - r51 * r142, r69 * r142 - r65 * r315, r116 * r315 - r114 * r142},
         {0.0 - r149, 0.0 - c1 * r148, 0.0 - (r3 * r148 + c2 * r149), r34 * r148 - r13 * r149, r55 * r149 - r51 * r148, r69 * r148 - r73 * r149, r115 * r149 - r114 * r148},
         {0.0 - r150, s1 * r148, 0.0 - (c2 * r150 + r2 * r148), r30 * r148 - r13 * r150, r55 * r150 - r47 * r148, r65 * r148 - r73 * r150, r115 * r150 - r116 * r148},
         {0.0, 0.0 - (s1 * r149 + c1 * r150), r2 * r149 - r3 * r150, r34 * r150 - r30 * r149, r47 * r149 - r51 * r150, r69 * r150 - r65 * r149, r116 * r149 - r114 * r150},
@@ -333,12 +345,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -498,7 +510,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -524,8 +536,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -543,7 +555,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -569,7 +581,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -666,7 +678,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -686,9 +698,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -736,7 +748,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -797,7 +809,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -872,7 +884,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1050,7 +1062,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -3345,7 +3357,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

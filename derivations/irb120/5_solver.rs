@@ -808,17 +808,17 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r156 = r33 * r103; let r165 = r33 * r102 - r37 * r151; let r167 = r52 * r102 - r23 * r151;
     let r170 = r37 * r103 - r29 * r102; let r172 = r23 * r103 + r48 * r102;
     let r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
-    let r181 = r48 * r151 + r52 * r103; let r183 = c1 * r108; let r184 = s1 * r108;
-    let r185 = c6 * r50 - s6 * r52; let r212 = s1 * r185 + c1 * r109; let r239 = 0.0 - c1 * r115;
+    let r181 = r48 * r151 + r52 * r103; let r183 = c6 * r50 - s6 * r52; let r184 = c1 * r108;
+    let r185 = s1 * r108; let r212 = s1 * r183 + c1 * r109; let r239 = 0.0 - c1 * r115;
     let r243 = 0.0 - s1 * r115; let r249 = 0.0 - (s1 * r116 + c1 * r117); let r254 = c1 * r102;
     let r255 = s1 * r102; let r258 = s1 * r151 + c1 * r103;
     [
         [0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0],
         [r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0],
         [0.0, 0.0 - (s1 * r88 + c1 * r101), 0.0 - r176, 0.0 - 0.16 * (r155 - r156), 0.16 * r181, 0.0],
-        [r185, r183, r183, r33 * r108 - r37 * r185, r52 * r108 - r23 * r185, r102 * r185 - r151 * r108],
-        [0.0 - r109, r184, r184, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109],
-        [0.0, r212, r212, r33 * r109 - r29 * r185, r48 * r185 + r52 * r109, r103 * r185 - r151 * r109],
+        [r183, r184, r184, r33 * r108 - r37 * r183, r52 * r108 - r23 * r183, r102 * r183 - r151 * r108],
+        [0.0 - r109, r185, r185, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109],
+        [0.0, r212, r212, r33 * r109 - r29 * r183, r48 * r183 + r52 * r109, r103 * r183 - r151 * r109],
         [0.0 - r116, r239, r239, r37 * r116 - r33 * r115, r23 * r116 - r52 * r115, r151 * r115 - r102 * r116],
         [r117, r243, r243, r29 * r115 - r37 * r117, 0.0 - (r23 * r117 + r48 * r115), r102 * r117 - r103 * r115],
         [0.0, r249, r249, r29 * r116 - r33 * r117, 0.0 - (r48 * r116 + r52 * r117), r151 * r117 - r103 * r116],
@@ -1714,9 +1714,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

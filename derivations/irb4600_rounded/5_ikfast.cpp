@@ -97,6 +97,18 @@ void irb4600_tool0_forward(const double *q, double *target);
 static const int INPUTS = IRB4600_TOOL0_INPUTS;
 static const int JOINTS = IRB4600_TOOL0_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -125,10 +137,14 @@ static const double TWIN = 10.0;
 /* Inverse iterations that tell in what direction the equations change least. */
 static const int INVERSIONS = 3;
 /* So many plain steps lead a candidate to where the equations hold within rounding, or it is polished with more care: where each pivot of
- * the normal equations is more than this share of their size, and than so many times what the candidate misses. */
+ * the normal equations is more than a share of their size. Where one is less than so many times what the candidate missed, a second answer is
+ * looked for: STEEP where the candidate stands for a double root, or else MILD. */
 static const int APPROACHES = 3;
 static const double PLAIN = 1e-6;
 static const double STEEP = 400.0;
+static const double MILD = 4.0;
+/* Up to such a turn in a step a few terms of its cosine's and sine's series are enough. */
+static const double TURN = 0.01;
 /* Points around a candidate are so much farther where no nearer one leads to an answer. */
 static const double FARTHER = 16.0;
 static const double FARTHEST = 256.0;
@@ -193,7 +209,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -220,7 +236,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(2.8400082014841272, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(2.8400082014841272, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -410,23 +426,23 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r357 = r117 + 1e-5 * r99, r359 = r122 + 1e-5 * r103, r362 = r313 - 0.495, r371 = r313 - r36;
     const double r377 = 0.0 - (s1 * (r312 - r34) + c1 * (r311 - r33)), r378 = r311 - r80, r379 = r312 - r81;
     const double r380 = r313 - r82, r393 = r311 - r174, r394 = r312 - r175, r395 = r313 - r176;
-    const double r408 = r311 - r275, r409 = r312 - r276, r410 = r313 - r277, r422 = 0.0 - c1 * r324;
-    const double r424 = 0.0 - s1 * r324, r428 = c1 * r316 - (0.0 - s1 * r320), r462 = c1 * r286;
-    const double r463 = s1 * r286, r467 = 0.0 - (s1 * r283 + c1 * r280), r502 = c1 * r334, r503 = s1 * r334;
-    const double r507 = 0.0 - (s1 * r331 + c1 * r328);
+    const double r408 = r311 - r275, r409 = r312 - r276, r410 = r313 - r277, r465 = 0.0 - c1 * r324;
+    const double r467 = 0.0 - s1 * r324, r471 = c1 * r316 - (0.0 - s1 * r320), r505 = c1 * r286;
+    const double r506 = s1 * r286, r510 = 0.0 - (s1 * r283 + c1 * r280), r545 = c1 * r334, r546 = s1 * r334;
+    const double r550 = 0.0 - (s1 * r331 + c1 * r328);
     const Jacobian result = { {
         {0.0 - r312, c1 * r362, c1 * r371, 0.99999999995 * (r351 * r380 - r353 * r379), 0.99999999995 * (r357 * r395 - r359 * r394), r193 * r410 - r200 * r409},
         {r311, s1 * r362, s1 * r371, 0.99999999995 * (r353 * r378 - r349 * r380), 0.99999999995 * (r359 * r393 - r355 * r395), r200 * r408 - r186 * r410},
         {0.0, 0.0 - (s1 * (r312 - r5) + c1 * (r311 - r2)), r377, 0.99999999995 * (r349 * r379 - r351 * r378), 0.99999999995 * (r355 * r394 - r357 * r393), r186 * r409 - r193 * r408},
-        {r320, r422, r422, 0.99999999995 * (r353 * r320 - r351 * r324), 0.99999999995 * (r359 * r320 - r357 * r324), r200 * r320 - r193 * r324},
-        {0.0 - r316, r424, r424, 0.99999999995 * (r349 * r324 - r353 * r316), 0.99999999995 * (r355 * r324 - r359 * r316), r186 * r324 - r200 * r316},
-        {0.0, r428, r428, 0.99999999995 * (r351 * r316 - r349 * r320), 0.99999999995 * (r357 * r316 - r355 * r320), r193 * r316 - r186 * r320},
-        {0.0 - r283, r462, r462, 0.99999999995 * (r351 * r286 - r353 * r283), 0.99999999995 * (r357 * r286 - r359 * r283), r193 * r286 - r200 * r283},
-        {r280, r463, r463, 0.99999999995 * (r353 * r280 - r349 * r286), 0.99999999995 * (r359 * r280 - r355 * r286), r200 * r280 - r186 * r286},
-        {0.0, r467, r467, 0.99999999995 * (r349 * r283 - r351 * r280), 0.99999999995 * (r355 * r283 - r357 * r280), r186 * r283 - r193 * r280},
-        {r330 - r329, r502, r502, 0.99999999995 * (r351 * r334 - r353 * r331), 0.99999999995 * (r357 * r334 - r359 * r331), r193 * r334 - r200 * r331},
-        {r328, r503, r503, 0.99999999995 * (r353 * r328 - r349 * r334), 0.99999999995 * (r359 * r328 - r355 * r334), r200 * r328 - r186 * r334},
-        {0.0, r507, r507, 0.99999999995 * (r349 * r331 - r351 * r328), 0.99999999995 * (r355 * r331 - r357 * r328), r186 * r331 - r193 * r328},
+        {r320, r465, r465, 0.99999999995 * (r353 * r320 - r351 * r324), 0.99999999995 * (r359 * r320 - r357 * r324), r200 * r320 - r193 * r324},
+        {0.0 - r316, r467, r467, 0.99999999995 * (r349 * r324 - r353 * r316), 0.99999999995 * (r355 * r324 - r359 * r316), r186 * r324 - r200 * r316},
+        {0.0, r471, r471, 0.99999999995 * (r351 * r316 - r349 * r320), 0.99999999995 * (r357 * r316 - r355 * r320), r193 * r316 - r186 * r320},
+        {0.0 - r283, r505, r505, 0.99999999995 * (r351 * r286 - r353 * r283), 0.99999999995 * (r357 * r286 - r359 * r283), r193 * r286 - r200 * r283},
+        {r280, r506, r506, 0.99999999995 * (r353 * r280 - r349 * r286), 0.99999999995 * (r359 * r280 - r355 * r286), r200 * r280 - r186 * r286},
+        {0.0, r510, r510, 0.99999999995 * (r349 * r283 - r351 * r280), 0.99999999995 * (r355 * r283 - r357 * r280), r186 * r283 - r193 * r280},
+        {r330 - r329, r545, r545, 0.99999999995 * (r351 * r334 - r353 * r331), 0.99999999995 * (r357 * r334 - r359 * r331), r193 * r334 - r200 * r331},
+        {r328, r546, r546, 0.99999999995 * (r353 * r328 - r349 * r334), 0.99999999995 * (r359 * r328 - r355 * r334), r200 * r328 - r186 * r334},
+        {0.0, r550, r550, 0.99999999995 * (r349 * r331 - r351 * r328), 0.99999999995 * (r355 * r331 - r357 * r328), r186 * r331 - r193 * r328},
     } };
     return result;
 }
@@ -449,12 +465,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -609,7 +625,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -635,8 +651,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -654,35 +670,140 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
 
-/* The step (J^T J)^-1 J^T f by elimination without pivoting; false where a pivot is small. */
-static bool normal_step(const Parameters *p, const double *q, double missed, double *step)
+/* The equations of the short way to a solution nearby: their values, what these are shares of, and their derivatives, joint by joint. */
+static const int SHORTS = 6;
+typedef struct {
+    double value[SHORTS], size[SHORTS], columns[JOINTS][SHORTS];
+} Short;
+
+static Short short_way(const Parameters *p, const double *at)
 {
-    double at[PLACES], square[JOINTS][JOINTS] = {{0.0}}, size = 0.0;
-    place(q, at);
-    const Jacobian jacobi = jacobian(p, at);
-    const Equations f = equations(p, at);
-    for (size_t i = 0; i < JOINTS; i++) {
-        step[i] = 0.0;
-        for (size_t row = 0; row < EQUATIONS; row++) {
-            for (size_t j = 0; j <= i; j++) {
-                square[i][j] += jacobi.rows[row][i] * jacobi.rows[row][j];
-            }
-            step[i] += jacobi.rows[row][i] * f.value[row];
-        }
-        size = fmax(size, square[i][i]);
+    const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6];
+    const double s4 = at[7], c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r1 = 1e-5 * s1;
+    const double r2 = 0.175 * c1 - r1, r4 = 1e-5 * c1, r5 = 0.175 * s1 + r4, r6 = c1 * c2, r7 = s1 * c2;
+    const double r8 = c1 * s2, r9 = s1 * s2, r10 = 0.175 * r6, r14 = 0.175 * r7, r18 = 0.175 * s2;
+    const double r23 = 2e-5 * s1, r27 = 2e-5 * c1;
+    const double r33 = r2 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
+    const double r34 = r5 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
+    const double r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)), r39 = c3 * r6 - s3 * r8;
+    const double r42 = c3 * r7 - s3 * r9, r45 = s2 * c3 + c2 * s3, r48 = s3 * r6 + c3 * r8;
+    const double r51 = s3 * r7 + c3 * r9, r54 = c2 * c3 - s2 * s3;
+    const double r80 = r33 - (0.175 * r39 - r23 + 1.395 * r48) + (0.17501 * r39 - r1 + 1.57 * r48);
+    const double r81 = r34 - (r27 + 0.175 * r42 + 1.395 * r51) + (r4 + 0.17501 * r42 + 1.57 * r51);
+    const double r82 = r36 - (1.395 * r54 - 0.175 * r45) + (1.57 * r54 - 0.17501 * r45);
+    const double r84 = 9.999999999e-11 * c4 + 0.9999999999, r86 = s1 * s4, r89 = c4 - 1.0;
+    const double r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89), r94 = c1 * s4;
+    const double r99 = r42 * r84 - 9.9999999995e-6 * r94 + 9.999999999e-6 * (r51 * r89);
+    const double r103 = 9.999999999e-6 * (r54 * r89) - r45 * r84;
+    const double r110 = 9.9999999995e-6 * (s4 * r39) - s1 * c4 + 0.99999999995 * (s4 * r48);
+    const double r117 = c1 * c4 + 9.9999999995e-6 * (s4 * r42) + 0.99999999995 * (s4 * r51);
+    const double r122 = 0.99999999995 * (s4 * r54) - 9.9999999995e-6 * (s4 * r45);
+    const double r126 = 9.999999999e-6 * (r39 * r89) + 0.99999999995 * r86;
+    const double r128 = 0.9999999999 * c4 + 9.999999999e-11, r130 = r126 + r48 * r128;
+    const double r134 = 9.999999999e-6 * (r42 * r89) - 0.99999999995 * r94, r136 = r134 + r51 * r128;
+    const double r140 = r54 * r128 - 9.999999999e-6 * (r45 * r89);
+    const double r156 = r80 - (0.17501 * r92 + 1e-5 * r110 + 1.57 * r130);
+    const double r157 = r81 - (0.17501 * r99 + 1e-5 * r117 + 1.57 * r136);
+    const double r158 = r82 - (0.17501 * r103 + 1e-5 * r122 + 1.57 * r140);
+    const double r173 = 1.13501 * r103 + 2e-5 * r122 + 1.57001 * r140;
+    const double r174 = r156 + (1.13501 * r92 + 2e-5 * r110 + 1.57001 * r130);
+    const double r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136), r176 = r158 + r173;
+    const double r178 = 0.9999999999 * c5 + 9.999999999e-11, r180 = c5 - 1.0, r184 = s5 * r130;
+    const double r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.99999999995 * r184, r191 = s5 * r136;
+    const double r193 = r99 * r178 - 9.999999999e-6 * (r117 * r180) - 0.99999999995 * r191, r198 = s5 * r140;
+    const double r200 = r103 * r178 - 9.999999999e-6 * (r122 * r180) - 0.99999999995 * r198;
+    const double r203 = 9.999999999e-11 * c5 + 0.9999999999;
+    const double r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
+    const double r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
+    const double r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
+    const double r225 = 0.99999999995 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110), r227 = r225 + c5 * r130;
+    const double r232 = 0.99999999995 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117), r234 = r232 + c5 * r136;
+    const double r239 = 0.99999999995 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122), r241 = r239 + c5 * r140;
+    const double r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
+    const double r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
+    const double r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241, r260 = 1.27001 * r186;
+    const double r265 = 1.27001 * r193, r270 = 1.27001 * r200;
+    const double r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
+    const double r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
+    const double r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241), r280 = c6 * r208 + s6 * r227;
+    const double r283 = c6 * r214 + s6 * r234, r286 = c6 * r220 + s6 * r241, r289 = c6 * r227 - s6 * r208;
+    const double r292 = c6 * r234 - s6 * r214, r295 = c6 * r241 - s6 * r220;
+    const double r299 = r260 + 1e-5 * r280 + 1.57002 * r289, r303 = r265 + 1e-5 * r283 + 1.57002 * r292;
+    const double r307 = r270 + 1e-5 * r286 + 1.57002 * r295, r311 = r299 + (r275 - r299);
+    const double r312 = r303 + (r276 - r303), r313 = r307 + (r277 - r307);
+    const double r316 = 3.673205103373274e-6 * r186 + 0.9999999999932537 * r289;
+    const double r320 = 3.673205103373274e-6 * r193 + 0.9999999999932537 * r292;
+    const double r324 = 3.673205103373274e-6 * r200 + 0.9999999999932537 * r295;
+    const double r328 = 0.9999999999932537 * r186 - 3.673205103373274e-6 * r289;
+    const double r331 = 0.9999999999932537 * r193 - 3.673205103373274e-6 * r292;
+    const double r334 = 0.9999999999932537 * r200 - 3.673205103373274e-6 * r295, r349 = r39 - 1e-5 * r48;
+    const double r351 = r42 - 1e-5 * r51, r353 = 0.0 - r45 - 1e-5 * r54, r355 = r110 + 1e-5 * r92;
+    const double r357 = r117 + 1e-5 * r99, r359 = r122 + 1e-5 * r103, r362 = r313 - 0.495, r371 = r313 - r36;
+    const double r377 = 0.0 - (s1 * (r312 - r34) + c1 * (r311 - r33)), r378 = r311 - r80, r379 = r312 - r81;
+    const double r380 = r313 - r82, r393 = r311 - r174, r394 = r312 - r175, r395 = r313 - r176;
+    const double r408 = r311 - r275, r409 = r312 - r276, r410 = r313 - r277;
+    const double r448 = p->r31_ * r320 - p->r21_ * r324 + (p->r22_ * r286 - p->r32_ * r283);
+    const double r450 = 0.5 * (p->r23_ * r334 - p->r33_ * r331 + r448), r451 = 0.0 - s1;
+    const double r454 = p->r11_ * r324 - p->r31_ * r316 + (p->r32_ * r280 - p->r12_ * r286);
+    const double r456 = 0.5 * (p->r33_ * r328 - p->r13_ * r334 + r454);
+    const double r459 = p->r21_ * r316 - p->r11_ * r320 + (p->r12_ * r283 - p->r22_ * r280);
+    const double r461 = 0.5 * (p->r13_ * r331 - p->r23_ * r328 + r459);
+    const Short result = {
+        {r311 - p->px, r312 - p->py, r313 - p->pz, r450, r456, r461},
+        {2.840000001757606, 2.840000001757606, 2.840000001757606, 1.0, 1.0, 1.0},
+        {
+            {0.0 - r312, r311, 0.0, 0.0, 0.0, 1.0},
+            {c1 * r362, s1 * r362, 0.0 - (s1 * (r312 - r5) + c1 * (r311 - r2)), r451, c1, 0.0},
+            {c1 * r371, s1 * r371, r377, r451, c1, 0.0},
+            {0.99999999995 * (r351 * r380 - r353 * r379), 0.99999999995 * (r353 * r378 - r349 * r380), 0.99999999995 * (r349 * r379 - r351 * r378), 0.99999999995 * r349, 0.99999999995 * r351, 0.99999999995 * r353},
+            {0.99999999995 * (r357 * r395 - r359 * r394), 0.99999999995 * (r359 * r393 - r355 * r395), 0.99999999995 * (r355 * r394 - r357 * r393), 0.99999999995 * r355, 0.99999999995 * r357, 0.99999999995 * r359},
+            {r193 * r410 - r200 * r409, r200 * r408 - r186 * r410, r186 * r409 - r193 * r408, r186, r193, r200},
+        },
+    };
+    return result;
+}
+
+/* The largest share of a value in its size. */
+static double missed_by(const Short *here)
+{
+    double missed = 0.0;
+    for (size_t row = 0; row < SHORTS; row++) {
+        missed = larger(fabs(here->value[row]) / larger(here->size[row], (std::numeric_limits<double>::min)()), missed);
     }
-    const double least = fmax(PLAIN, STEEP * missed) * size;
+    return missed;
+}
+
+/* The step (J^T J)^-1 J^T f by elimination without pivoting, and the least pivot as a share of the size; false where it is small. */
+static bool normal_step(const Short *here, double *step, double *pivot)
+{
+    double square[JOINTS][JOINTS], inverse[JOINTS], size = 0.0, least = INFINITY;
+    for (size_t i = 0; i < JOINTS; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            double sum = 0.0;
+            for (size_t row = 0; row < SHORTS; row++) {
+                sum += here->columns[i][row] * here->columns[j][row];
+            }
+            square[i][j] = sum;
+        }
+        step[i] = 0.0;
+        for (size_t row = 0; row < SHORTS; row++) {
+            step[i] += here->columns[i][row] * here->value[row];
+        }
+        size = larger(square[i][i], size);
+    }
     for (size_t k = 0; k < JOINTS; k++) {
-        if (!(square[k][k] > least)) {
+        if (!(square[k][k] > PLAIN * size)) {
             return false;
         }
+        least = lesser(square[k][k], least);
+        inverse[k] = 1.0 / square[k][k];
         for (size_t i = k + 1; i < JOINTS; i++) {
-            const double factor = square[i][k] / square[k][k];
+            const double factor = square[i][k] * inverse[k];
             for (size_t j = k + 1; j <= i; j++) {
                 square[i][j] -= factor * square[j][k];
             }
@@ -693,28 +814,75 @@ static bool normal_step(const Parameters *p, const double *q, double missed, dou
         for (size_t j = k + 1; j < JOINTS; j++) {
             step[k] -= square[j][k] * step[j];
         }
-        step[k] /= square[k][k];
+        step[k] *= inverse[k];
     }
+    *pivot = least / size;
     return true;
 }
 
-/* Takes q, which misses by `missed`, by plain steps to where the equations hold within rounding, if they are regular on the way. */
-static bool approached(const Parameters *p, const double *q, double missed, double *end, Fit *fit)
+/* Turns a pair of a cosine and a sine back by a way to an angle, nearer to the circle; false for a pair far from the circle. */
+static bool turn_back(double way, double angle, double *cosine, double *sine)
 {
-    double step[JOINTS];
-    for (size_t i = 0; i < JOINTS; i++) {
-        end[i] = q[i];
+    const double c = *cosine, s = *sine, norm = 1.5 - 0.5 * (c * c + s * s), square = way * way;
+    const double across = norm * way * (1.0 - square * (1.0 - square * (1.0 / 20.0)) * (1.0 / 6.0));
+    const double along = norm * (1.0 - 0.5 * square * (1.0 - square * (1.0 / 12.0)));
+    *cosine = along * c + across * s;
+    *sine = along * s - across * c;
+    if (!(fabs(way) <= TURN)) {
+        *cosine = cos(angle);
+        *sine = sin(angle);
+    }
+    return fabs(norm - 1.0) <= TURN;
+}
+
+/* An angle in (-pi, pi], which it seldom is far out of. */
+static double in_turn(double angle)
+{
+    return fabs(angle) < PI ? angle : wrap(angle);
+}
+
+/* Takes a step from q, and what the equations read of it; false where a pair is far from the circle. */
+static bool step_back(const double *step, double *at, double *q)
+{
+    bool is_round = true;
+    q[0] = in_turn(q[0] - step[0]);
+    is_round = turn_back(step[0], q[0], &at[0], &at[1]) && is_round;
+    q[1] = in_turn(q[1] - step[1]);
+    is_round = turn_back(step[1], q[1], &at[2], &at[3]) && is_round;
+    q[2] = in_turn(q[2] - step[2]);
+    is_round = turn_back(step[2], q[2], &at[4], &at[5]) && is_round;
+    q[3] = in_turn(q[3] - step[3]);
+    is_round = turn_back(step[3], q[3], &at[6], &at[7]) && is_round;
+    q[4] = in_turn(q[4] - step[4]);
+    is_round = turn_back(step[4], q[4], &at[8], &at[9]) && is_round;
+    q[5] = in_turn(q[5] - step[5]);
+    is_round = turn_back(step[5], q[5], &at[10], &at[11]) && is_round;
+    return is_round;
+}
+
+/* Takes q, and what the equations read of it, by plain steps to where the equations hold within rounding, if they are regular on the way. Tells
+ * what they were missed by, and the least pivot, at the start. */
+static bool approached(const Parameters *p, const double *candidate, double *q, Fit *fit, double *missed, double *pivot)
+{
+    double at[PLACES], step[JOINTS] = {0.0}, later;
+    for (size_t i = 0; i < PLACES; i++) {
+        at[i] = candidate[i];
+    }
+    if (!step_back(step, at, q)) {
+        return false;
     }
     for (int round = 0; round < APPROACHES; round++) {
-        if (!normal_step(p, end, missed, step)) {
+        const Short here = short_way(p, at);
+        if (round == 0) {
+            *missed = missed_by(&here);
+        }
+        if (!normal_step(&here, step, round == 0 ? pivot : &later) || !step_back(step, at, q)) {
             return false;
         }
-        stepped(end, step, end);
-        *fit = measure(p, end);
+        *fit = measure_at(p, at, q);
         if (fit->relative < RESOLUTION) {
             return fit->accepted;
         }
-        missed = fit->relative;
     }
     return false;
 }
@@ -735,7 +903,7 @@ static bool stillest(const Parameters *p, const double *q, double *way, double *
     double columns[JOINTS + 1][ROWS] = {{0.0}}, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        most = fmax(most, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
         way[i] = 1.0;
     }
     for (int round = 0; round < INVERSIONS; round++) {
@@ -780,7 +948,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -877,7 +1045,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -897,9 +1065,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -951,7 +1119,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -1011,7 +1179,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -1086,7 +1254,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1264,7 +1432,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1313,8 +1481,15 @@ static void twin(const Parameters *p, size_t branch, size_t last, const double *
             step[i] = times[side] * sqrt(missed) * way[i];
         }
         stepped(end, step, start);
-        Fit fit = measure(p, start);
-        polish(p, start, &fit, NONE_FREE);
+        double at[PLACES], again, pivot;
+        Fit fit = { 0.0, 0.0, false };
+        place(start, at);
+        copy(start, step);
+        if (!approached(p, at, start, &fit, &again, &pivot)) {
+            copy(step, start);
+            fit = measure(p, start);
+            polish(p, start, &fit, NONE_FREE);
+        }
         keep(p, answers, branch, last, start, &fit, free);
     }
 }
@@ -1352,12 +1527,6 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
                 }
             }
         }
-        return;
-    }
-    double close_by[JOINTS];
-    Fit plain;
-    if (approached(p, candidate, missed, close_by, &plain)) {
-        keep(p, answers, branch, last, close_by, &plain, free);
         return;
     }
     polish(p, q, &fit, NONE_FREE);
@@ -1424,26 +1593,35 @@ static void finish(const Parameters *p, size_t branch, size_t last, bool close, 
         joint_angle(answers, 4, at[8], at[9]),
         joint_angle(answers, 5, at[10], at[11]),
     };
-    if (!is_isolated(free) || close) {
+    double end[JOINTS];
+    double missed = 0.0, pivot = 0.0;
+    Fit fit = { 0.0, 0.0, false };
+    for (size_t i = 0; i < JOINTS; i++) {
+        end[i] = q[i];
+    }
+    if (!(is_isolated(free) && approached(p, at, end, &fit, &missed, &pivot))) {
         refine(p, branch, last, q, free, answers);
         return;
     }
-    const Fit fit = measure_at(p, at, q);
-    if (!(fit.accepted && fit.relative < RESOLUTION && is_round(at))) {
-        refine(p, branch, last, q, free, answers);
-    } else if (is_apart(answers, branch, q)) {
+    if (pivot < missed * (close ? STEEP : MILD)) {
+        answers->unsound = answers->candidates;
+        keep(p, answers, branch, last, end, &fit, free);
+        twin(p, branch, last, end, missed, free, answers);
+        return;
+    }
+    if (is_apart(answers, branch, end)) {
         Solution *answer = &answers->out[answers->count];
         answer->residual = fit.residual;
         answer->branch = branch;
         answer->chosen = false;
         for (size_t i = 0; i < JOINTS; i++) {
-            answer->q[i] = q[i];
+            answer->q[i] = end[i];
             answer->free[i] = false;
         }
         answers->relative[answers->count] = fit.relative;
         answers->count++;
     } else {
-        keep(p, answers, branch, last, q, &fit, free);
+        keep(p, answers, branch, last, end, &fit, free);
     }
 }
 
@@ -1513,8 +1691,8 @@ typedef struct {
 /* Chart 1 of block 6: generic. */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r38 = shared->r35 * shared->r35 + shared->r34 * shared->r34, r40 = 1.0 / sqrt(fmax(r38, 0.0));
-    const double c6 = shared->r35 * r40, s6 = shared->r34 * r40;
+    const double r38 = shared->r35 * shared->r35 + shared->r34 * shared->r34;
+    const double r40 = 1.0 / sqrt(larger(r38, 0.0)), c6 = shared->r35 * r40, s6 = shared->r34 * r40;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4,
         known->c5, known->s5, c6, s6,
@@ -1553,8 +1731,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r19 * r25, s5 = shared->r20 * r25;
+    const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
+    const double r25 = 1.0 / sqrt(larger(r23, 0.0)), c5 = shared->r19 * r25, s5 = shared->r20 * r25;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
@@ -1653,7 +1831,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1.0, r28 = shared->r9 * shared->r17 - shared->r12 * shared->r15;
     const double r32 = shared->r12 * shared->r17 - (0.0 - shared->r9 * shared->r15);
-    const double r37 = 1.0 / sqrt(fmax(r32 * r32 + r28 * r28, 0.0)), c2 = r32 * r37, s2 = r28 * r37;
+    const double r37 = 1.0 / sqrt(larger(r32 * r32 + r28 * r28, 0.0)), c2 = r32 * r37, s2 = r28 * r37;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
     next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
@@ -1746,7 +1924,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         return;
     }
     const double f1 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r6 - r7, 1414.2135623495249 * sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r6 - r7, 1414.2135623495249 * sqrt(larger(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r18 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r18;
         const double s1 = w1 * shared->r1 * r18;
@@ -1797,7 +1975,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

@@ -360,10 +360,14 @@ const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
 /// Inverse iterations that tell in what direction the equations change least.
 const INVERSIONS: usize = 3;
 /// So many plain steps lead a candidate to where the equations hold within rounding, or it is polished with more care: where each pivot of
-/// the normal equations is more than this share of their size, and than so many times what the candidate misses.
+/// the normal equations is more than a share of their size. Where one is less than so many times what the candidate missed, a second answer
+/// is looked for: `STEEP` where the candidate stands for a double root, or else `MILD`.
 const APPROACHES: usize = 3;
 const PLAIN: f64 = 1e-6;
 const STEEP: f64 = 400.0;
+const MILD: f64 = 4.0;
+/// Up to such a turn in a step a few terms of its cosine's and sine's series are enough.
+const TURN: f64 = 0.01;
 /// Points around a candidate are so much farther where no nearer one leads to an answer.
 const FARTHER: f64 = 16.0;
 const FARTHEST: f64 = 256.0;
@@ -914,22 +918,22 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r371 = r313 - r36; let r377 = 0.0 - (s1 * (r312 - r34) + c1 * (r311 - r33)); let r378 = r311 - r80;
     let r379 = r312 - r81; let r380 = r313 - r82; let r393 = r311 - r174; let r394 = r312 - r175;
     let r395 = r313 - r176; let r408 = r311 - r275; let r409 = r312 - r276; let r410 = r313 - r277;
-    let r422 = 0.0 - c1 * r324; let r424 = 0.0 - s1 * r324; let r428 = c1 * r316 - (0.0 - s1 * r320);
-    let r462 = c1 * r286; let r463 = s1 * r286; let r467 = 0.0 - (s1 * r283 + c1 * r280); let r502 = c1 * r334;
-    let r503 = s1 * r334; let r507 = 0.0 - (s1 * r331 + c1 * r328);
+    let r465 = 0.0 - c1 * r324; let r467 = 0.0 - s1 * r324; let r471 = c1 * r316 - (0.0 - s1 * r320);
+    let r505 = c1 * r286; let r506 = s1 * r286; let r510 = 0.0 - (s1 * r283 + c1 * r280); let r545 = c1 * r334;
+    let r546 = s1 * r334; let r550 = 0.0 - (s1 * r331 + c1 * r328);
     [
         [0.0 - r312, c1 * r362, c1 * r371, 0.99999999995 * (r351 * r380 - r353 * r379), 0.99999999995 * (r357 * r395 - r359 * r394), r193 * r410 - r200 * r409],
         [r311, s1 * r362, s1 * r371, 0.99999999995 * (r353 * r378 - r349 * r380), 0.99999999995 * (r359 * r393 - r355 * r395), r200 * r408 - r186 * r410],
         [0.0, 0.0 - (s1 * (r312 - r5) + c1 * (r311 - r2)), r377, 0.99999999995 * (r349 * r379 - r351 * r378), 0.99999999995 * (r355 * r394 - r357 * r393), r186 * r409 - r193 * r408],
-        [r320, r422, r422, 0.99999999995 * (r353 * r320 - r351 * r324), 0.99999999995 * (r359 * r320 - r357 * r324), r200 * r320 - r193 * r324],
-        [0.0 - r316, r424, r424, 0.99999999995 * (r349 * r324 - r353 * r316), 0.99999999995 * (r355 * r324 - r359 * r316), r186 * r324 - r200 * r316],
-        [0.0, r428, r428, 0.99999999995 * (r351 * r316 - r349 * r320), 0.99999999995 * (r357 * r316 - r355 * r320), r193 * r316 - r186 * r320],
-        [0.0 - r283, r462, r462, 0.99999999995 * (r351 * r286 - r353 * r283), 0.99999999995 * (r357 * r286 - r359 * r283), r193 * r286 - r200 * r283],
-        [r280, r463, r463, 0.99999999995 * (r353 * r280 - r349 * r286), 0.99999999995 * (r359 * r280 - r355 * r286), r200 * r280 - r186 * r286],
-        [0.0, r467, r467, 0.99999999995 * (r349 * r283 - r351 * r280), 0.99999999995 * (r355 * r283 - r357 * r280), r186 * r283 - r193 * r280],
-        [r330 - r329, r502, r502, 0.99999999995 * (r351 * r334 - r353 * r331), 0.99999999995 * (r357 * r334 - r359 * r331), r193 * r334 - r200 * r331],
-        [r328, r503, r503, 0.99999999995 * (r353 * r328 - r349 * r334), 0.99999999995 * (r359 * r328 - r355 * r334), r200 * r328 - r186 * r334],
-        [0.0, r507, r507, 0.99999999995 * (r349 * r331 - r351 * r328), 0.99999999995 * (r355 * r331 - r357 * r328), r186 * r331 - r193 * r328],
+        [r320, r465, r465, 0.99999999995 * (r353 * r320 - r351 * r324), 0.99999999995 * (r359 * r320 - r357 * r324), r200 * r320 - r193 * r324],
+        [0.0 - r316, r467, r467, 0.99999999995 * (r349 * r324 - r353 * r316), 0.99999999995 * (r355 * r324 - r359 * r316), r186 * r324 - r200 * r316],
+        [0.0, r471, r471, 0.99999999995 * (r351 * r316 - r349 * r320), 0.99999999995 * (r357 * r316 - r355 * r320), r193 * r316 - r186 * r320],
+        [0.0 - r283, r505, r505, 0.99999999995 * (r351 * r286 - r353 * r283), 0.99999999995 * (r357 * r286 - r359 * r283), r193 * r286 - r200 * r283],
+        [r280, r506, r506, 0.99999999995 * (r353 * r280 - r349 * r286), 0.99999999995 * (r359 * r280 - r355 * r286), r200 * r280 - r186 * r286],
+        [0.0, r510, r510, 0.99999999995 * (r349 * r283 - r351 * r280), 0.99999999995 * (r355 * r283 - r357 * r280), r186 * r283 - r193 * r280],
+        [r330 - r329, r545, r545, 0.99999999995 * (r351 * r334 - r353 * r331), 0.99999999995 * (r357 * r334 - r359 * r331), r193 * r334 - r200 * r331],
+        [r328, r546, r546, 0.99999999995 * (r353 * r328 - r349 * r334), 0.99999999995 * (r359 * r328 - r355 * r334), r200 * r328 - r186 * r334],
+        [0.0, r550, r550, 0.99999999995 * (r349 * r331 - r351 * r328), 0.99999999995 * (r355 * r331 - r357 * r328), r186 * r331 - r193 * r328],
     ]
 }
 
@@ -993,9 +997,6 @@ impl Answers<'_> {
             return;
         }
         let missed = end.1.relative;
-        if let Some(end) = approached(p, &q, missed) {
-            return self.keep(p, branch, last, end, free);
-        }
         end = polish(p, end, &NONE_FREE);
         let miss = end.1.relative;
         if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
@@ -1018,6 +1019,16 @@ impl Answers<'_> {
         self.keep(p, branch, last, end, free);
     }
 
+    /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
+    fn arrive(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, close: bool, approach: Approach, free: [bool; JOINTS]) {
+        let Approach { end, fit, missed, pivot } = approach;
+        self.keep(p, branch, last, (end, fit), free);
+        if pivot < missed * if close { STEEP } else { MILD } {
+            self.unsound = number;
+            self.twin(p, branch, last, &end, missed, free);
+        }
+    }
+
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
     /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
     fn twin(&mut self, p: &Parameters, branch: usize, last: usize, end: &[f64; JOINTS], missed: f64, free: [bool; JOINTS]) {
@@ -1027,8 +1038,10 @@ impl Answers<'_> {
         }
         for times in TWINS_AT {
             let start = stepped(end, &way.map(|way| times * missed.sqrt() * way));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start, &NONE_FREE);
+            let start = match approached(p, &place(&start), &start) {
+                Some(Approach { end, fit, .. }) => (end, fit),
+                None => polish(p, (start, measure(p, &start)), &NONE_FREE),
+            };
             self.keep(p, branch, last, start, free);
         }
     }
@@ -1539,45 +1552,155 @@ fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
     least / most
 }
 
-/// Where plain steps lead from `q`, which misses by `missed`, if the equations hold there within rounding and are regular on the way.
-fn approached(p: &Parameters, q: &[f64; JOINTS], missed: f64) -> Option<([f64; JOINTS], Fit)> {
-    let (mut end, mut relative) = (*q, missed);
+/// Where the short way has led, what the candidate missed, and the least pivot of its normal equations as a share of their size.
+struct Approach {
+    end: [f64; JOINTS],
+    fit: Fit,
+    missed: f64,
+    pivot: f64,
+}
+
+/// Where plain steps lead from `q`, of which the equations read `at`, if they hold there within rounding and are regular on the way.
+fn approached(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Option<Approach> {
+    let (mut at, mut end) = (*at, *q);
+    step_back(&[0.0; JOINTS], &mut at, &mut end)?;
+    let mut first = None;
     for _ in 0..APPROACHES {
-        end = stepped(&end, &normal_step(p, &end, relative)?);
-        let fit = measure(p, &end);
+        let here = short(p, &at);
+        let (step, pivot) = normal_step(&here)?;
+        let (missed, pivot) = *first.get_or_insert_with(|| (missed_by(&here), pivot));
+        step_back(&step, &mut at, &mut end)?;
+        let fit = measure_at(p, &at, &end);
         if fit.relative < RESOLUTION {
-            return if fit.accepted { Some((end, fit)) } else { None };
+            return if fit.accepted { Some(Approach { end, fit, missed, pivot }) } else { None };
         }
-        relative = fit.relative;
     }
     None
 }
 
-/// The step `(J^T J)^-1 J^T f` by elimination without pivoting; none where a pivot is small.
-fn normal_step(p: &Parameters, q: &[f64; JOINTS], missed: f64) -> Option<[f64; JOINTS]> {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
+/// The largest share of a value in its size.
+#[inline(always)]
+fn missed_by(here: &Short) -> f64 {
+    let share = |row: usize| here.value[row].abs() / f64::max(here.size[row], f64::MIN_POSITIVE);
+    (0..SHORTS).fold(0.0, |missed, row| f64::max(missed, share(row)))
+}
+
+/// The equations of the short way to a solution nearby: their values, what these are shares of, and their derivatives, joint by joint.
+const SHORTS: usize = 6;
+
+struct Short {
+    value: [f64; SHORTS],
+    size: [f64; SHORTS],
+    columns: [[f64; SHORTS]; JOINTS],
+}
+
+#[inline(always)]
+fn short(p: &Parameters, at: &[f64; PLACES]) -> Short {
+    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
+    let r1 = 1e-5 * s1; let r2 = 0.175 * c1 - r1; let r4 = 1e-5 * c1; let r5 = 0.175 * s1 + r4;
+    let r6 = c1 * c2; let r7 = s1 * c2; let r8 = c1 * s2; let r9 = s1 * s2; let r10 = 0.175 * r6;
+    let r14 = 0.175 * r7; let r18 = 0.175 * s2; let r23 = 2e-5 * s1; let r27 = 2e-5 * c1;
+    let r33 = r2 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
+    let r34 = r5 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
+    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)); let r39 = c3 * r6 - s3 * r8;
+    let r42 = c3 * r7 - s3 * r9; let r45 = s2 * c3 + c2 * s3; let r48 = s3 * r6 + c3 * r8;
+    let r51 = s3 * r7 + c3 * r9; let r54 = c2 * c3 - s2 * s3;
+    let r80 = r33 - (0.175 * r39 - r23 + 1.395 * r48) + (0.17501 * r39 - r1 + 1.57 * r48);
+    let r81 = r34 - (r27 + 0.175 * r42 + 1.395 * r51) + (r4 + 0.17501 * r42 + 1.57 * r51);
+    let r82 = r36 - (1.395 * r54 - 0.175 * r45) + (1.57 * r54 - 0.17501 * r45);
+    let r84 = 9.999999999e-11 * c4 + 0.9999999999; let r86 = s1 * s4; let r89 = c4 - 1.0;
+    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89); let r94 = c1 * s4;
+    let r99 = r42 * r84 - 9.9999999995e-6 * r94 + 9.999999999e-6 * (r51 * r89);
+    let r103 = 9.999999999e-6 * (r54 * r89) - r45 * r84;
+    let r110 = 9.9999999995e-6 * (s4 * r39) - s1 * c4 + 0.99999999995 * (s4 * r48);
+    let r117 = c1 * c4 + 9.9999999995e-6 * (s4 * r42) + 0.99999999995 * (s4 * r51);
+    let r122 = 0.99999999995 * (s4 * r54) - 9.9999999995e-6 * (s4 * r45);
+    let r126 = 9.999999999e-6 * (r39 * r89) + 0.99999999995 * r86;
+    let r128 = 0.9999999999 * c4 + 9.999999999e-11; let r130 = r126 + r48 * r128;
+    let r134 = 9.999999999e-6 * (r42 * r89) - 0.99999999995 * r94; let r136 = r134 + r51 * r128;
+    let r140 = r54 * r128 - 9.999999999e-6 * (r45 * r89);
+    let r156 = r80 - (0.17501 * r92 + 1e-5 * r110 + 1.57 * r130);
+    let r157 = r81 - (0.17501 * r99 + 1e-5 * r117 + 1.57 * r136);
+    let r158 = r82 - (0.17501 * r103 + 1e-5 * r122 + 1.57 * r140);
+    let r173 = 1.13501 * r103 + 2e-5 * r122 + 1.57001 * r140;
+    let r174 = r156 + (1.13501 * r92 + 2e-5 * r110 + 1.57001 * r130);
+    let r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136); let r176 = r158 + r173;
+    let r178 = 0.9999999999 * c5 + 9.999999999e-11; let r180 = c5 - 1.0; let r184 = s5 * r130;
+    let r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.99999999995 * r184; let r191 = s5 * r136;
+    let r193 = r99 * r178 - 9.999999999e-6 * (r117 * r180) - 0.99999999995 * r191; let r198 = s5 * r140;
+    let r200 = r103 * r178 - 9.999999999e-6 * (r122 * r180) - 0.99999999995 * r198;
+    let r203 = 9.999999999e-11 * c5 + 0.9999999999;
+    let r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
+    let r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
+    let r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
+    let r225 = 0.99999999995 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110); let r227 = r225 + c5 * r130;
+    let r232 = 0.99999999995 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117); let r234 = r232 + c5 * r136;
+    let r239 = 0.99999999995 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122); let r241 = r239 + c5 * r140;
+    let r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
+    let r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
+    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241; let r260 = 1.27001 * r186;
+    let r265 = 1.27001 * r193; let r270 = 1.27001 * r200;
+    let r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
+    let r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
+    let r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241); let r280 = c6 * r208 + s6 * r227;
+    let r283 = c6 * r214 + s6 * r234; let r286 = c6 * r220 + s6 * r241; let r289 = c6 * r227 - s6 * r208;
+    let r292 = c6 * r234 - s6 * r214; let r295 = c6 * r241 - s6 * r220;
+    let r299 = r260 + 1e-5 * r280 + 1.57002 * r289; let r303 = r265 + 1e-5 * r283 + 1.57002 * r292;
+    let r307 = r270 + 1e-5 * r286 + 1.57002 * r295; let r311 = r299 + (r275 - r299);
+    let r312 = r303 + (r276 - r303); let r313 = r307 + (r277 - r307);
+    let r316 = 3.673205103373274e-6 * r186 + 0.9999999999932537 * r289;
+    let r320 = 3.673205103373274e-6 * r193 + 0.9999999999932537 * r292;
+    let r324 = 3.673205103373274e-6 * r200 + 0.9999999999932537 * r295;
+    let r328 = 0.9999999999932537 * r186 - 3.673205103373274e-6 * r289;
+    let r331 = 0.9999999999932537 * r193 - 3.673205103373274e-6 * r292;
+    let r334 = 0.9999999999932537 * r200 - 3.673205103373274e-6 * r295; let r349 = r39 - 1e-5 * r48;
+    let r351 = r42 - 1e-5 * r51; let r353 = 0.0 - r45 - 1e-5 * r54; let r355 = r110 + 1e-5 * r92;
+    let r357 = r117 + 1e-5 * r99; let r359 = r122 + 1e-5 * r103; let r362 = r313 - 0.495;
+    let r371 = r313 - r36; let r377 = 0.0 - (s1 * (r312 - r34) + c1 * (r311 - r33)); let r378 = r311 - r80;
+    let r379 = r312 - r81; let r380 = r313 - r82; let r393 = r311 - r174; let r394 = r312 - r175;
+    let r395 = r313 - r176; let r408 = r311 - r275; let r409 = r312 - r276; let r410 = r313 - r277;
+    let r448 = p.r31_ * r320 - p.r21_ * r324 + (p.r22_ * r286 - p.r32_ * r283); let r451 = 0.0 - s1;
+    let r454 = p.r11_ * r324 - p.r31_ * r316 + (p.r32_ * r280 - p.r12_ * r286);
+    let r459 = p.r21_ * r316 - p.r11_ * r320 + (p.r12_ * r283 - p.r22_ * r280);
+    Short {
+        value: [r311 - p.px, r312 - p.py, r313 - p.pz, 0.5 * (p.r23_ * r334 - p.r33_ * r331 + r448), 0.5 * (p.r33_ * r328 - p.r13_ * r334 + r454), 0.5 * (p.r13_ * r331 - p.r23_ * r328 + r459)],
+        size: [2.840000001757606, 2.840000001757606, 2.840000001757606, 1.0, 1.0, 1.0],
+        columns: [
+            [0.0 - r312, r311, 0.0, 0.0, 0.0, 1.0],
+            [c1 * r362, s1 * r362, 0.0 - (s1 * (r312 - r5) + c1 * (r311 - r2)), r451, c1, 0.0],
+            [c1 * r371, s1 * r371, r377, r451, c1, 0.0],
+            [0.99999999995 * (r351 * r380 - r353 * r379), 0.99999999995 * (r353 * r378 - r349 * r380), 0.99999999995 * (r349 * r379 - r351 * r378), 0.99999999995 * r349, 0.99999999995 * r351, 0.99999999995 * r353],
+            [0.99999999995 * (r357 * r395 - r359 * r394), 0.99999999995 * (r359 * r393 - r355 * r395), 0.99999999995 * (r355 * r394 - r357 * r393), 0.99999999995 * r355, 0.99999999995 * r357, 0.99999999995 * r359],
+            [r193 * r410 - r200 * r409, r200 * r408 - r186 * r410, r186 * r409 - r193 * r408, r186, r193, r200],
+        ],
+    }
+}
+
+/// The step `(J^T J)^-1 J^T f` by elimination without pivoting, and the least pivot as a share of the size; none where it is small.
+#[inline(always)]
+fn normal_step(here: &Short) -> Option<([f64; JOINTS], f64)> {
+    let Short { value, columns, .. } = here;
+    let dot = |a: &[f64; SHORTS], b: &[f64; SHORTS]| (0..SHORTS).fold(0.0, |sum, row| sum + a[row] * b[row]);
+    let (mut size, mut least) = (0.0, f64::INFINITY);
     let mut square = [[0.0; JOINTS]; JOINTS];
     let mut step = [0.0; JOINTS];
-    let mut size = 0.0;
     for i in 0..JOINTS {
-        for (row, value) in rows.iter().zip(right) {
-            for j in 0..=i {
-                square[i][j] += row[i] * row[j];
-            }
-            step[i] += row[i] * value;
+        for j in 0..=i {
+            square[i][j] = dot(&columns[i], &columns[j]);
         }
+        step[i] = dot(&columns[i], value);
         size = f64::max(size, square[i][i]);
     }
-    let least = f64::max(PLAIN, STEEP * missed) * size;
+    let mut inverse = [0.0; JOINTS];
     for k in 0..JOINTS {
         let pivot = square[k][k];
-        if pivot.is_nan() || pivot <= least {
+        if pivot.is_nan() || pivot <= PLAIN * size {
             return None;
         }
+        least = f64::min(least, pivot);
+        inverse[k] = 1.0 / pivot;
         for i in k + 1..JOINTS {
-            let factor = square[i][k] / pivot;
+            let factor = square[i][k] * inverse[k];
             for j in k + 1..=i {
                 square[i][j] -= factor * square[j][k];
             }
@@ -1585,13 +1708,51 @@ fn normal_step(p: &Parameters, q: &[f64; JOINTS], missed: f64) -> Option<[f64; J
         }
     }
     for k in (0..JOINTS).rev() {
-        let mut sum = step[k];
         for j in k + 1..JOINTS {
-            sum -= square[j][k] * step[j];
+            step[k] -= square[j][k] * step[j];
         }
-        step[k] = sum / square[k][k];
+        step[k] *= inverse[k];
     }
-    Some(step)
+    Some((step, least / size))
+}
+
+/// Takes a step from `q`, and what the equations read of it; none where a pair is far from the circle.
+#[inline(always)]
+fn step_back(step: &[f64; JOINTS], at: &mut [f64; PLACES], q: &mut [f64; JOINTS]) -> Option<()> {
+    let mut is_round = true;
+    q[0] = in_turn(q[0] - step[0]);
+    is_round &= turn_back(step[0], q[0], at, [0, 1]);
+    q[1] = in_turn(q[1] - step[1]);
+    is_round &= turn_back(step[1], q[1], at, [2, 3]);
+    q[2] = in_turn(q[2] - step[2]);
+    is_round &= turn_back(step[2], q[2], at, [4, 5]);
+    q[3] = in_turn(q[3] - step[3]);
+    is_round &= turn_back(step[3], q[3], at, [6, 7]);
+    q[4] = in_turn(q[4] - step[4]);
+    is_round &= turn_back(step[4], q[4], at, [8, 9]);
+    q[5] = in_turn(q[5] - step[5]);
+    is_round &= turn_back(step[5], q[5], at, [10, 11]);
+    if is_round { Some(()) } else { None }
+}
+
+/// Turns a pair of a cosine and a sine back by a way to an angle, nearer to the circle; not so for a pair far from the circle.
+#[inline(always)]
+fn turn_back(way: f64, angle: f64, at: &mut [f64; PLACES], [cosine, sine]: [usize; 2]) -> bool {
+    let (c, s) = (at[cosine], at[sine]);
+    let (norm, square) = (1.5 - 0.5 * (c * c + s * s), way * way);
+    let across = norm * way * (1.0 - square * (1.0 - square * (1.0 / 20.0)) * (1.0 / 6.0));
+    let along = norm * (1.0 - 0.5 * square * (1.0 - square * (1.0 / 12.0)));
+    (at[cosine], at[sine]) = (along * c + across * s, along * s - across * c);
+    if way.abs() > TURN {
+        (at[cosine], at[sine]) = (angle.cos(), angle.sin());
+    }
+    (norm - 1.0).abs() <= TURN
+}
+
+/// An angle in (-pi, pi], which it seldom is far out of.
+#[inline(always)]
+fn in_turn(angle: f64) -> f64 {
+    if angle.abs() < core::f64::consts::PI { angle } else { wrap(angle) }
 }
 
 /// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
@@ -1898,14 +2059,21 @@ impl Answers<'_> {
             return self.flush_pairs(p);
         }
         let angles = angles(&self.at);
-        let fits = fits(p, &self.at, self.waiting);
         let waiting = core::mem::take(&mut self.waiting).min(ROOM);
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
-            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
-            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
             let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
+            let at = core::array::from_fn(|place| self.at[place][k]);
+            let approached = if free != NONE_FREE { None } else { approached(p, &at, &q) };
+            let number = self.candidates + 1 + k - waiting;
+            let Some(approach) = approached else {
+                usual = false;
+                self.refine(p, number, branch, last, q, free);
+                continue;
+            };
+            let holds = approach.pivot >= approach.missed * if close { STEEP } else { MILD };
+            let (q, fit) = (approach.end, &approach.fit);
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;
@@ -1913,11 +2081,7 @@ impl Answers<'_> {
                 continue;
             }
             usual = false;
-            if holds {
-                self.keep(p, branch, last, (q, fit), free);
-            } else {
-                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
-            }
+            self.arrive(p, number, branch, last, close, approach, free);
         }
     }
 

@@ -36,6 +36,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -127,7 +139,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -153,7 +165,7 @@ static Parameters parameters(const double *target)
 {
     const double px = target[0], py = target[1], pz = target[2], dx = target[3], dy = target[4];
     const double dz = target[5];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(0.3610777288643948, fabs(px)), fabs(py)), fabs(pz)), fabs(dx)), fabs(dy)), fabs(dz));
+    const double magnitude = larger(larger(larger(larger(larger(larger(0.3610777288643948, fabs(px)), fabs(py)), fabs(pz)), fabs(dx)), fabs(dy)), fabs(dz));
     const Parameters result = {px, py, pz, dx, dy, dz, magnitude};
     return result;
 }
@@ -269,12 +281,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -428,7 +440,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -454,8 +466,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -473,7 +485,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -499,7 +511,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -596,7 +608,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -616,9 +628,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -673,7 +685,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -732,7 +744,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -807,7 +819,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -985,7 +997,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1302,7 +1314,7 @@ typedef struct {
 INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r37 = 0.01231 * shared->r36, r38 = 0.01231 * shared->r34;
-    const double r43 = 1.0 / sqrt(fmax(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43;
+    const double r43 = 1.0 / sqrt(larger(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43;
     const double s5 = 0.0 - r37 * r43;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4, c5, s5,
@@ -1341,8 +1353,8 @@ typedef struct {
 /* Chart 1 of block 6: generic. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14, r19 = 1.0 / sqrt(fmax(r17, 0.0));
-    const double c4 = shared->r13 * r19, s4 = shared->r14 * r19;
+    const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
+    const double r19 = 1.0 / sqrt(larger(r17, 0.0)), c4 = shared->r13 * r19, s4 = shared->r14 * r19;
     Known next = *known; next.c4 = c4; next.s4 = s4;
     block_7(p, &next, answers);
 }
@@ -1426,7 +1438,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
 {
     const double r32 = 0.015 * shared->r28 - (0.0 - 0.105 * shared->r27);
     const double r35 = 0.015 * shared->r27 - 0.105 * shared->r28;
-    const double r40 = 1.0 / sqrt(fmax(r35 * r35 + r32 * r32, 0.0)), c2 = r35 * r40, s2 = r32 * r40;
+    const double r40 = 1.0 / sqrt(larger(r35 * r35 + r32 * r32, 0.0)), c2 = r35 * r40, s2 = r32 * r40;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_5(p, &next, answers);
 }
@@ -1465,7 +1477,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double f1 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r21 - r22, known->fr * sqrt(fmax(r26, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r21 - r22, known->fr * sqrt(larger(r26, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r34 = 1.0 / r23, c1 = w1 * shared->r16 * r34;
         const double s1 = w1 * shared->r10 * r34;
@@ -1529,7 +1541,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double fr = 1.0;
-    const Roots roots0 = square_roots(shared->r52 * shared->r52 - r70 - r71, sqrt(fmax(r75, 0.0)));
+    const Roots roots0 = square_roots(shared->r52 * shared->r52 - r70 - r71, sqrt(larger(r75, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double wr = roots0.values[i0], r84 = wr * shared->r26 - (0.0 - shared->r35 * shared->r52);
         const double r88 = 1.0 / r72, r89 = (shared->r26 * shared->r52 - wr * shared->r35) * r88, cr = r89;
@@ -1586,7 +1598,7 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 /* Chart 1 of block 1: across x. */
 static void chart_1_1(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3;
+    const double r3 = sqrt(larger(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3;
     const double ux = 0.0, uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5;
     const double vz = p->dx * r4;
     Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
@@ -1603,7 +1615,7 @@ static double claim_1_1(const Parameters *p)
 /* Chart 2 of block 1: across y. */
 static void chart_1_2(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
+    const double r3 = sqrt(larger(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
     const double ux = 0.0 - r5, uy = 0.0, uz = r4, vx = p->dy * r4, vy = 0.0 - p->dz * r5 - p->dx * r4;
     const double vz = p->dy * r5;
     Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
@@ -1620,7 +1632,7 @@ static double claim_1_2(const Parameters *p)
 /* Chart 3 of block 1: across z. */
 static void chart_1_3(const Parameters *p, Answers *answers)
 {
-    const double r3 = sqrt(fmax(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3;
+    const double r3 = sqrt(larger(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3;
     const double ux = r4, uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4;
     const double vz = 0.0 - p->dx * r5 - p->dy * r4;
     Known next = NOTHING_KNOWN; next.last = 1; next.ux = ux; next.uy = uy; next.uz = uz;
@@ -1791,7 +1803,7 @@ double nao_left_arm_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1820,7 +1832,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1829,7 +1841,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + NAO_LEFT_ARM_MOST_TURNS);
+    *last = lesser(*last, *first + NAO_LEFT_ARM_MOST_TURNS);
 }
 
 size_t nao_left_arm_count_turns(const double *q, const double *limits)
@@ -1842,7 +1854,7 @@ size_t nao_left_arm_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), NAO_LEFT_ARM_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), NAO_LEFT_ARM_MOST_TURNS);
     }
     return (size_t)count;
 }

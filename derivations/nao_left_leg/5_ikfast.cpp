@@ -95,6 +95,18 @@ void nao_left_leg_forward(const double *q, double *target);
 static const int INPUTS = NAO_LEFT_LEG_INPUTS;
 static const int JOINTS = NAO_LEFT_LEG_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -182,7 +194,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -209,7 +221,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.3467054146165801, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -337,40 +349,39 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r250 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
     const double r253 = 0.7071067811865475 * (r65 * r164) + 0.5 * (r69 * r168);
     const double r256 = 0.7071067811865475 * (r65 * r175) - 0.5 * (r69 * r177);
-    const double r272 = 0.0 - 0.7071067811865475 * (r52 + r184 - r54);
-    const double r277 = 0.0 - 0.5 * (r69 * r184 - r73 * r182), r279 = 0.0 - 0.7071067811865475 * r115;
-    const double r280 = 0.7071067811865475 * (s1 * r115);
-    const double r284 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r184);
-    const double r288 = 0.7071067811865475 * (r65 * r182) + 0.5 * (r69 * r115), r289 = 0.0 - r288;
-    const double r309 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
-    const double r313 = r309 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
-    const double r316 = 0.0 - 0.7071067811865475 * (s1 * r128 - s1 * r130);
-    const double r318 = 0.5 * (r69 * r128 - r73 * r130);
-    const double r322 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r323 = 0.0 - r322;
-    const double r324 = 0.7071067811865475 * (s1 * r132);
-    const double r329 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
-    const double r335 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
-    const double r339 = 0.7071067811865475 * r77 - r78;
+    const double r258 = 0.7071067811865475 * r77 - r78, r273 = 0.0 - 0.7071067811865475 * (r52 + r184 - r54);
+    const double r278 = 0.0 - 0.5 * (r69 * r184 - r73 * r182), r280 = 0.0 - 0.7071067811865475 * r115;
+    const double r281 = 0.7071067811865475 * (s1 * r115);
+    const double r285 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r184);
+    const double r289 = 0.7071067811865475 * (r65 * r182) + 0.5 * (r69 * r115), r290 = 0.0 - r289;
+    const double r310 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r314 = r310 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r317 = 0.0 - 0.7071067811865475 * (s1 * r128 - s1 * r130);
+    const double r319 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r323 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r324 = 0.0 - r323;
+    const double r325 = 0.7071067811865475 * (s1 * r132);
+    const double r330 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r336 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
     const double r357 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
     const double r361 = r357 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
     const double r367 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
     const double r371 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
-    const double r372 = 0.7071067811865475 * (s1 * r339);
-    const double r376 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r339);
-    const double r382 = 0.5 * (r69 * r339) - 0.7071067811865475 * (r65 * r139);
+    const double r372 = 0.7071067811865475 * (s1 * r258);
+    const double r376 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r258);
+    const double r382 = 0.5 * (r69 * r258) - 0.7071067811865475 * (r65 * r139);
     const Jacobian result = { {
         {r208 + 0.03195415544182008 * r80, r213, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r160 - r73 * r164), 0.5 * (r69 * r173 - r73 * r175), r175 * r184 - r173 * r182},
         {r231, r232 - c1 * r93, 0.0 - r236, 0.0 - r240, r244, 0.0 - (r177 * r184 + r173 * r115)},
         {r231, c1 * r103 - r232, r250, r253, r256, r175 * r115 + r177 * r182},
-        {r272, 0.7071067811865475 * (s1 * r184 - s1 * r182), r277, r277, r277, 0.0},
-        {r279, c1 * r184 - r280, r284, r284, r284, 0.0},
-        {r279, r280 - c1 * r182, r289, r289, r289, 0.0},
-        {r313, r316, r318, r318, r318, r184 * r130 - r182 * r128},
-        {r323, 0.0 - (c1 * r128 + r324), r329, r329, r329, 0.0 - (r184 * r132 + r115 * r128)},
-        {r323, c1 * r130 + r324, r335, r335, r335, r115 * r130 + r182 * r132},
+        {r273, 0.7071067811865475 * (s1 * r184 - s1 * r182), r278, r278, r278, 0.0},
+        {r280, c1 * r184 - r281, r285, r285, r285, 0.0},
+        {r280, r281 - c1 * r182, r290, r290, r290, 0.0},
+        {r314, r317, r319, r319, r319, r184 * r130 - r182 * r128},
+        {r324, 0.0 - (c1 * r128 + r325), r330, r330, r330, 0.0 - (r184 * r132 + r115 * r128)},
+        {r324, c1 * r130 + r325, r336, r336, r336, r115 * r130 + r182 * r132},
         {0.0 - r361, 0.7071067811865475 * (s1 * r137 - s1 * r139), r367, r367, r367, r182 * r137 - r184 * r139},
-        {r371, c1 * r137 + r372, r376, r376, r376, r184 * r339 + r115 * r137},
-        {r371, 0.0 - (c1 * r139 + r372), r382, r382, r382, 0.0 - (r115 * r139 + r182 * r339)},
+        {r371, c1 * r137 + r372, r376, r376, r376, r184 * r258 + r115 * r137},
+        {r371, 0.0 - (c1 * r139 + r372), r382, r382, r382, 0.0 - (r115 * r139 + r182 * r258)},
     } };
     return result;
 }
@@ -393,12 +404,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -553,7 +564,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -579,8 +590,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -598,7 +609,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -624,7 +635,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -721,7 +732,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -741,9 +752,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -795,7 +806,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -855,7 +866,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -930,7 +941,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1108,7 +1119,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1361,7 +1372,7 @@ typedef struct {
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
-    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
+    const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, c3, s3, known->c4, known->s4, known->c5, known->s5,
         known->c6, known->s6,
@@ -1397,8 +1408,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
-    const double c2 = shared->r21 * r26, s2 = shared->r19 * r26;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
+    const double r26 = 1.0 / sqrt(larger(r24, 0.0)), c2 = shared->r21 * r26, s2 = shared->r19 * r26;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
@@ -1494,7 +1505,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
+    const double r104 = 1.0 / sqrt(larger(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c5 = c5;
     next.s5 = s5; next.f5 = f5;
     block_4(p, &next, answers);
@@ -1565,7 +1576,7 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
         return;
     }
     const double f6 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(larger(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r36 = 1.0 / r26, c6 = 0.0 - w6 * shared->r18 * r36;
         const double s6 = w6 * shared->r11 * r36;
@@ -1651,7 +1662,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

@@ -44,6 +44,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -135,7 +147,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -165,7 +177,7 @@ static Parameters parameters(const double *target)
     const double left_r23 = target[8], left_r31 = target[9], left_r32 = target[10], left_r33 = target[11];
     const double right_px = target[12], right_py = target[13], right_pz = target[14], right_dx = target[15];
     const double right_dy = target[16], right_dz = target[17];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_dx)), fabs(right_dy)), fabs(right_dz));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_dx)), fabs(right_dy)), fabs(right_dz));
     const Parameters result = {left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude};
     return result;
 }
@@ -367,29 +379,28 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r367 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
     const double r370 = 0.7071067811865475 * (r65 * r281) + 0.5 * (r69 * r285);
     const double r373 = 0.7071067811865475 * (r65 * r292) - 0.5 * (r69 * r294);
-    const double r389 = 0.0 - 0.7071067811865475 * (r52 + r301 - r54);
-    const double r391 = 0.7071067811865475 * (left_s1 * r301 - left_s1 * r299);
-    const double r394 = 0.0 - 0.5 * (r69 * r301 - r73 * r299), r396 = 0.0 - 0.7071067811865475 * r115;
-    const double r397 = 0.7071067811865475 * (left_s1 * r115);
-    const double r401 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r301);
-    const double r405 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115), r406 = 0.0 - r405;
-    const double r426 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
-    const double r430 = r426 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
-    const double r432 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
-    const double r435 = 0.5 * (r69 * r128 - r73 * r130);
-    const double r439 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r440 = 0.0 - r439;
-    const double r441 = 0.7071067811865475 * (left_s1 * r132);
-    const double r446 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
-    const double r452 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
-    const double r456 = 0.7071067811865475 * r77 - r78;
+    const double r375 = 0.7071067811865475 * r77 - r78, r390 = 0.0 - 0.7071067811865475 * (r52 + r301 - r54);
+    const double r392 = 0.7071067811865475 * (left_s1 * r301 - left_s1 * r299);
+    const double r395 = 0.0 - 0.5 * (r69 * r301 - r73 * r299), r397 = 0.0 - 0.7071067811865475 * r115;
+    const double r398 = 0.7071067811865475 * (left_s1 * r115);
+    const double r402 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r301);
+    const double r406 = 0.7071067811865475 * (r65 * r299) + 0.5 * (r69 * r115), r407 = 0.0 - r406;
+    const double r427 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r431 = r427 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r433 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    const double r436 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r440 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r441 = 0.0 - r440;
+    const double r442 = 0.7071067811865475 * (left_s1 * r132);
+    const double r447 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r453 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
     const double r474 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
     const double r478 = r474 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
     const double r481 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
     const double r484 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
     const double r488 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
-    const double r489 = 0.7071067811865475 * (left_s1 * r456);
-    const double r493 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r456);
-    const double r499 = 0.5 * (r69 * r456) - 0.7071067811865475 * (r65 * r139);
+    const double r489 = 0.7071067811865475 * (left_s1 * r375);
+    const double r493 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r375);
+    const double r499 = 0.5 * (r69 * r375) - 0.7071067811865475 * (r65 * r139);
     const double r523 = r225 + (r219 + r221 - r223), r527 = r235 + (r229 + r231 - r233);
     const double r531 = r246 + (r244 + (r240 + r242)), r536 = r223 - r225, r538 = r233 - r235;
     const double r540 = r244 + r246, r545 = right_c5 * r194 - right_s5 * r195;
@@ -422,15 +433,15 @@ static Jacobian jacobian(const Parameters *p, const double *at)
         {r325 + 0.03195415544182008 * r80, 0.0 - r329, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r277 - r73 * r281), 0.5 * (r69 * r290 - r73 * r292), r292 * r301 - r290 * r299, 0.0, 0.0, 0.0, 0.0, 0.0},
         {r348, r349 - left_c1 * r93, 0.0 - r353, 0.0 - r357, r361, 0.0 - (r294 * r301 + r290 * r115), 0.0, 0.0, 0.0, 0.0, 0.0},
         {r348, left_c1 * r103 - r349, r367, r370, r373, r292 * r115 + r294 * r299, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r389, r391, r394, r394, r394, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r396, left_c1 * r301 - r397, r401, r401, r401, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r396, r397 - left_c1 * r299, r406, r406, r406, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r430, 0.0 - r432, r435, r435, r435, r301 * r130 - r299 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r440, 0.0 - (left_c1 * r128 + r441), r446, r446, r446, 0.0 - (r301 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r440, left_c1 * r130 + r441, r452, r452, r452, r115 * r130 + r299 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r390, r392, r395, r395, r395, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r397, left_c1 * r301 - r398, r402, r402, r402, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r397, r398 - left_c1 * r299, r407, r407, r407, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r431, 0.0 - r433, r436, r436, r436, r301 * r130 - r299 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r441, 0.0 - (left_c1 * r128 + r442), r447, r447, r447, 0.0 - (r301 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r441, left_c1 * r130 + r442, r453, r453, r453, r115 * r130 + r299 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0 - r478, r481, r484, r484, r484, r299 * r137 - r301 * r139, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r488, left_c1 * r137 + r489, r493, r493, r493, r301 * r456 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r488, 0.0 - (left_c1 * r139 + r489), r499, r499, r499, 0.0 - (r115 * r139 + r299 * r456), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r488, left_c1 * r137 + r489, r493, r493, r493, r301 * r375 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r488, 0.0 - (left_c1 * r139 + r489), r499, r499, r499, 0.0 - (r115 * r139 + r299 * r375), 0.0, 0.0, 0.0, 0.0, 0.0},
         {r572 + 0.03195415544182008 * r213, 0.0, 0.0, 0.0, 0.0, 0.0, r576, 0.5 * (r206 * r226 - r208 * r236), 0.5 * (r206 * r523 - r208 * r527), 0.0 - 0.5 * (r206 * r536 - r208 * r538), r538 * r547 - r536 * r545},
         {0.0 - r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r226, r601, r604, r607, r540 * r547 + r536 * r550},
         {r595, 0.0, 0.0, 0.0, 0.0, 0.0, r597 - left_c1 * r236, r612, r615, r618, r538 * r550 + r540 * r545},
@@ -459,12 +470,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -624,7 +635,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -650,8 +661,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -669,7 +680,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -695,7 +706,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -792,7 +803,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -812,9 +823,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -869,7 +880,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -934,7 +945,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -1009,7 +1020,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1187,7 +1198,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1544,8 +1555,9 @@ typedef struct {
 /* Chart 1 of block 12: generic. */
 INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
-    const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38, r44 = 1.0 / sqrt(fmax(r42, 0.0));
-    const double right_c6 = shared->r39 * r44, right_s6 = 0.0 - shared->r38 * r44;
+    const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38;
+    const double r44 = 1.0 / sqrt(larger(r42, 0.0)), right_c6 = shared->r39 * r44;
+    const double right_s6 = 0.0 - shared->r38 * r44;
     Known next = *known; next.right_c6 = right_c6; next.right_s6 = right_s6;
     block_13(p, &next, answers);
 }
@@ -1657,7 +1669,7 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     }
     const double right_f3 = 1.0, r45 = shared->r19 * shared->r32 + shared->r30 * shared->r33;
     const double r48 = shared->r32 * shared->r33 - shared->r19 * shared->r30;
-    const double r53 = 1.0 / sqrt(fmax(r48 * r48 + r45 * r45, 0.0)), right_c3 = r48 * r53;
+    const double r53 = 1.0 / sqrt(larger(r48 * r48 + r45 * r45, 0.0)), right_c3 = r48 * r53;
     const double right_s3 = 0.0 - r45 * r53;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.right_c3 = right_c3; next.right_s3 = right_s3; next.right_f3 = right_f3;
@@ -1754,7 +1766,7 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double right_f2 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r27 - r28, sqrt(fmax(r32, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r27 - r28, sqrt(larger(r32, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w2 = roots0.values[i0], r39 = 1.0 / r29, right_c2 = right_w2 * shared->r21 * r39;
         const double right_s2 = 0.0 - right_w2 * shared->r20 * r39;
@@ -1870,7 +1882,7 @@ typedef struct {
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
-    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
+    const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
     Known next = *known; next.left_c3 = left_c3; next.left_s3 = left_s3;
     block_7(p, &next, answers);
@@ -1908,8 +1920,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
-    const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
+    const double r26 = 1.0 / sqrt(larger(r24, 0.0)), left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known; next.left_c2 = left_c2; next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
@@ -2009,7 +2021,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     }
     const double left_f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
+    const double r104 = 1.0 / sqrt(larger(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
     const double left_s5 = r96 * r104;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.left_c5 = left_c5; next.left_s5 = left_s5; next.left_f5 = left_f5;
@@ -2086,7 +2098,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double left_f6 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(larger(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r36 = 1.0 / r26, left_c6 = 0.0 - left_w6 * shared->r18 * r36;
         const double left_s6 = left_w6 * shared->r11 * r36;
@@ -2175,7 +2187,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -2334,7 +2346,7 @@ double nao_legs_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -2363,7 +2375,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -2372,7 +2384,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + NAO_LEGS_MOST_TURNS);
+    *last = lesser(*last, *first + NAO_LEGS_MOST_TURNS);
 }
 
 size_t nao_legs_count_turns(const double *q, const double *limits)
@@ -2385,7 +2397,7 @@ size_t nao_legs_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), NAO_LEGS_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), NAO_LEGS_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -46,6 +46,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -137,7 +149,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -170,7 +182,7 @@ static Parameters parameters(const double *target)
     const double right_r12 = target[16], right_r13 = target[17], right_r21 = target[18];
     const double right_r22 = target[19], right_r23 = target[20], right_r31 = target[21];
     const double right_r32 = target[22], right_r33 = target[23];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
     const Parameters result = {left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude};
     return result;
 }
@@ -388,29 +400,28 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r397 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
     const double r400 = 0.7071067811865475 * (r65 * r311) + 0.5 * (r69 * r315);
     const double r403 = 0.7071067811865475 * (r65 * r322) - 0.5 * (r69 * r324);
-    const double r419 = 0.0 - 0.7071067811865475 * (r52 + r331 - r54);
-    const double r421 = 0.7071067811865475 * (left_s1 * r331 - left_s1 * r329);
-    const double r424 = 0.0 - 0.5 * (r69 * r331 - r73 * r329), r426 = 0.0 - 0.7071067811865475 * r115;
-    const double r427 = 0.7071067811865475 * (left_s1 * r115);
-    const double r431 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r331);
-    const double r435 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115), r436 = 0.0 - r435;
-    const double r456 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
-    const double r460 = r456 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
-    const double r462 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
-    const double r465 = 0.5 * (r69 * r128 - r73 * r130);
-    const double r469 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r470 = 0.0 - r469;
-    const double r471 = 0.7071067811865475 * (left_s1 * r132);
-    const double r476 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
-    const double r482 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
-    const double r486 = 0.7071067811865475 * r77 - r78;
+    const double r405 = 0.7071067811865475 * r77 - r78, r420 = 0.0 - 0.7071067811865475 * (r52 + r331 - r54);
+    const double r422 = 0.7071067811865475 * (left_s1 * r331 - left_s1 * r329);
+    const double r425 = 0.0 - 0.5 * (r69 * r331 - r73 * r329), r427 = 0.0 - 0.7071067811865475 * r115;
+    const double r428 = 0.7071067811865475 * (left_s1 * r115);
+    const double r432 = 0.5 * (r73 * r115) + 0.7071067811865475 * (r65 * r331);
+    const double r436 = 0.7071067811865475 * (r65 * r329) + 0.5 * (r69 * r115), r437 = 0.0 - r436;
+    const double r457 = 0.35355339059327373 * r74 - 0.7071067811865475 * r76;
+    const double r461 = r457 + 0.35355339059327373 * r70 - 0.7071067811865475 * r72;
+    const double r463 = 0.7071067811865475 * (left_s1 * r128 - left_s1 * r130);
+    const double r466 = 0.5 * (r69 * r128 - r73 * r130);
+    const double r470 = 0.4999999999999999 * r66 + 0.7071067811865475 * r68, r471 = 0.0 - r470;
+    const double r472 = 0.7071067811865475 * (left_s1 * r132);
+    const double r477 = 0.5 * (r73 * r132) - 0.7071067811865475 * (r65 * r128);
+    const double r483 = 0.7071067811865475 * (r65 * r130) - 0.5 * (r69 * r132);
     const double r504 = 0.35355339059327373 * r81 + 0.7071067811865475 * r82;
     const double r508 = r504 + 0.35355339059327373 * r79 + 0.7071067811865475 * r80;
     const double r511 = 0.7071067811865475 * (left_s1 * r137 - left_s1 * r139);
     const double r514 = 0.0 - 0.5 * (r69 * r137 - r73 * r139);
     const double r518 = 0.4999999999999999 * r77 - 0.7071067811865475 * r78;
-    const double r519 = 0.7071067811865475 * (left_s1 * r486);
-    const double r523 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r486);
-    const double r529 = 0.5 * (r69 * r486) - 0.7071067811865475 * (r65 * r139);
+    const double r519 = 0.7071067811865475 * (left_s1 * r405);
+    const double r523 = 0.7071067811865475 * (r65 * r137) - 0.5 * (r73 * r405);
+    const double r529 = 0.5 * (r69 * r405) - 0.7071067811865475 * (r65 * r139);
     const double r546 = r237 + (r231 + r233 - r235), r550 = r247 + (r241 + r243 - r245);
     const double r554 = r258 + (r256 + (r252 + r254)), r559 = r235 - r237, r561 = r245 - r247;
     const double r563 = r256 + r258, r569 = right_c5 * r200 - right_s5 * r202;
@@ -430,53 +441,53 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r633 = 0.7071067811865475 * (r210 * r248) + 0.5 * (r214 * r259);
     const double r636 = 0.7071067811865475 * (r210 * r550) + 0.5 * (r214 * r554);
     const double r639 = 0.5 * (r214 * r563) - 0.7071067811865475 * (r210 * r561);
-    const double r655 = 0.0 - 0.7071067811865475 * (r197 + r569 - r199);
-    const double r657 = 0.7071067811865475 * (left_s1 * r569 - left_s1 * r260);
-    const double r661 = 0.0 - 0.5 * (r214 * r569 - r218 * r260), r662 = 0.7071067811865475 * r261;
-    const double r663 = 0.7071067811865475 * (left_s1 * r261);
-    const double r667 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569), r668 = 0.0 - r667;
-    const double r673 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261), r674 = 0.0 - r673;
-    const double r677 = 0.7071067811865475 * r211 - r213;
-    const double r695 = 0.35355339059327373 * r219 + 0.7071067811865475 * r221;
-    const double r699 = r695 + 0.35355339059327373 * r215 + 0.7071067811865475 * r217;
-    const double r702 = 0.7071067811865475 * (left_s1 * r274 - left_s1 * r276);
-    const double r706 = 0.0 - 0.5 * (r214 * r274 - r218 * r276), r708 = 0.4999999999999999 * r211;
-    const double r709 = 0.7071067811865475 * r213, r712 = 0.7071067811865475 * (left_s1 * r677);
-    const double r716 = 0.5 * (r218 * r677) - 0.7071067811865475 * (r210 * r274);
-    const double r721 = 0.5 * (r214 * r677) - 0.7071067811865475 * (r210 * r276), r724 = 0.5 * r224 - r225;
+    const double r641 = 0.7071067811865475 * r211 - r213, r642 = 0.5 * r224 - r225;
+    const double r657 = 0.0 - 0.7071067811865475 * (r197 + r569 - r199);
+    const double r659 = 0.7071067811865475 * (left_s1 * r569 - left_s1 * r260);
+    const double r663 = 0.0 - 0.5 * (r214 * r569 - r218 * r260), r664 = 0.7071067811865475 * r261;
+    const double r665 = 0.7071067811865475 * (left_s1 * r261);
+    const double r669 = 0.5 * (r218 * r261) + 0.7071067811865475 * (r210 * r569), r670 = 0.0 - r669;
+    const double r675 = 0.7071067811865475 * (r210 * r260) + 0.5 * (r214 * r261), r676 = 0.0 - r675;
+    const double r696 = 0.35355339059327373 * r219 + 0.7071067811865475 * r221;
+    const double r700 = r696 + 0.35355339059327373 * r215 + 0.7071067811865475 * r217;
+    const double r703 = 0.7071067811865475 * (left_s1 * r274 - left_s1 * r276);
+    const double r707 = 0.0 - 0.5 * (r214 * r274 - r218 * r276), r709 = 0.4999999999999999 * r211;
+    const double r710 = 0.7071067811865475 * r213, r713 = 0.7071067811865475 * (left_s1 * r641);
+    const double r717 = 0.5 * (r218 * r641) - 0.7071067811865475 * (r210 * r274);
+    const double r722 = 0.5 * (r214 * r641) - 0.7071067811865475 * (r210 * r276);
     const double r743 = 0.35355339059327373 * r226 - 0.7071067811865475 * r227;
     const double r747 = r743 + 0.35355339059327373 * r224 - 0.7071067811865475 * r225;
-    const double r749 = 0.7071067811865475 * (left_s1 * r284 - left_s1 * r724);
-    const double r751 = 0.5 * (r214 * r284 - r218 * r724);
+    const double r749 = 0.7071067811865475 * (left_s1 * r284 - left_s1 * r642);
+    const double r751 = 0.5 * (r214 * r284 - r218 * r642);
     const double r755 = 0.4999999999999999 * r222 + 0.7071067811865475 * r223;
     const double r756 = 0.7071067811865475 * (left_s1 * r287);
     const double r761 = 0.7071067811865475 * (r210 * r284) - 0.5 * (r218 * r287);
-    const double r769 = 0.7071067811865475 * (r210 * r724) - 0.5 * (r214 * r287);
+    const double r769 = 0.7071067811865475 * (r210 * r642) - 0.5 * (r214 * r287);
     const Jacobian result = { {
         {r355 + 0.03195415544182008 * r80, 0.0 - r359, 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r307 - r73 * r311), 0.5 * (r69 * r320 - r73 * r322), r322 * r331 - r320 * r329, 0.0, 0.0, 0.0, 0.0, 0.0},
         {r378, r379 - left_c1 * r93, 0.0 - r383, 0.0 - r387, r391, 0.0 - (r324 * r331 + r320 * r115), 0.0, 0.0, 0.0, 0.0, 0.0},
         {r378, left_c1 * r103 - r379, r397, r400, r403, r322 * r115 + r324 * r329, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r419, r421, r424, r424, r424, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r426, left_c1 * r331 - r427, r431, r431, r431, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r426, r427 - left_c1 * r329, r436, r436, r436, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r460, 0.0 - r462, r465, r465, r465, r331 * r130 - r329 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r470, 0.0 - (left_c1 * r128 + r471), r476, r476, r476, 0.0 - (r331 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r470, left_c1 * r130 + r471, r482, r482, r482, r115 * r130 + r329 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r420, r422, r425, r425, r425, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r427, left_c1 * r331 - r428, r432, r432, r432, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r427, r428 - left_c1 * r329, r437, r437, r437, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r461, 0.0 - r463, r466, r466, r466, r331 * r130 - r329 * r128, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r471, 0.0 - (left_c1 * r128 + r472), r477, r477, r477, 0.0 - (r331 * r132 + r115 * r128), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r471, left_c1 * r130 + r472, r483, r483, r483, r115 * r130 + r329 * r132, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0 - r508, r511, r514, r514, r514, r329 * r137 - r331 * r139, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r518, left_c1 * r137 + r519, r523, r523, r523, r331 * r486 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r518, 0.0 - (left_c1 * r139 + r519), r529, r529, r529, 0.0 - (r115 * r139 + r329 * r486), 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r518, left_c1 * r137 + r519, r523, r523, r523, r331 * r405 + r115 * r137, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r518, 0.0 - (left_c1 * r139 + r519), r529, r529, r529, 0.0 - (r115 * r139 + r329 * r405), 0.0, 0.0, 0.0, 0.0, 0.0},
         {r593 + 0.03195415544182008 * r225, 0.0, 0.0, 0.0, 0.0, 0.0, r597, 0.5 * (r214 * r238 - r218 * r248), 0.5 * (r214 * r546 - r218 * r550), 0.0 - 0.5 * (r214 * r559 - r218 * r561), r561 * r569 - r559 * r260},
         {0.0 - r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r238, r622, r625, r628, r563 * r569 + r559 * r261},
         {r616, 0.0, 0.0, 0.0, 0.0, 0.0, r618 - left_c1 * r248, r633, r636, r639, r561 * r261 + r563 * r260},
-        {r655, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r657, r661, r661, r661, 0.0},
-        {r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r569 - r663, r668, r668, r668, 0.0},
-        {0.0 - r662, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r260 - r663, r674, r674, r674, 0.0},
-        {0.0 - r699, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r702, r706, r706, r706, r569 * r276 - r260 * r274},
-        {r709 - r708, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r274 + r712, r716, r716, r716, r569 * r677 + r261 * r274},
-        {r708 - r709, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r276 + r712, r721, r721, r721, r261 * r276 + r260 * r677},
-        {r747, 0.0, 0.0, 0.0, 0.0, 0.0, r749, r751, r751, r751, r260 * r284 - r569 * r724},
+        {r657, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r659, r663, r663, r663, 0.0},
+        {r664, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r569 - r665, r670, r670, r670, 0.0},
+        {0.0 - r664, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r260 - r665, r676, r676, r676, 0.0},
+        {0.0 - r700, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - r703, r707, r707, r707, r569 * r276 - r260 * r274},
+        {r710 - r709, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r274 + r713, r717, r717, r717, r569 * r641 + r261 * r274},
+        {r709 - r710, 0.0, 0.0, 0.0, 0.0, 0.0, left_c1 * r276 + r713, r722, r722, r722, r261 * r276 + r260 * r641},
+        {r747, 0.0, 0.0, 0.0, 0.0, 0.0, r749, r751, r751, r751, r260 * r284 - r569 * r642},
         {r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r284 + r756), r761, r761, r761, 0.0 - (r569 * r287 + r261 * r284)},
-        {0.0 - r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r724 + r756), r769, r769, r769, 0.0 - (r261 * r724 + r260 * r287)},
+        {0.0 - r755, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r642 + r756), r769, r769, r769, 0.0 - (r261 * r642 + r260 * r287)},
     } };
     return result;
 }
@@ -499,12 +510,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -664,7 +675,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -690,8 +701,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -709,7 +720,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -735,7 +746,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -832,7 +843,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -852,9 +863,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -909,7 +920,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -974,7 +985,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -1049,7 +1060,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1227,7 +1238,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1503,7 +1514,7 @@ typedef struct {
 INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
-    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), right_c3 = r64 * r69;
+    const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), right_c3 = r64 * r69;
     const double right_s3 = 0.0 - r63 * r69;
     const double at[PLACES] = {
         known->left_c1, known->left_s1, known->left_c2, known->left_s2, known->left_c3, known->left_s3,
@@ -1546,8 +1557,9 @@ typedef struct {
 /* Chart 1 of block 10: generic. */
 INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
-    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
-    const double right_c2 = shared->r21 * r26, right_s2 = shared->r19 * r26;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
+    const double r26 = 1.0 / sqrt(larger(r24, 0.0)), right_c2 = shared->r21 * r26;
+    const double right_s2 = shared->r19 * r26;
     Known next = *known; next.right_c2 = right_c2; next.right_s2 = right_s2;
     block_11(p, &next, answers);
 }
@@ -1587,7 +1599,7 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), right_c5 = r99 * r104;
+    const double r104 = 1.0 / sqrt(larger(r99 * r99 + r96 * r96, 0.0)), right_c5 = r99 * r104;
     const double right_s5 = r96 * r104;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.right_c5 = right_c5; next.right_s5 = right_s5;
@@ -1675,7 +1687,7 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     if (!(is_near(shared->r37, shared->r41, NEAR) && is_away(r44, 16.0 * r47)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_away(r44, 16.0 * r47)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(fmax(r47, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r42 - r43, sqrt(larger(r47, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w6 = roots0.values[i0], r54 = 1.0 / r44, right_c6 = right_w6 * shared->r24 * r54;
         const double right_s6 = right_w6 * shared->r17 * r54;
@@ -1802,7 +1814,7 @@ typedef struct {
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
-    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
+    const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
     const double left_s3 = 0.0 - r63 * r69;
     Known next = *known; next.left_c3 = left_c3; next.left_s3 = left_s3;
     block_7(p, &next, answers);
@@ -1840,8 +1852,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
-    const double left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
+    const double r26 = 1.0 / sqrt(larger(r24, 0.0)), left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
     Known next = *known; next.left_c2 = left_c2; next.left_s2 = left_s2;
     block_6(p, &next, answers);
 }
@@ -1881,7 +1893,7 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
     const double r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
+    const double r104 = 1.0 / sqrt(larger(r99 * r99 + r96 * r96, 0.0)), left_c5 = r99 * r104;
     const double left_s5 = r96 * r104;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.left_c5 = left_c5; next.left_s5 = left_s5;
@@ -1969,7 +1981,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     if (!(is_near(shared->r36, shared->r40, NEAR) && is_away(r43, 16.0 * r46)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_away(r43, 16.0 * r46)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(fmax(r46, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r41 - r42, sqrt(larger(r46, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w6 = roots0.values[i0], r53 = 1.0 / r43, left_c6 = 0.0 - left_w6 * shared->r24 * r53;
         const double left_s6 = left_w6 * shared->r17 * r53;
@@ -2119,7 +2131,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     if (!(is_near(shared->r64, shared->r67, NEAR) && is_away(r70, 16.0 * r73)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_away(r70, 16.0 * r73)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(larger(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r84 = 1.0 / r70, left_c1 = left_w1 * shared->r32 * r84;
         const double left_s1 = left_w1 * shared->r19 * r84;
@@ -2156,7 +2168,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, size_t before,
     if (!(is_near(shared->r64, shared->r67, NEAR) && is_away(r70, 16.0 * r73)) || (suffice_since(answers, before) && !(is_near(shared->r64, shared->r67, BESIDE) && is_away(r70, 16.0 * r73)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(fmax(r73, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r68 - r69, sqrt(larger(r73, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w1 = roots0.values[i0], r85 = 1.0 / r70, left_c1 = 0.0 - left_w1 * shared->r54 * r85;
         const double left_s1 = left_w1 * shared->r41 * r85;
@@ -2229,7 +2241,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -2376,7 +2388,7 @@ double nao_legs_poses_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -2405,7 +2417,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -2414,7 +2426,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + NAO_LEGS_POSES_MOST_TURNS);
+    *last = lesser(*last, *first + NAO_LEGS_POSES_MOST_TURNS);
 }
 
 size_t nao_legs_poses_count_turns(const double *q, const double *limits)
@@ -2427,7 +2439,7 @@ size_t nao_legs_poses_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), NAO_LEGS_POSES_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), NAO_LEGS_POSES_MOST_TURNS);
     }
     return (size_t)count;
 }

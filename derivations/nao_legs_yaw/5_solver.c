@@ -49,6 +49,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -148,7 +160,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > GRAZING * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > GRAZING * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -175,7 +187,7 @@ static double largest(const double *coefficients, size_t length)
 {
     double size = 0.0;
     for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
+        size = larger(fabs(coefficients[i]), size);
     }
     return size;
 }
@@ -228,7 +240,7 @@ static Roots quadratic_roots(const Polynomial *p)
     Roots roots = {{0.0}, 0, false};
     const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    if (discriminant < -TANGENT * larger(size, typical * typical)) {
         return roots;
     }
     if (discriminant <= ROUNDING * size) {
@@ -236,8 +248,8 @@ static Roots quadratic_roots(const Polynomial *p)
         return roots;
     }
     const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    push(&roots, lesser(first, second));
+    push(&roots, larger(first, second));
     return roots;
 }
 
@@ -283,7 +295,7 @@ static double value_and_size(const Polynomial *p, double x, double scale, double
     *size = 0.0;
     for (size_t i = p->degree + 1; i-- > 0;) {
         value = value * x + p->a[i];
-        *size = *size * fmax(fabs(x), scale) + fabs(p->a[i]);
+        *size = *size * larger(fabs(x), scale) + fabs(p->a[i]);
     }
     return value;
 }
@@ -326,7 +338,7 @@ static double middle(double low, double high, bool arithmetic)
     if (low < 0.0 && high > 0.0) {
         return 0.0;
     }
-    const double magnitude = sqrt(fmax(fabs(low), DBL_MIN)) * sqrt(fmax(fabs(high), DBL_MIN));
+    const double magnitude = sqrt(larger(fabs(low), DBL_MIN)) * sqrt(larger(fabs(high), DBL_MIN));
     return copysign(magnitude, low + high);
 }
 
@@ -351,7 +363,7 @@ static double root_between(const Polynomial *p, double low, double high)
         }
         const double newton = x - value / slope;
         if (fabs(newton - x) <= DBL_EPSILON * fabs(x)) {
-            return fmin(fmax(newton, low), high);
+            return lesser(larger(newton, low), high);
         }
         double next = newton;
         if (!(low < newton && newton < high && 4.0 * fabs(newton - x) <= step)) {
@@ -417,8 +429,8 @@ static Roots all_real_roots(const double *coefficients, size_t length, double sc
 /* The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it; else NAN. */
 static double resolved(double u, double v, double w, double typical)
 {
-    const double falling = fmax(-u, 0.0), under = fmax(-v, 0.0);
-    double z = fmax(typical, 0.5 * (falling + sqrt(falling * falling + 4.0 * (under + w / typical))));
+    const double falling = larger(-u, 0.0), under = larger(-v, 0.0);
+    double z = larger(typical, 0.5 * (falling + sqrt(falling * falling + 4.0 * (under + w / typical))));
     for (int i = 0; i < 24; i++) {
         const double value = ((z + u) * z + v) * z - w, slope = (3.0 * z + 2.0 * u) * z + v;
         const double step = value / slope;
@@ -442,7 +454,7 @@ static int approximate_roots(const double *monic, double scale, double *roots)
     /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
     const double z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale), h = sqrt(z);
     const double mean = 0.5 * (p + z), half = 0.5 * q / h, f = mean - half, g = mean + half;
-    const double size = fmax(fmax(z, fabs(f)), fabs(g));
+    const double size = larger(larger(z, fabs(f)), fabs(g));
     if (!(fabs(f * g - r) <= 1e-8 * size * size)) {
         return -1;
     }
@@ -456,8 +468,8 @@ static int approximate_roots(const double *monic, double scale, double *roots)
             roots[count] = middles[i] - apart - quarter;
             roots[count + 1] = middles[i] + apart - quarter;
             count += 2;
-        } else if (!(apart > 0.002 * fmax(scale, sqrt(size))
-                     && fabs(others[i] + 0.75 * z) > 0.002 * fmax(size, scale * scale))) {
+        } else if (!(apart > 0.002 * larger(scale, sqrt(size))
+                     && fabs(others[i] + 0.75 * z) > 0.002 * larger(size, scale * scale))) {
             return -1;
         }
     }
@@ -475,7 +487,7 @@ static double settled(const double *monic, double x, double scale)
         step = value / slope;
         x -= step;
     }
-    return fabs(step) <= 1e-9 * fmax(scale, fabs(x)) ? x : NAN;
+    return fabs(step) <= 1e-9 * larger(scale, fabs(x)) ? x : NAN;
 }
 
 /* The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. False where the leading coefficient is small, where
@@ -496,17 +508,17 @@ static bool ordinary_roots(const double *coefficients, double scale, Roots *root
         x[i] = settled(monic, x[i], scale);
     }
     if (count == 4) {
-        const double first = fmin(x[0], x[2]), low = fmin(x[1], x[3]);
-        const double high = fmax(x[0], x[2]), last = fmax(x[1], x[3]);
+        const double first = lesser(x[0], x[2]), low = lesser(x[1], x[3]);
+        const double high = larger(x[0], x[2]), last = larger(x[1], x[3]);
         x[0] = first;
-        x[1] = fmin(low, high);
-        x[2] = fmax(low, high);
+        x[1] = lesser(low, high);
+        x[2] = larger(low, high);
         x[3] = last;
     }
     roots->count = 0;
     roots->close = false;
     for (int i = 0; i < count; i++) {
-        if (i > 0 && !(x[i] - x[i - 1] > 0.002 * fmax(fmax(scale, fabs(x[i])), fabs(x[i - 1])))) {
+        if (i > 0 && !(x[i] - x[i - 1] > 0.002 * larger(larger(scale, fabs(x[i])), fabs(x[i - 1])))) {
             return false;
         }
         push(roots, x[i]);
@@ -547,7 +559,7 @@ static Parameters parameters(const double *target)
     const double right_pz = target[16], right_r11 = target[17], right_r12 = target[18], right_r13 = target[19];
     const double right_r21 = target[20], right_r22 = target[21], right_r23 = target[22];
     const double right_r31 = target[23], right_r32 = target[24], right_r33 = target[25];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(left_c2)), fabs(left_s2)), fabs(left_c3)), fabs(left_s3)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.3467054146165801, fabs(left_px)), fabs(left_py)), fabs(left_pz)), fabs(left_r11)), fabs(left_r12)), fabs(left_r13)), fabs(left_r21)), fabs(left_r22)), fabs(left_r23)), fabs(left_r31)), fabs(left_r32)), fabs(left_r33)), fabs(left_c2)), fabs(left_s2)), fabs(left_c3)), fabs(left_s3)), fabs(right_px)), fabs(right_py)), fabs(right_pz)), fabs(right_r11)), fabs(right_r12)), fabs(right_r13)), fabs(right_r21)), fabs(right_r22)), fabs(right_r23)), fabs(right_r31)), fabs(right_r32)), fabs(right_r33));
     const Parameters result = {left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude};
     return result;
 }
@@ -810,15 +822,15 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r505 = r221 * r222 - r481 * r489, r510 = 0.7071067811865475 * (r435 * r446 - r433 * r449);
     const double r515 = r158 * r483 - r150 * r221, r518 = r483 * r489 - r221 * r223;
     const double r524 = 0.7071067811865475 * (r440 * r449 + r428 * r446);
-    const double r564 = 0.7071067811865475 * (r428 * r489 + r435 * r222), r567 = r158 * r222 - r154 * r489;
-    const double r571 = 0.7071067811865475 * (r435 * r223 - r449 * r489), r573 = r150 * r489 - r158 * r223;
-    const double r578 = 0.7071067811865475 * (r449 * r222 + r428 * r223), r581 = r150 * r222 - r154 * r223;
-    const double r620 = 0.7071067811865475 * (r428 * r232 + r435 * r233), r623 = r158 * r233 - r154 * r232;
-    const double r628 = 0.7071067811865475 * (r435 * r234 - r449 * r232), r630 = r150 * r232 - r158 * r234;
-    const double r636 = 0.7071067811865475 * (r449 * r233 + r428 * r234), r639 = r150 * r233 - r154 * r234;
-    const double r665 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
-    const double r669 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
-    const double r675 = 0.7071067811865475 * (r449 * r481 + r428 * r483), r677 = r487 - r486;
+    const double r566 = 0.7071067811865475 * (r428 * r489 + r435 * r222), r569 = r158 * r222 - r154 * r489;
+    const double r573 = 0.7071067811865475 * (r435 * r223 - r449 * r489), r575 = r150 * r489 - r158 * r223;
+    const double r580 = 0.7071067811865475 * (r449 * r222 + r428 * r223), r583 = r150 * r222 - r154 * r223;
+    const double r622 = 0.7071067811865475 * (r428 * r232 + r435 * r233), r625 = r158 * r233 - r154 * r232;
+    const double r630 = 0.7071067811865475 * (r435 * r234 - r449 * r232), r632 = r150 * r232 - r158 * r234;
+    const double r638 = 0.7071067811865475 * (r449 * r233 + r428 * r234), r641 = r150 * r233 - r154 * r234;
+    const double r667 = 0.7071067811865475 * (r428 * r221 + r435 * r481);
+    const double r671 = 0.7071067811865475 * (r435 * r483 - r449 * r221);
+    const double r677 = 0.7071067811865475 * (r449 * r481 + r428 * r483), r679 = r487 - r486;
     const double r683 = r353 - r354, r695 = r16 + (r24 - r15);
     const double r700 = r354 + (r352 + (r350 + (r348 + (r344 + r346)))), r702 = r12 + r17;
     const double r707 = r367 + (r365 + (r363 + (r361 + (r357 + r359))));
@@ -830,13 +842,13 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r764 = 0.7071067811865475 * (r695 * r700 + r702 * r707), r768 = r329 * r383 - r333 * r384;
     const double r776 = 0.7071067811865475 * (r702 * r713 - r700 * r716), r781 = r333 * r385 - r325 * r383;
     const double r790 = 0.7071067811865475 * (r707 * r716 + r695 * r713), r796 = r384 * r387 - r385 * r386;
-    const double r831 = 0.7071067811865475 * (r695 * r754 + r702 * r386), r834 = r329 * r754 - r333 * r386;
-    const double r838 = 0.7071067811865475 * (r702 * r387 - r716 * r754), r840 = r333 * r387 - r325 * r754;
-    const double r845 = 0.7071067811865475 * (r716 * r386 + r695 * r387), r848 = r329 * r387 - r325 * r386;
-    const double r851 = right_c9 * r329 - right_s9 * r331, r853 = r326 - r328;
-    const double r887 = 0.7071067811865475 * (r695 * r397 + r702 * r851), r889 = r333 * r851 - r329 * r397;
-    const double r893 = 0.7071067811865475 * (r702 * r853 - r716 * r397), r896 = r325 * r397 - r333 * r853;
-    const double r901 = 0.7071067811865475 * (r716 * r851 + r695 * r853), r903 = r325 * r851 - r329 * r853;
+    const double r799 = right_c9 * r329 - right_s9 * r331, r800 = r326 - r328;
+    const double r833 = 0.7071067811865475 * (r695 * r754 + r702 * r386), r836 = r329 * r754 - r333 * r386;
+    const double r840 = 0.7071067811865475 * (r702 * r387 - r716 * r754), r842 = r333 * r387 - r325 * r754;
+    const double r847 = 0.7071067811865475 * (r716 * r386 + r695 * r387), r850 = r329 * r387 - r325 * r386;
+    const double r887 = 0.7071067811865475 * (r695 * r397 + r702 * r799), r889 = r333 * r799 - r329 * r397;
+    const double r893 = 0.7071067811865475 * (r702 * r800 - r716 * r397), r896 = r325 * r397 - r333 * r800;
+    const double r901 = 0.7071067811865475 * (r716 * r799 + r695 * r800), r903 = r325 * r799 - r329 * r800;
     const double r931 = 0.7071067811865475 * (r695 * r383 + r702 * r384);
     const double r938 = 0.7071067811865475 * (r702 * r385 - r716 * r383);
     const double r945 = 0.7071067811865475 * (r716 * r384 + r695 * r385), r948 = r752 - r751;
@@ -848,24 +860,24 @@ static Jacobian jacobian(const Parameters *p, const double *at)
         {r200 - r199, left_c1 * r182, r5 * r182 + left_s2_ * r201, r498, r97 * r433 - r104 * r440, r154 * r433 - r158 * r440, r154 * r467 - r158 * r471, 0.0 - 0.04519 * r502, 0.0 - 0.04519 * r505, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0 - r220, left_s1 * r182, left_s2_ * r220 - r4 * r182, 0.0 - r510, r104 * r446 - r90 * r433, r158 * r446 - r150 * r433, r158 * r475 - r150 * r467, 0.0 - 0.04519 * r515, 0.0 - 0.04519 * r518, 0.0, 0.0, 0.0, 0.0, 0.0},
         {0.0, left_c1 * r220 - left_s1 * r201, r4 * r201 + r5 * r220, r524, r97 * r446 - r90 * r440, r154 * r446 - r150 * r440, r154 * r475 - r150 * r471, 0.04519 * (r486 - r487), 0.04519 * (r493 - r494), 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r139 - r137, 0.0 - left_c1 * r489, left_s2_ * r222 - r5 * r489, 0.0 - r564, r104 * r222 - r97 * r489, r567, r567, r567, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r223, 0.0 - left_s1 * r489, r4 * r489 - left_s2_ * r223, r571, r90 * r489 - r104 * r223, r573, r573, r573, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, 0.0 - (left_s1 * r222 + left_c1 * r223), r4 * r222 - r5 * r223, 0.0 - r578, r90 * r222 - r97 * r223, r581, r581, r581, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0 - r233, 0.0 - left_c1 * r232, left_s2_ * r233 - r5 * r232, 0.0 - r620, r104 * r233 - r97 * r232, r623, r623, r623, r489 * r233 - r222 * r232, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r234, 0.0 - left_s1 * r232, r4 * r232 - left_s2_ * r234, r628, r90 * r232 - r104 * r234, r630, r630, r630, r223 * r232 - r489 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, 0.0 - (left_s1 * r233 + left_c1 * r234), r4 * r233 - r5 * r234, 0.0 - r636, r90 * r233 - r97 * r234, r639, r639, r639, r223 * r233 - r222 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r481, left_c1 * r221, r5 * r221 - left_s2_ * r481, r665, r97 * r221 - r104 * r481, r502, r502, r502, r505, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {r163 - r162, left_s1 * r221, left_s2_ * r483 - r4 * r221, 0.0 - r669, r104 * r483 - r90 * r221, r515, r515, r515, r518, 0.0, 0.0, 0.0, 0.0, 0.0},
-        {0.0, left_s1 * r481 + left_c1 * r483, r5 * r483 - r4 * r481, r675, r97 * r483 - r90 * r481, r677, r677, r677, r494 - r493, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r139 - r137, 0.0 - left_c1 * r489, left_s2_ * r222 - r5 * r489, 0.0 - r566, r104 * r222 - r97 * r489, r569, r569, r569, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r223, 0.0 - left_s1 * r489, r4 * r489 - left_s2_ * r223, r573, r90 * r489 - r104 * r223, r575, r575, r575, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, 0.0 - (left_s1 * r222 + left_c1 * r223), r4 * r222 - r5 * r223, 0.0 - r580, r90 * r222 - r97 * r223, r583, r583, r583, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0 - r233, 0.0 - left_c1 * r232, left_s2_ * r233 - r5 * r232, 0.0 - r622, r104 * r233 - r97 * r232, r625, r625, r625, r489 * r233 - r222 * r232, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r234, 0.0 - left_s1 * r232, r4 * r232 - left_s2_ * r234, r630, r90 * r232 - r104 * r234, r632, r632, r632, r223 * r232 - r489 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, 0.0 - (left_s1 * r233 + left_c1 * r234), r4 * r233 - r5 * r234, 0.0 - r638, r90 * r233 - r97 * r234, r641, r641, r641, r223 * r233 - r222 * r234, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r481, left_c1 * r221, r5 * r221 - left_s2_ * r481, r667, r97 * r221 - r104 * r481, r502, r502, r502, r505, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {r163 - r162, left_s1 * r221, left_s2_ * r483 - r4 * r221, 0.0 - r671, r104 * r483 - r90 * r221, r515, r515, r515, r518, 0.0, 0.0, 0.0, 0.0, 0.0},
+        {0.0, left_s1 * r481 + left_c1 * r483, r5 * r483 - r4 * r481, r677, r97 * r483 - r90 * r481, r679, r679, r679, r494 - r493, 0.0, 0.0, 0.0, 0.0, 0.0},
         {r368, 0.0 - left_c1 * r683, 0.0 - (r5 * r683 + left_s2_ * r368), r764, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r700 - r279 * r707, r333 * r707 - r329 * r700, r333 * r738 - r329 * r734, 0.0 - 0.04519 * r768, 0.04519 * (r753 - r755)},
         {r382, 0.0 - left_s1 * r683, r4 * r683 - left_s2_ * r382, 0.0 - r776, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r713 - r269 * r700, r325 * r700 - r333 * r713, r325 * r734 - r333 * r742, 0.0 - 0.04519 * r781, 0.04519 * (r756 - r757)},
         {0.0, left_s1 * r368 - left_c1 * r382, 0.0 - (r4 * r368 + r5 * r382), r790, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r713 - r269 * r707, r325 * r707 - r329 * r713, r325 * r738 - r329 * r742, 0.04519 * (r751 - r752), 0.0 - 0.04519 * r796},
-        {r314 - r312, 0.0 - left_c1 * r754, left_s2_ * r386 - r5 * r754, 0.0 - r831, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r386 - r274 * r754, r834, r834, r834, 0.0},
-        {r387, 0.0 - left_s1 * r754, r4 * r754 - left_s2_ * r387, r838, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r754 - r279 * r387, r840, r840, r840, 0.0},
-        {0.0, 0.0 - (left_s1 * r386 + left_c1 * r387), r4 * r386 - r5 * r387, 0.0 - r845, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r386 - r274 * r387, r848, r848, r848, 0.0},
-        {r851, left_c1 * r397, r5 * r397 - left_s2_ * r851, r887, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r397 - r279 * r851, r889, r889, r889, r386 * r397 - r754 * r851},
-        {r328 - r326, left_s1 * r397, left_s2_ * r853 - r4 * r397, 0.0 - r893, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r853 - r269 * r397, r896, r896, r896, r754 * r853 - r387 * r397},
-        {0.0, left_s1 * r851 + left_c1 * r853, r5 * r853 - r4 * r851, r901, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r853 - r269 * r851, r903, r903, r903, r386 * r853 - r387 * r851},
+        {r314 - r312, 0.0 - left_c1 * r754, left_s2_ * r386 - r5 * r754, 0.0 - r833, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r386 - r274 * r754, r836, r836, r836, 0.0},
+        {r387, 0.0 - left_s1 * r754, r4 * r754 - left_s2_ * r387, r840, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r754 - r279 * r387, r842, r842, r842, 0.0},
+        {0.0, 0.0 - (left_s1 * r386 + left_c1 * r387), r4 * r386 - r5 * r387, 0.0 - r847, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r386 - r274 * r387, r850, r850, r850, 0.0},
+        {r799, left_c1 * r397, r5 * r397 - left_s2_ * r799, r887, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r397 - r279 * r799, r889, r889, r889, r386 * r397 - r754 * r799},
+        {r328 - r326, left_s1 * r397, left_s2_ * r800 - r4 * r397, 0.0 - r893, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r800 - r269 * r397, r896, r896, r896, r754 * r800 - r387 * r397},
+        {0.0, left_s1 * r799 + left_c1 * r800, r5 * r800 - r4 * r799, r901, 0.0, 0.0, 0.0, 0.0, 0.0, r274 * r800 - r269 * r799, r903, r903, r903, r386 * r800 - r387 * r799},
         {0.0 - r384, 0.0 - left_c1 * r383, left_s2_ * r384 - r5 * r383, 0.0 - r931, 0.0, 0.0, 0.0, 0.0, 0.0, r279 * r384 - r274 * r383, r768, r768, r768, r755 - r753},
         {r385, 0.0 - left_s1 * r383, r4 * r383 - left_s2_ * r385, r938, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r383 - r279 * r385, r781, r781, r781, r757 - r756},
         {0.0, 0.0 - (left_s1 * r384 + left_c1 * r385), r4 * r384 - r5 * r385, 0.0 - r945, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r384 - r274 * r385, r948, r948, r948, r796},
@@ -891,12 +903,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -1065,7 +1077,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -1091,8 +1103,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -1110,7 +1122,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -1136,7 +1148,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -1233,7 +1245,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -1253,9 +1265,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -1310,7 +1322,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -1378,7 +1390,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -1453,7 +1465,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1631,7 +1643,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1940,7 +1952,7 @@ typedef struct {
 INLINE static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
-    const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), right_c6 = r100 * r105;
+    const double r105 = 1.0 / sqrt(larger(r100 * r100 + r99 * r99, 0.0)), right_c6 = r100 * r105;
     const double right_s6 = 0.0 - r99 * r105;
     const double at[PLACES] = {
         known->left_c1, known->left_s1, known->left_c2_, known->left_s2_, known->left_c3_,
@@ -1995,8 +2007,9 @@ typedef struct {
 /* Chart 1 of block 13: generic. */
 INLINE static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
-    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
-    const double right_c5 = shared->r47 * r52, right_s5 = shared->r44 * r52;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44;
+    const double r52 = 1.0 / sqrt(larger(r50, 0.0)), right_c5 = shared->r47 * r52;
+    const double right_s5 = shared->r44 * r52;
     Known next = *known; next.right_c5 = right_c5; next.right_s5 = right_s5;
     block_14(p, &next, answers);
 }
@@ -2041,7 +2054,7 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     }
     const double r105 = shared->r77 * shared->r92 - (0.0 - shared->r89 * shared->r91);
     const double r108 = shared->r77 * shared->r91 - shared->r89 * shared->r92;
-    const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
+    const double r113 = 1.0 / sqrt(larger(r108 * r108 + r105 * r105, 0.0)), right_c8 = r108 * r113;
     const double right_s8 = r105 * r113;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.right_c8 = right_c8; next.right_s8 = right_s8;
@@ -2129,7 +2142,7 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     if (!(is_near(shared->r81, shared->r85, NEAR) && is_away(r88, 16.0 * r91)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_away(r88, 16.0 * r91)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(fmax(r91, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r86 - r87, sqrt(larger(r91, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double right_w9 = roots0.values[i0], r98 = 1.0 / r88, right_c9 = right_w9 * shared->r68 * r98;
         const double right_s9 = right_w9 * shared->r57 * r98;
@@ -2272,7 +2285,7 @@ typedef struct {
 INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
-    const double r105 = 1.0 / sqrt(fmax(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
+    const double r105 = 1.0 / sqrt(larger(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
     const double left_s6 = 0.0 - r99 * r105;
     Known next = *known; next.left_c6 = left_c6; next.left_s6 = left_s6;
     block_10(p, &next, answers);
@@ -2321,8 +2334,8 @@ typedef struct {
 /* Chart 1 of block 8: generic. */
 INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
-    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44, r52 = 1.0 / sqrt(fmax(r50, 0.0));
-    const double left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
+    const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44;
+    const double r52 = 1.0 / sqrt(larger(r50, 0.0)), left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
     Known next = *known; next.left_c5 = left_c5; next.left_s5 = left_s5;
     block_9(p, &next, answers);
 }
@@ -2367,7 +2380,7 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     }
     const double r104 = shared->r77 * shared->r92 - shared->r89 * shared->r91;
     const double r108 = shared->r89 * shared->r92 - (0.0 - shared->r77 * shared->r91);
-    const double r113 = 1.0 / sqrt(fmax(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
+    const double r113 = 1.0 / sqrt(larger(r108 * r108 + r104 * r104, 0.0)), left_c8 = r108 * r113;
     const double left_s8 = r104 * r113;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last;
     next.left_c8 = left_c8; next.left_s8 = left_s8;
@@ -2454,7 +2467,7 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
     if (!(is_near(shared->r80, shared->r84, NEAR) && is_away(r87, 16.0 * r90)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_away(r87, 16.0 * r90)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(fmax(r90, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r85 - r86, sqrt(larger(r90, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w9 = roots0.values[i0], r97 = 1.0 / r87, left_c9 = 0.0 - left_w9 * shared->r68 * r97;
         const double left_s9 = left_w9 * shared->r57 * r97;
@@ -2621,7 +2634,7 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(shared->r142, shared->r145, NEAR) && is_away(r148, 16.0 * r151)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_away(r148, 16.0 * r151)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(larger(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r163 = 1.0 / r148, left_c4 = left_w4 * shared->r110 * r163;
         const double left_s4 = 0.0 - left_w4 * shared->r98 * r163;
@@ -2658,7 +2671,7 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
     if (!(is_near(shared->r142, shared->r145, NEAR) && is_away(r148, 16.0 * r151)) || (suffice_since(answers, before) && !(is_near(shared->r142, shared->r145, BESIDE) && is_away(r148, 16.0 * r151)))) {
         return;
     }
-    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(fmax(r151, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r146 - r147, sqrt(larger(r151, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double left_w4 = roots0.values[i0], r164 = 1.0 / r148;
         const double left_c4 = 0.0 - left_w4 * shared->r132 * r164;
@@ -2775,7 +2788,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
         const double r339 = left_w1 * (shared->r184 * r331 + shared->r175 * r336);
         const double r345 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r347 = (r339 + shared->r175 * (r321 + r322)) / r345, r352 = 1.0 - (0.0 - left_w1 * r347);
-        const double r357 = 1.0 / sqrt(fmax(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
+        const double r357 = 1.0 / sqrt(larger(r352 * r352 + r347 * r347, 0.0)), left_c1 = r352 * r357;
         const double left_s1 = 0.0 - r347 * r357;
         Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
@@ -2815,7 +2828,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
         const double r341 = shared->r175 * shared->r175;
         const double r343 = left_w1 * (r332 + r337) + (shared->r184 * r334 - r341);
         const double r347 = r343 / (r341 + shared->r184 * shared->r184), r350 = left_w1 * (1.0 - r347);
-        const double r356 = 1.0 / sqrt(fmax(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
+        const double r356 = 1.0 / sqrt(larger(r350 * r350 + r347 * r347, 0.0)), left_c1 = 0.0 - r350 * r356;
         const double left_s1 = 0.0 - r347 * r356;
         Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
@@ -2852,7 +2865,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
         const double r335 = shared->r175 * (r323 + left_w1 * (0.0 - r319 - r320));
         const double r340 = left_w1 * (shared->r184 * r329 + r335) + shared->r175 * (r319 - r320);
         const double r343 = shared->r175 * shared->r175 + shared->r184 * shared->r184, r345 = r340 / r343;
-        const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(fmax(r350 * r350 + r345 * r345, 0.0));
+        const double r350 = left_w1 * r345 - 1.0, r355 = 1.0 / sqrt(larger(r350 * r350 + r345 * r345, 0.0));
         const double left_c1 = r350 * r355, left_s1 = 0.0 - r345 * r355;
         Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
@@ -2892,7 +2905,7 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
         const double r342 = shared->r175 * shared->r175;
         const double r344 = left_w1 * (left_w1 * r333 + r338) + (shared->r184 * r335 + r342);
         const double r348 = r344 / (r342 + shared->r184 * shared->r184), r351 = left_w1 * (0.0 - r348 - 1.0);
-        const double r357 = 1.0 / sqrt(fmax(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
+        const double r357 = 1.0 / sqrt(larger(r351 * r351 + r348 * r348, 0.0)), left_c1 = 0.0 - r351 * r357;
         const double left_s1 = 0.0 - r348 * r357;
         Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
@@ -2945,7 +2958,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
         const double r398 = shared->r175 * (r352 + (r350 + r389)) + shared->r184 * r396;
         const double r402 = shared->r175 * shared->r175 + shared->r184 * shared->r184;
         const double r404 = (left_w1 * r384 + r398) / r402, r409 = 0.6 - left_w1 * (0.8 - r404);
-        const double r414 = 1.0 / sqrt(fmax(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
+        const double r414 = 1.0 / sqrt(larger(r409 * r409 + r404 * r404, 0.0)), left_c1 = r409 * r414;
         const double left_s1 = 0.0 - r404 * r414;
         Known next = *known; next.branch = 5 * known->branch + i0; next.last = 5 * known->last;
         next.close = known->close || roots0.close; next.left_c1 = left_c1; next.left_s1 = left_s1;
@@ -3115,7 +3128,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -3263,7 +3276,7 @@ double nao_legs_yaw_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -3292,7 +3305,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -3301,7 +3314,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + NAO_LEGS_YAW_MOST_TURNS);
+    *last = lesser(*last, *first + NAO_LEGS_YAW_MOST_TURNS);
 }
 
 size_t nao_legs_yaw_count_turns(const double *q, const double *limits)
@@ -3314,7 +3327,7 @@ size_t nao_legs_yaw_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), NAO_LEGS_YAW_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), NAO_LEGS_YAW_MOST_TURNS);
     }
     return (size_t)count;
 }

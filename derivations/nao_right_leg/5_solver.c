@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -129,7 +141,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -156,7 +168,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.3467054146165801, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.3467054146165801, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -284,40 +296,40 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r247 = 0.7071067811865475 * (r65 * r103) + 0.5 * (r69 * r114);
     const double r250 = 0.7071067811865475 * (r65 * r164) + 0.5 * (r69 * r168);
     const double r253 = 0.5 * (r69 * r177) - 0.7071067811865475 * (r65 * r175);
-    const double r269 = 0.0 - 0.7071067811865475 * (r52 + r183 - r54);
-    const double r272 = 0.0 - 0.7071067811865475 * (s1 * r183 - s1 * r115);
-    const double r275 = 0.0 - 0.5 * (r69 * r183 - r73 * r115), r276 = 0.7071067811865475 * r116;
-    const double r277 = 0.7071067811865475 * (s1 * r116);
-    const double r281 = 0.5 * (r73 * r116) + 0.7071067811865475 * (r65 * r183), r282 = 0.0 - r281;
-    const double r287 = 0.7071067811865475 * (r65 * r115) + 0.5 * (r69 * r116), r288 = 0.0 - r287;
-    const double r291 = 0.7071067811865475 * r66 - r68;
-    const double r309 = 0.35355339059327373 * r74 + 0.7071067811865475 * r76;
-    const double r313 = r309 + 0.35355339059327373 * r70 + 0.7071067811865475 * r72;
-    const double r317 = 0.0 - 0.7071067811865475 * (s1 * r129 - s1 * r131);
-    const double r320 = 0.0 - 0.5 * (r69 * r129 - r73 * r131), r322 = 0.4999999999999999 * r66;
-    const double r323 = 0.7071067811865475 * r68, r326 = 0.7071067811865475 * (s1 * r291);
-    const double r330 = 0.5 * (r73 * r291) - 0.7071067811865475 * (r65 * r129);
-    const double r335 = 0.5 * (r69 * r291) - 0.7071067811865475 * (r65 * r131), r338 = 0.5 * r79 - r80;
+    const double r255 = 0.7071067811865475 * r66 - r68, r256 = 0.5 * r79 - r80;
+    const double r271 = 0.0 - 0.7071067811865475 * (r52 + r183 - r54);
+    const double r274 = 0.0 - 0.7071067811865475 * (s1 * r183 - s1 * r115);
+    const double r277 = 0.0 - 0.5 * (r69 * r183 - r73 * r115), r278 = 0.7071067811865475 * r116;
+    const double r279 = 0.7071067811865475 * (s1 * r116);
+    const double r283 = 0.5 * (r73 * r116) + 0.7071067811865475 * (r65 * r183), r284 = 0.0 - r283;
+    const double r289 = 0.7071067811865475 * (r65 * r115) + 0.5 * (r69 * r116), r290 = 0.0 - r289;
+    const double r310 = 0.35355339059327373 * r74 + 0.7071067811865475 * r76;
+    const double r314 = r310 + 0.35355339059327373 * r70 + 0.7071067811865475 * r72;
+    const double r318 = 0.0 - 0.7071067811865475 * (s1 * r129 - s1 * r131);
+    const double r321 = 0.0 - 0.5 * (r69 * r129 - r73 * r131), r323 = 0.4999999999999999 * r66;
+    const double r324 = 0.7071067811865475 * r68, r327 = 0.7071067811865475 * (s1 * r255);
+    const double r331 = 0.5 * (r73 * r255) - 0.7071067811865475 * (r65 * r129);
+    const double r336 = 0.5 * (r69 * r255) - 0.7071067811865475 * (r65 * r131);
     const double r357 = 0.35355339059327373 * r81 - 0.7071067811865475 * r82;
     const double r361 = r357 + 0.35355339059327373 * r79 - 0.7071067811865475 * r80;
-    const double r365 = 0.5 * (r69 * r139 - r73 * r338);
+    const double r365 = 0.5 * (r69 * r139 - r73 * r256);
     const double r369 = 0.4999999999999999 * r77 + 0.7071067811865475 * r78;
     const double r370 = 0.7071067811865475 * (s1 * r142);
     const double r375 = 0.7071067811865475 * (r65 * r139) - 0.5 * (r73 * r142);
-    const double r383 = 0.7071067811865475 * (r65 * r338) - 0.5 * (r69 * r142);
+    const double r383 = 0.7071067811865475 * (r65 * r256) - 0.5 * (r69 * r142);
     const Jacobian result = { {
         {r207 + 0.03195415544182008 * r80, 0.7071067811865475 * (s1 * r93 - s1 * r103), 0.5 * (r69 * r93 - r73 * r103), 0.5 * (r69 * r160 - r73 * r164), 0.0 - 0.5 * (r69 * r173 - r73 * r175), r175 * r183 - r173 * r115},
         {0.0 - r230, r232 - c1 * r93, r236, r239, r242, r177 * r183 + r173 * r116},
         {r230, r232 - c1 * r103, r247, r250, r253, r175 * r116 + r177 * r115},
-        {r269, r272, r275, r275, r275, 0.0},
-        {r276, c1 * r183 - r277, r282, r282, r282, 0.0},
-        {0.0 - r276, c1 * r115 - r277, r288, r288, r288, 0.0},
-        {0.0 - r313, r317, r320, r320, r320, r183 * r131 - r115 * r129},
-        {r323 - r322, c1 * r129 + r326, r330, r330, r330, r183 * r291 + r116 * r129},
-        {r322 - r323, c1 * r131 + r326, r335, r335, r335, r116 * r131 + r115 * r291},
-        {r361, 0.7071067811865475 * (s1 * r139 - s1 * r338), r365, r365, r365, r115 * r139 - r183 * r338},
+        {r271, r274, r277, r277, r277, 0.0},
+        {r278, c1 * r183 - r279, r284, r284, r284, 0.0},
+        {0.0 - r278, c1 * r115 - r279, r290, r290, r290, 0.0},
+        {0.0 - r314, r318, r321, r321, r321, r183 * r131 - r115 * r129},
+        {r324 - r323, c1 * r129 + r327, r331, r331, r331, r183 * r255 + r116 * r129},
+        {r323 - r324, c1 * r131 + r327, r336, r336, r336, r116 * r131 + r115 * r255},
+        {r361, 0.7071067811865475 * (s1 * r139 - s1 * r256), r365, r365, r365, r115 * r139 - r183 * r256},
         {r369, 0.0 - (c1 * r139 + r370), r375, r375, r375, 0.0 - (r183 * r142 + r116 * r139)},
-        {0.0 - r369, 0.0 - (c1 * r338 + r370), r383, r383, r383, 0.0 - (r116 * r338 + r115 * r142)},
+        {0.0 - r369, 0.0 - (c1 * r256 + r370), r383, r383, r383, 0.0 - (r116 * r256 + r115 * r142)},
     } };
     return result;
 }
@@ -340,12 +352,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -500,7 +512,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -526,8 +538,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -545,7 +557,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -571,7 +583,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -668,7 +680,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -688,9 +700,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -745,7 +757,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -805,7 +817,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -880,7 +892,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1058,7 +1070,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1361,7 +1373,7 @@ typedef struct {
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
-    const double r69 = 1.0 / sqrt(fmax(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
+    const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, c3, s3, known->c4, known->s4, known->c5, known->s5,
         known->c6, known->s6,
@@ -1396,8 +1408,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19, r26 = 1.0 / sqrt(fmax(r24, 0.0));
-    const double c2 = shared->r21 * r26, s2 = shared->r19 * r26;
+    const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
+    const double r26 = 1.0 / sqrt(larger(r24, 0.0)), c2 = shared->r21 * r26, s2 = shared->r19 * r26;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
@@ -1493,7 +1505,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     }
     const double f5 = 1.0, r96 = shared->r41 * shared->r68 - (0.0 - shared->r50 * shared->r67);
     const double r99 = shared->r50 * shared->r68 - shared->r41 * shared->r67;
-    const double r104 = 1.0 / sqrt(fmax(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
+    const double r104 = 1.0 / sqrt(larger(r99 * r99 + r96 * r96, 0.0)), c5 = r99 * r104, s5 = r96 * r104;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c5 = c5;
     next.s5 = s5; next.f5 = f5;
     block_4(p, &next, answers);
@@ -1564,7 +1576,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double f6 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(fmax(r29, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r24 - r25, sqrt(larger(r29, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w6 = roots0.values[i0], r36 = 1.0 / r26, c6 = w6 * shared->r18 * r36;
         const double s6 = w6 * shared->r11 * r36;
@@ -1650,7 +1662,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -1791,7 +1803,7 @@ double nao_right_leg_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1840,7 +1852,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1849,7 +1861,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + NAO_RIGHT_LEG_MOST_TURNS);
+    *last = lesser(*last, *first + NAO_RIGHT_LEG_MOST_TURNS);
 }
 
 size_t nao_right_leg_count_turns(const double *q, const double *limits)
@@ -1862,7 +1874,7 @@ size_t nao_right_leg_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), NAO_RIGHT_LEG_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), NAO_RIGHT_LEG_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -129,7 +141,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -156,7 +168,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(1.3254696631613145, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(1.3254696631613145, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -276,20 +288,20 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125), r187 = r175 - r73;
     const double r189 = r177 - r48, r194 = r127 + (r119 - r121 - r123 - r125), r198 = r77 + (r187 - r75);
     const double r201 = r52 + (r189 - r50), r205 = r56 + (r201 - r54) - r58, r208 = r83 + (r81 + (r198 - r79));
-    const double r209 = r106 - r41, r235 = c1 * r155, r236 = s1 * r155, r255 = s1 * r156 + c1 * r157;
-    const double r258 = c1 * r163, r259 = s1 * r163, r260 = c6 * r101 - s6 * r103, r262 = r98 - r100;
-    const double r280 = s1 * r260 + c1 * r262, r294 = 0.0 - c1 * r41, r296 = 0.0 - s1 * r41;
+    const double r209 = r106 - r41, r235 = c6 * r101 - s6 * r103, r236 = r98 - r100, r237 = c1 * r155;
+    const double r238 = s1 * r155, r257 = s1 * r156 + c1 * r157, r260 = c1 * r163, r261 = s1 * r163;
+    const double r280 = s1 * r235 + c1 * r236, r294 = 0.0 - c1 * r41, r296 = 0.0 - s1 * r41;
     const double r299 = 0.0 - (s1 * r149 + c1 * r150);
     const Jacobian result = { {
         {0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0},
         {r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0},
         {0.0, 0.0 - (s1 * r175 + c1 * r177), 0.0 - (s1 * r187 + c1 * r189), 0.0 - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, 0.0},
-        {r156, r235, r235, r235, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156},
-        {0.0 - r157, r236, r236, r236, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155},
-        {0.0, r255, r255, r255, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156},
-        {r260, r258, r258, r258, r103 * r163 - r106 * r260, r149 * r163 - r41 * r260},
-        {r100 - r98, r259, r259, r259, r106 * r262 - r99 * r163, r41 * r262 - r150 * r163},
-        {0.0, r280, r280, r280, r103 * r262 - r99 * r260, r149 * r262 - r150 * r260},
+        {r156, r237, r237, r237, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156},
+        {0.0 - r157, r238, r238, r238, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155},
+        {0.0, r257, r257, r257, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156},
+        {r235, r260, r260, r260, r103 * r163 - r106 * r235, r149 * r163 - r41 * r235},
+        {r100 - r98, r261, r261, r261, r106 * r236 - r99 * r163, r41 * r236 - r150 * r163},
+        {0.0, r280, r280, r280, r103 * r236 - r99 * r235, r149 * r236 - r150 * r235},
         {0.0 - r149, r294, r294, r294, r106 * r149 - r41 * r103, 0.0},
         {r150, r296, r296, r296, r41 * r99 - r106 * r150, 0.0},
         {0.0, r299, r299, r299, r99 * r149 - r103 * r150, 0.0},
@@ -315,12 +327,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -475,7 +487,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -501,8 +513,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -520,7 +532,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -546,7 +558,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -643,7 +655,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -663,9 +675,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -720,7 +732,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -780,7 +792,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -855,7 +867,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1033,7 +1045,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1337,7 +1349,7 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
 {
     const double r27 = 0.125 * shared->r24 - 0.06 * shared->r22;
     const double r30 = 0.125 * shared->r22 + 0.06 * shared->r24;
-    const double r35 = 1.0 / sqrt(fmax(r30 * r30 + r27 * r27, 0.0)), c4 = 0.0 - r30 * r35, s4 = r27 * r35;
+    const double r35 = 1.0 / sqrt(larger(r30 * r30 + r27 * r27, 0.0)), c4 = 0.0 - r30 * r35, s4 = r27 * r35;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, c4, s4, known->c5, known->s5,
         known->c6, known->s6,
@@ -1377,7 +1389,7 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     }
     const double r49 = shared->r32 * shared->r36 + shared->r30 * shared->r38;
     const double r52 = shared->r32 * shared->r38 - shared->r30 * shared->r36;
-    const double r57 = 1.0 / sqrt(fmax(r52 * r52 + r49 * r49, 0.0)), c2 = r52 * r57, s2 = 0.0 - r49 * r57;
+    const double r57 = 1.0 / sqrt(larger(r52 * r52 + r49 * r49, 0.0)), c2 = r52 * r57, s2 = 0.0 - r49 * r57;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
     next.s2 = s2;
     block_6(p, &next, answers);
@@ -1461,8 +1473,8 @@ typedef struct {
 /* Chart 1 of block 3: generic. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
-    const double c5 = shared->r11 * r16, s5 = shared->r10 * r16;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10;
+    const double r16 = 1.0 / sqrt(larger(r14, 0.0)), c5 = shared->r11 * r16, s5 = shared->r10 * r16;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_4(p, &next, answers);
 }
@@ -1550,7 +1562,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     if (!is_away(r8, 16.0 * r10)) {
         return;
     }
-    const Roots roots0 = square_roots(0.015625 - r6 - r7, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.015625 - r6 - r7, sqrt(larger(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r22 = 1.0 / r8;
         const double r24 = (w1 * shared->r1 - (0.0 - 0.125 * shared->r3)) * r22;
@@ -1581,7 +1593,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -1722,7 +1734,7 @@ double offset_wrist_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1771,7 +1783,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1780,7 +1792,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + OFFSET_WRIST_MOST_TURNS);
+    *last = lesser(*last, *first + OFFSET_WRIST_MOST_TURNS);
 }
 
 size_t offset_wrist_count_turns(const double *q, const double *limits)
@@ -1793,7 +1805,7 @@ size_t offset_wrist_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), OFFSET_WRIST_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), OFFSET_WRIST_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -796,20 +796,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125); let r187 = r175 - r73;
     let r189 = r177 - r48; let r194 = r127 + (r119 - r121 - r123 - r125); let r198 = r77 + (r187 - r75);
     let r201 = r52 + (r189 - r50); let r205 = r56 + (r201 - r54) - r58; let r208 = r83 + (r81 + (r198 - r79));
-    let r209 = r106 - r41; let r235 = c1 * r155; let r236 = s1 * r155; let r255 = s1 * r156 + c1 * r157;
-    let r258 = c1 * r163; let r259 = s1 * r163; let r260 = c6 * r101 - s6 * r103; let r262 = r98 - r100;
-    let r280 = s1 * r260 + c1 * r262; let r294 = 0.0 - c1 * r41; let r296 = 0.0 - s1 * r41;
+    let r209 = r106 - r41; let r235 = c6 * r101 - s6 * r103; let r236 = r98 - r100; let r237 = c1 * r155;
+    let r238 = s1 * r155; let r257 = s1 * r156 + c1 * r157; let r260 = c1 * r163; let r261 = s1 * r163;
+    let r280 = s1 * r235 + c1 * r236; let r294 = 0.0 - c1 * r41; let r296 = 0.0 - s1 * r41;
     let r299 = 0.0 - (s1 * r149 + c1 * r150);
     [
         [0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0],
         [r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0],
         [0.0, 0.0 - (s1 * r175 + c1 * r177), 0.0 - (s1 * r187 + c1 * r189), 0.0 - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, 0.0],
-        [r156, r235, r235, r235, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156],
-        [0.0 - r157, r236, r236, r236, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155],
-        [0.0, r255, r255, r255, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156],
-        [r260, r258, r258, r258, r103 * r163 - r106 * r260, r149 * r163 - r41 * r260],
-        [r100 - r98, r259, r259, r259, r106 * r262 - r99 * r163, r41 * r262 - r150 * r163],
-        [0.0, r280, r280, r280, r103 * r262 - r99 * r260, r149 * r262 - r150 * r260],
+        [r156, r237, r237, r237, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156],
+        [0.0 - r157, r238, r238, r238, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155],
+        [0.0, r257, r257, r257, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156],
+        [r235, r260, r260, r260, r103 * r163 - r106 * r235, r149 * r163 - r41 * r235],
+        [r100 - r98, r261, r261, r261, r106 * r236 - r99 * r163, r41 * r236 - r150 * r163],
+        [0.0, r280, r280, r280, r103 * r236 - r99 * r235, r149 * r236 - r150 * r235],
         [0.0 - r149, r294, r294, r294, r106 * r149 - r41 * r103, 0.0],
         [r150, r296, r296, r296, r41 * r99 - r106 * r150, 0.0],
         [0.0, r299, r299, r299, r99 * r149 - r103 * r150, 0.0],
@@ -1702,9 +1702,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

@@ -34,6 +34,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -103,7 +115,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -214,12 +226,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -374,7 +386,7 @@ static void triangle(const Parameters *p, const double *q, double damping, doubl
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -400,8 +412,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -422,7 +434,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.75);
+        longest = larger(IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.75, longest);
     }
     return longest;
 }
@@ -448,7 +460,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough)
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -545,7 +557,7 @@ static void polish(const Parameters *p, double *q, Fit *fit)
         if (!improve(p, q, fit)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -565,9 +577,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
+        weight[i] = IS_ANGLE[i] ? lesser(weight[i], 1.0) : 1.0;
     }
 }
 
@@ -575,7 +587,7 @@ static void weights(const Parameters *p, const double *q, double *weight)
 static void move(const double *q, size_t i, double way, double *next)
 {
     copy(q, next);
-    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(0.75, fabs(q[i]));
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * larger(fabs(q[i]), 0.75);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -607,7 +619,7 @@ static void differences(const double *a, const double *b, double *difference)
 static void spans(const double *q, double tolerance, double *limit)
 {
     for (size_t i = 0; i < JOINTS; i++) {
-        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(0.75, fabs(q[i]));
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * larger(fabs(q[i]), 0.75);
     }
 }
 
@@ -619,7 +631,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -629,7 +641,7 @@ static bool is_within(const double *a, const double *b, double tolerance)
 {
     return fabs(shorter(a[2] - b[2])) <= tolerance
         && fabs(shorter(a[1] - b[1])) <= tolerance
-        && fabs(a[0] - b[0]) <= tolerance * fmax(0.75, fabs(a[0]));
+        && fabs(a[0] - b[0]) <= tolerance * larger(fabs(a[0]), 0.75);
 }
 
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
@@ -676,7 +688,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -783,7 +795,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1002,7 +1014,7 @@ typedef struct {
 /* Chart 1 of block 3: generic. */
 INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r10 = 1.0 / sqrt(fmax(r8, 0.0));
+    const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r10 = 1.0 / sqrt(larger(r8, 0.0));
     const double c3 = shared->r4 * r10, s3 = shared->r5 * r10;
     const double at[PLACES] = {known->d1, known->c2, known->s2, c3, s3};
     finish(p, known->branch, known->last, known->close, at, NONE_FREE, answers);
@@ -1026,7 +1038,7 @@ typedef struct {
 INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1;
-    const double r11 = 1.0 / sqrt(fmax(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
+    const double r11 = 1.0 / sqrt(larger(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_3(p, &next, answers);
 }
@@ -1165,7 +1177,7 @@ double prr_residual(const double *target, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1191,7 +1203,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1200,7 +1212,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + PRR_MOST_TURNS);
+    *last = lesser(*last, *first + PRR_MOST_TURNS);
 }
 
 size_t prr_count_turns(const double *q, const double *limits)
@@ -1213,7 +1225,7 @@ size_t prr_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), PRR_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), PRR_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -95,6 +95,18 @@ void puma_forward(const double *q, double *target);
 static const int INPUTS = PUMA_INPUTS;
 static const int JOINTS = PUMA_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -182,7 +194,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -209,7 +221,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(1.674, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(1.674, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -308,20 +320,20 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r133 = r40 - r41, r134 = r36 * r133, r135 = r29 * r90, r136 = r29 * r91, r137 = r33 * r133;
     const double r142 = r46 * r91, r143 = r20 * r133, r147 = r20 * r90 + r53 * r91;
     const double r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
-    const double r157 = r53 * r133 + r46 * r90, r166 = s1 * r96, r168 = r54 - r56, r170 = c1 * r96;
-    const double r193 = c1 * r168 - s1 * r97, r202 = s6 * r20 - c6 * r51, r204 = s6 * r46 - c6 * r48;
-    const double r226 = 0.0 - s1 * r202, r231 = s1 * r204 - c1 * r102, r236 = 0.0 - c1 * r202;
+    const double r157 = r53 * r133 + r46 * r90, r166 = r54 - r56, r167 = s6 * r20 - c6 * r51;
+    const double r168 = s6 * r46 - c6 * r48, r169 = s1 * r96, r172 = c1 * r96, r195 = c1 * r166 - s1 * r97;
+    const double r226 = 0.0 - s1 * r167, r231 = s1 * r168 - c1 * r102, r236 = 0.0 - c1 * r167;
     const double r244 = 0.0 - s1 * r91, r247 = s1 * r133 + c1 * r90, r249 = 0.0 - c1 * r91;
     const Jacobian result = { {
         {r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0},
         {0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0},
         {0.0 - r80, c1 * r71, c1 * r120, 0.0 - 0.15 * (r136 - r137), 0.0 - 0.15 * (r142 - r143), 0.0},
-        {r56 - r54, r166, r166, 0.0 - (r33 * r168 + r36 * r96), r53 * r96 - r20 * r168, r91 * r168 + r90 * r96},
-        {0.0, r193, r193, r36 * r97 + r29 * r168, r46 * r168 - r53 * r97, 0.0 - (r90 * r97 + r133 * r168)},
-        {0.0 - r97, r170, r170, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96},
-        {r102, r226, r226, r33 * r102 + r36 * r202, r20 * r102 - r53 * r202, 0.0 - (r91 * r102 + r90 * r202)},
-        {0.0, r231, r231, 0.0 - (r36 * r204 + r29 * r102), r53 * r204 - r46 * r102, r90 * r204 + r133 * r102},
-        {r204, r236, r236, r33 * r204 - r29 * r202, r20 * r204 - r46 * r202, r133 * r202 - r91 * r204},
+        {r56 - r54, r169, r169, 0.0 - (r33 * r166 + r36 * r96), r53 * r96 - r20 * r166, r91 * r166 + r90 * r96},
+        {0.0, r195, r195, r36 * r97 + r29 * r166, r46 * r166 - r53 * r97, 0.0 - (r90 * r97 + r133 * r166)},
+        {0.0 - r97, r172, r172, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96},
+        {r102, r226, r226, r33 * r102 + r36 * r167, r20 * r102 - r53 * r167, 0.0 - (r91 * r102 + r90 * r167)},
+        {0.0, r231, r231, 0.0 - (r36 * r168 + r29 * r102), r53 * r168 - r46 * r102, r90 * r168 + r133 * r102},
+        {r168, r236, r236, r33 * r168 - r29 * r167, r20 * r168 - r46 * r167, r133 * r167 - r91 * r168},
         {0.0 - r90, r244, r244, r132 - r131, 0.0 - r147, 0.0},
         {0.0, r247, r247, r135 - r134, r157, 0.0},
         {r133, r249, r249, r137 - r136, r143 - r142, 0.0},
@@ -347,12 +359,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -507,7 +519,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -533,8 +545,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -552,7 +564,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -578,7 +590,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -675,7 +687,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -695,9 +707,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -749,7 +761,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -809,7 +821,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -884,7 +896,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1062,7 +1074,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1316,8 +1328,9 @@ typedef struct {
 /* Chart 1 of block 6: generic. */
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r35 = shared->r16 - shared->r14, r39 = sqrt(fmax(shared->r34 * shared->r34 + r35 * r35, 0.0));
-    const double r40 = 1.0 / r39, c6 = shared->r34 * r40, s6 = r35 * r40;
+    const double r35 = shared->r16 - shared->r14;
+    const double r39 = sqrt(larger(shared->r34 * shared->r34 + r35 * r35, 0.0)), r40 = 1.0 / r39;
+    const double c6 = shared->r34 * r40, s6 = r35 * r40;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4,
         known->c5, known->s5, c6, s6,
@@ -1356,8 +1369,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19, r25 = 1.0 / sqrt(fmax(r23, 0.0));
-    const double c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25;
+    const double r23 = shared->r20 * shared->r20 + shared->r19 * shared->r19;
+    const double r25 = 1.0 / sqrt(larger(r23, 0.0)), c5 = shared->r20 * r25, s5 = 0.0 - shared->r19 * r25;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
@@ -1455,7 +1468,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double f2 = 1.0, r23 = shared->r7 * shared->r12 - shared->r8 * shared->r11;
     const double r27 = shared->r8 * shared->r12 - (0.0 - shared->r7 * shared->r11);
-    const double r32 = 1.0 / sqrt(fmax(r27 * r27 + r23 * r23, 0.0)), c2 = r27 * r32, s2 = r23 * r32;
+    const double r32 = 1.0 / sqrt(larger(r27 * r27 + r23 * r23, 0.0)), c2 = r27 * r32, s2 = r23 * r32;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
     next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
@@ -1542,7 +1555,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         return;
     }
     const double f1 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(larger(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
         const double s1 = w1 * shared->r1 * r17;
@@ -1592,7 +1605,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

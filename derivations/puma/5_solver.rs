@@ -800,20 +800,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r134 = r36 * r133; let r135 = r29 * r90; let r136 = r29 * r91; let r137 = r33 * r133;
     let r142 = r46 * r91; let r143 = r20 * r133; let r147 = r20 * r90 + r53 * r91;
     let r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
-    let r157 = r53 * r133 + r46 * r90; let r166 = s1 * r96; let r168 = r54 - r56; let r170 = c1 * r96;
-    let r193 = c1 * r168 - s1 * r97; let r202 = s6 * r20 - c6 * r51; let r204 = s6 * r46 - c6 * r48;
-    let r226 = 0.0 - s1 * r202; let r231 = s1 * r204 - c1 * r102; let r236 = 0.0 - c1 * r202;
+    let r157 = r53 * r133 + r46 * r90; let r166 = r54 - r56; let r167 = s6 * r20 - c6 * r51;
+    let r168 = s6 * r46 - c6 * r48; let r169 = s1 * r96; let r172 = c1 * r96; let r195 = c1 * r166 - s1 * r97;
+    let r226 = 0.0 - s1 * r167; let r231 = s1 * r168 - c1 * r102; let r236 = 0.0 - c1 * r167;
     let r244 = 0.0 - s1 * r91; let r247 = s1 * r133 + c1 * r90; let r249 = 0.0 - c1 * r91;
     [
         [r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0],
         [0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0],
         [0.0 - r80, c1 * r71, c1 * r120, 0.0 - 0.15 * (r136 - r137), 0.0 - 0.15 * (r142 - r143), 0.0],
-        [r56 - r54, r166, r166, 0.0 - (r33 * r168 + r36 * r96), r53 * r96 - r20 * r168, r91 * r168 + r90 * r96],
-        [0.0, r193, r193, r36 * r97 + r29 * r168, r46 * r168 - r53 * r97, 0.0 - (r90 * r97 + r133 * r168)],
-        [0.0 - r97, r170, r170, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96],
-        [r102, r226, r226, r33 * r102 + r36 * r202, r20 * r102 - r53 * r202, 0.0 - (r91 * r102 + r90 * r202)],
-        [0.0, r231, r231, 0.0 - (r36 * r204 + r29 * r102), r53 * r204 - r46 * r102, r90 * r204 + r133 * r102],
-        [r204, r236, r236, r33 * r204 - r29 * r202, r20 * r204 - r46 * r202, r133 * r202 - r91 * r204],
+        [r56 - r54, r169, r169, 0.0 - (r33 * r166 + r36 * r96), r53 * r96 - r20 * r166, r91 * r166 + r90 * r96],
+        [0.0, r195, r195, r36 * r97 + r29 * r166, r46 * r166 - r53 * r97, 0.0 - (r90 * r97 + r133 * r166)],
+        [0.0 - r97, r172, r172, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96],
+        [r102, r226, r226, r33 * r102 + r36 * r167, r20 * r102 - r53 * r167, 0.0 - (r91 * r102 + r90 * r167)],
+        [0.0, r231, r231, 0.0 - (r36 * r168 + r29 * r102), r53 * r168 - r46 * r102, r90 * r168 + r133 * r102],
+        [r168, r236, r236, r33 * r168 - r29 * r167, r20 * r168 - r46 * r167, r133 * r167 - r91 * r168],
         [0.0 - r90, r244, r244, r132 - r131, 0.0 - r147, 0.0],
         [0.0, r247, r247, r135 - r134, r157, 0.0],
         [r133, r249, r249, r137 - r136, r143 - r142, 0.0],
@@ -1706,9 +1706,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

@@ -93,6 +93,18 @@ void scara_forward(const double *q, double *target);
 static const int INPUTS = SCARA_INPUTS;
 static const int JOINTS = SCARA_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -180,7 +192,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -207,7 +219,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.7803652144736517, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.7803652144736517, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -282,15 +294,15 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c4 = at[5], s4 = at[6], r0 = c1 * c2;
     const double r1 = s1 * s2, r2 = s1 * c2, r3 = c1 * s2, r5 = r0 - r1, r7 = r2 + r3, r8 = s4 * r7;
     const double r9 = c4 * r7, r10 = r1 - r0, r12 = s4 * r5, r13 = c4 * r10, r29 = r9 + s4 * r10;
-    const double r30 = c4 * r5 + r8, r35 = r9 - r12, r46 = 0.0 - r29, r48 = r8 - r13;
+    const double r30 = c4 * r5 + r8, r35 = r9 - r12, r46 = r8 - r13, r48 = 0.0 - r29;
     const Jacobian result = { {
         {0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0},
         {0.325 * c1 + 0.275 * r0 - 0.275 * r1, 0.275 * r5, 0.0, 0.0},
         {0.0, 0.0, -1.0, 0.0},
-        {r46, r46, 0.0, r29},
+        {r48, r48, 0.0, r29},
         {r30, r30, 0.0, 0.0 - r30},
         {0.0, 0.0, 0.0, 0.0},
-        {r48, r48, 0.0, r13 - r8},
+        {r46, r46, 0.0, r13 - r8},
         {r35, r35, 0.0, r12 - r9},
         {0.0, 0.0, 0.0, 0.0},
         {0.0, 0.0, 0.0, 0.0},
@@ -318,12 +330,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -475,7 +487,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -501,8 +513,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -523,7 +535,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.7803652144736517);
+        longest = larger(IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 0.7803652144736517, longest);
     }
     return longest;
 }
@@ -549,7 +561,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -646,7 +658,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -666,9 +678,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
+        weight[i] = IS_ANGLE[i] ? lesser(weight[i], 1.0) : 1.0;
     }
 }
 
@@ -676,7 +688,7 @@ static void weights(const Parameters *p, const double *q, double *weight)
 static void move(const double *q, size_t i, double way, double *next)
 {
     copy(q, next);
-    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(0.7803652144736517, fabs(q[i]));
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * larger(fabs(q[i]), 0.7803652144736517);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -707,7 +719,7 @@ static void differences(const double *a, const double *b, double *difference)
 static void spans(const double *q, double tolerance, double *limit)
 {
     for (size_t i = 0; i < JOINTS; i++) {
-        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(0.7803652144736517, fabs(q[i]));
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * larger(fabs(q[i]), 0.7803652144736517);
     }
 }
 
@@ -719,7 +731,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -730,7 +742,7 @@ static bool is_within(const double *a, const double *b, double tolerance)
     return fabs(shorter(a[3] - b[3])) <= tolerance
         && fabs(shorter(a[0] - b[0])) <= tolerance
         && fabs(shorter(a[1] - b[1])) <= tolerance
-        && fabs(a[2] - b[2]) <= tolerance * fmax(0.7803652144736517, fabs(a[2]));
+        && fabs(a[2] - b[2]) <= tolerance * larger(fabs(a[2]), 0.7803652144736517);
 }
 
 /* Whether two answers differ by tolerance at most, joints left out that are free in either. */
@@ -777,7 +789,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -852,7 +864,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1030,7 +1042,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1242,8 +1254,8 @@ typedef struct {
 /* Chart 1 of block 4: generic. */
 static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
-    const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17, r22 = 1.0 / sqrt(fmax(r20, 0.0));
-    const double c4 = shared->r16 * r22, s4 = shared->r17 * r22;
+    const double r20 = shared->r16 * shared->r16 + shared->r17 * shared->r17;
+    const double r22 = 1.0 / sqrt(larger(r20, 0.0)), c4 = shared->r16 * r22, s4 = shared->r17 * r22;
     const double at[PLACES] = {known->c1, known->s1, known->c2, known->s2, known->d3, c4, s4};
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
 }
@@ -1280,7 +1292,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double r11 = p->py * shared->r2 - p->px * shared->r0;
     const double r15 = p->px * shared->r2 - (0.0 - p->py * shared->r0);
-    const double r20 = 1.0 / sqrt(fmax(r15 * r15 + r11 * r11, 0.0)), c1 = r15 * r20, s1 = r11 * r20;
+    const double r20 = 1.0 / sqrt(larger(r15 * r15 + r11 * r11, 0.0)), c1 = r15 * r20, s1 = r11 * r20;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1;
     next.s1 = s1;
     block_4(p, &next, answers);
@@ -1375,7 +1387,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

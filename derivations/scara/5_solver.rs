@@ -648,16 +648,16 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, _, c4, s4] = *at;
     let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = r0 - r1; let r7 = r2 + r3;
     let r8 = s4 * r7; let r9 = c4 * r7; let r10 = r1 - r0; let r12 = s4 * r5; let r13 = c4 * r10;
-    let r29 = r9 + s4 * r10; let r30 = c4 * r5 + r8; let r35 = r9 - r12; let r46 = 0.0 - r29;
-    let r48 = r8 - r13;
+    let r29 = r9 + s4 * r10; let r30 = c4 * r5 + r8; let r35 = r9 - r12; let r46 = r8 - r13;
+    let r48 = 0.0 - r29;
     [
         [0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0],
         [0.325 * c1 + 0.275 * r0 - 0.275 * r1, 0.275 * r5, 0.0, 0.0],
         [0.0, 0.0, -1.0, 0.0],
-        [r46, r46, 0.0, r29],
+        [r48, r48, 0.0, r29],
         [r30, r30, 0.0, 0.0 - r30],
         [0.0, 0.0, 0.0, 0.0],
-        [r48, r48, 0.0, r13 - r8],
+        [r46, r46, 0.0, r13 - r8],
         [r35, r35, 0.0, r12 - r9],
         [0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, 0.0, 0.0],
@@ -1533,9 +1533,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], self.at[4][k], angles[2][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], self.at[4][k], angles[2][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

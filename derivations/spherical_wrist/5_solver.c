@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -137,7 +149,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > GRAZING * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > GRAZING * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -164,7 +176,7 @@ static double largest(const double *coefficients, size_t length)
 {
     double size = 0.0;
     for (size_t i = 0; i < length; i++) {
-        size = fmax(size, fabs(coefficients[i]));
+        size = larger(fabs(coefficients[i]), size);
     }
     return size;
 }
@@ -217,7 +229,7 @@ static Roots quadratic_roots(const Polynomial *p)
     Roots roots = {{0.0}, 0, false};
     const double c = p->a[0], b = p->a[1], a = p->a[2], discriminant = b * b - 4.0 * a * c;
     const double size = b * b + fabs(4.0 * a * c), typical = 2.0 * a * p->scale;
-    if (discriminant < -TANGENT * fmax(size, typical * typical)) {
+    if (discriminant < -TANGENT * larger(size, typical * typical)) {
         return roots;
     }
     if (discriminant <= ROUNDING * size) {
@@ -225,8 +237,8 @@ static Roots quadratic_roots(const Polynomial *p)
         return roots;
     }
     const double q = -0.5 * (b + copysign(sqrt(discriminant), b)), first = q / a, second = c / q;
-    push(&roots, fmin(first, second));
-    push(&roots, fmax(first, second));
+    push(&roots, lesser(first, second));
+    push(&roots, larger(first, second));
     return roots;
 }
 
@@ -272,7 +284,7 @@ static double value_and_size(const Polynomial *p, double x, double scale, double
     *size = 0.0;
     for (size_t i = p->degree + 1; i-- > 0;) {
         value = value * x + p->a[i];
-        *size = *size * fmax(fabs(x), scale) + fabs(p->a[i]);
+        *size = *size * larger(fabs(x), scale) + fabs(p->a[i]);
     }
     return value;
 }
@@ -315,7 +327,7 @@ static double middle(double low, double high, bool arithmetic)
     if (low < 0.0 && high > 0.0) {
         return 0.0;
     }
-    const double magnitude = sqrt(fmax(fabs(low), DBL_MIN)) * sqrt(fmax(fabs(high), DBL_MIN));
+    const double magnitude = sqrt(larger(fabs(low), DBL_MIN)) * sqrt(larger(fabs(high), DBL_MIN));
     return copysign(magnitude, low + high);
 }
 
@@ -340,7 +352,7 @@ static double root_between(const Polynomial *p, double low, double high)
         }
         const double newton = x - value / slope;
         if (fabs(newton - x) <= DBL_EPSILON * fabs(x)) {
-            return fmin(fmax(newton, low), high);
+            return lesser(larger(newton, low), high);
         }
         double next = newton;
         if (!(low < newton && newton < high && 4.0 * fabs(newton - x) <= step)) {
@@ -406,8 +418,8 @@ static Roots all_real_roots(const double *coefficients, size_t length, double sc
 /* The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it; else NAN. */
 static double resolved(double u, double v, double w, double typical)
 {
-    const double falling = fmax(-u, 0.0), under = fmax(-v, 0.0);
-    double z = fmax(typical, 0.5 * (falling + sqrt(falling * falling + 4.0 * (under + w / typical))));
+    const double falling = larger(-u, 0.0), under = larger(-v, 0.0);
+    double z = larger(typical, 0.5 * (falling + sqrt(falling * falling + 4.0 * (under + w / typical))));
     for (int i = 0; i < 24; i++) {
         const double value = ((z + u) * z + v) * z - w, slope = (3.0 * z + 2.0 * u) * z + v;
         const double step = value / slope;
@@ -431,7 +443,7 @@ static int approximate_roots(const double *monic, double scale, double *roots)
     /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
     const double z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale), h = sqrt(z);
     const double mean = 0.5 * (p + z), half = 0.5 * q / h, f = mean - half, g = mean + half;
-    const double size = fmax(fmax(z, fabs(f)), fabs(g));
+    const double size = larger(larger(z, fabs(f)), fabs(g));
     if (!(fabs(f * g - r) <= 1e-8 * size * size)) {
         return -1;
     }
@@ -445,8 +457,8 @@ static int approximate_roots(const double *monic, double scale, double *roots)
             roots[count] = middles[i] - apart - quarter;
             roots[count + 1] = middles[i] + apart - quarter;
             count += 2;
-        } else if (!(apart > 0.002 * fmax(scale, sqrt(size))
-                     && fabs(others[i] + 0.75 * z) > 0.002 * fmax(size, scale * scale))) {
+        } else if (!(apart > 0.002 * larger(scale, sqrt(size))
+                     && fabs(others[i] + 0.75 * z) > 0.002 * larger(size, scale * scale))) {
             return -1;
         }
     }
@@ -464,7 +476,7 @@ static double settled(const double *monic, double x, double scale)
         step = value / slope;
         x -= step;
     }
-    return fabs(step) <= 1e-9 * fmax(scale, fabs(x)) ? x : NAN;
+    return fabs(step) <= 1e-9 * larger(scale, fabs(x)) ? x : NAN;
 }
 
 /* The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. False where the leading coefficient is small, where
@@ -485,17 +497,17 @@ static bool ordinary_roots(const double *coefficients, double scale, Roots *root
         x[i] = settled(monic, x[i], scale);
     }
     if (count == 4) {
-        const double first = fmin(x[0], x[2]), low = fmin(x[1], x[3]);
-        const double high = fmax(x[0], x[2]), last = fmax(x[1], x[3]);
+        const double first = lesser(x[0], x[2]), low = lesser(x[1], x[3]);
+        const double high = larger(x[0], x[2]), last = larger(x[1], x[3]);
         x[0] = first;
-        x[1] = fmin(low, high);
-        x[2] = fmax(low, high);
+        x[1] = lesser(low, high);
+        x[2] = larger(low, high);
         x[3] = last;
     }
     roots->count = 0;
     roots->close = false;
     for (int i = 0; i < count; i++) {
-        if (i > 0 && !(x[i] - x[i - 1] > 0.002 * fmax(fmax(scale, fabs(x[i])), fabs(x[i - 1])))) {
+        if (i > 0 && !(x[i] - x[i - 1] > 0.002 * larger(larger(scale, fabs(x[i])), fabs(x[i - 1])))) {
             return false;
         }
         push(roots, x[i]);
@@ -529,7 +541,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(1.339110366322714, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(1.339110366322714, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -835,12 +847,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -995,7 +1007,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -1021,8 +1033,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -1040,7 +1052,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -1066,7 +1078,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -1163,7 +1175,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -1183,9 +1195,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -1240,7 +1252,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -1300,7 +1312,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -1375,7 +1387,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1553,7 +1565,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1874,7 +1886,7 @@ typedef struct {
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r221 = shared->r220 - shared->r102, r223 = shared->r220 - (shared->r101 - shared->r100);
-    const double r228 = 1.0 / sqrt(fmax(r223 * r223 + r221 * r221, 0.0)), c6 = r223 * r228, s6 = r221 * r228;
+    const double r228 = 1.0 / sqrt(larger(r223 * r223 + r221 * r221, 0.0)), c6 = r223 * r228, s6 = r221 * r228;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->c3, known->s3, known->c4, known->s4,
         known->c5, known->s5, c6, s6,
@@ -1956,7 +1968,7 @@ typedef struct {
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r117 = shared->r115 - shared->r114, r118 = r117 - (shared->r109 - shared->r108);
-    const double r119 = r117 - shared->r111, r124 = 1.0 / sqrt(fmax(r119 * r119 + r118 * r118, 0.0));
+    const double r119 = r117 - shared->r111, r124 = 1.0 / sqrt(larger(r119 * r119 + r118 * r118, 0.0));
     const double c5 = r119 * r124, s5 = r118 * r124;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
@@ -2107,7 +2119,7 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     }
     const double f2 = 1.0, r60 = shared->r23 * shared->r32 + shared->r19 * shared->r48;
     const double r63 = shared->r23 * shared->r48 - shared->r19 * shared->r32;
-    const double r68 = 1.0 / sqrt(fmax(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
+    const double r68 = 1.0 / sqrt(larger(r63 * r63 + r60 * r60, 0.0)), c2 = r63 * r68, s2 = 0.0 - r60 * r68;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c2 = c2;
     next.s2 = s2; next.f2 = f2;
     block_4(p, &next, answers);
@@ -2175,7 +2187,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
     const double f1 = 1.0, r79 = shared->r44 * shared->r50 - shared->r41 * shared->r52;
     const double r83 = shared->r44 * shared->r52 - (0.0 - shared->r41 * shared->r50);
-    const double r88 = 1.0 / sqrt(fmax(r83 * r83 + r79 * r79, 0.0)), c1 = r83 * r88, s1 = r79 * r88;
+    const double r88 = 1.0 / sqrt(larger(r83 * r83 + r79 * r79, 0.0)), c1 = r83 * r88, s1 = r79 * r88;
     Known next = *known; next.branch = 2 * known->branch; next.last = 2 * known->last; next.c1 = c1;
     next.s1 = s1; next.f1 = f1;
     block_3(p, &next, answers);
@@ -2257,7 +2269,7 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r108 = w3 * (r94 - r93) + (shared->r41 + 0.21819403952057012);
         const double r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
         const double r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
-        const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(fmax(r117 * r117 + r115 * r115, 0.0));
+        const double r117 = 1.0 - w3 * r115, r122 = 1.0 / sqrt(larger(r117 * r117 + r115 * r115, 0.0));
         const double c3 = r117 * r122, s3 = r115 * r122;
         Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
         next.c3 = c3; next.s3 = s3; next.f3 = f3;
@@ -2297,7 +2309,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r110 = 0.6526507473737795 * shared->r37 - 0.21819403952057012 * r107;
         const double r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
         const double r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703, r119 = w3 * (1.0 - r117);
-        const double r124 = 1.0 / sqrt(fmax(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
+        const double r124 = 1.0 / sqrt(larger(r119 * r119 + r117 * r117, 0.0)), c3 = 0.0 - r119 * r124;
         const double s3 = 0.0 - r117 * r124;
         Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
         next.c3 = c3; next.s3 = s3; next.f3 = f3;
@@ -2335,7 +2347,7 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
         const double r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
         const double r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
-        const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(fmax(r116 * r116 + r114 * r114, 0.0));
+        const double r116 = w3 * r114 + 1.0, r121 = 1.0 / sqrt(larger(r116 * r116 + r114 * r114, 0.0));
         const double c3 = 0.0 - r116 * r121, s3 = r114 * r121;
         Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
         next.c3 = c3; next.s3 = s3; next.f3 = f3;
@@ -2374,7 +2386,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r110 = 0.6526507473737795 * shared->r37 - 0.21819403952057012 * r107;
         const double r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
         const double r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
-        const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(fmax(r119 * r119 + r116 * r116, 0.0));
+        const double r119 = w3 * (0.0 - r116 - 1.0), r124 = 1.0 / sqrt(larger(r119 * r119 + r116 * r116, 0.0));
         const double c3 = 0.0 - r119 * r124, s3 = 0.0 - r116 * r124;
         Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
         next.c3 = c3; next.s3 = s3; next.f3 = f3;
@@ -2422,7 +2434,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
         const double r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
         const double r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
         const double r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
-        const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(fmax(r157 * r157 + r154 * r154, 0.0));
+        const double r157 = 0.6 - w3 * (0.8 - r154), r162 = 1.0 / sqrt(larger(r157 * r157 + r154 * r154, 0.0));
         const double c3 = r157 * r162, s3 = 0.0 - r154 * r162;
         Known next = NOTHING_KNOWN; next.branch = i0; next.last = 4; next.close = roots0.close;
         next.c3 = c3; next.s3 = s3; next.f3 = f3;
@@ -2514,7 +2526,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -2655,7 +2667,7 @@ double spherical_wrist_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -2704,7 +2716,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -2713,7 +2725,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + SPHERICAL_WRIST_MOST_TURNS);
+    *last = lesser(*last, *first + SPHERICAL_WRIST_MOST_TURNS);
 }
 
 size_t spherical_wrist_count_turns(const double *q, const double *limits)
@@ -2726,7 +2738,7 @@ size_t spherical_wrist_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), SPHERICAL_WRIST_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), SPHERICAL_WRIST_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -38,6 +38,18 @@
 #define INLINE
 #define COLD
 #endif
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 #define ACCEPT 1e-12
 /* Answers whose joints all differ by no more than this are one. */
@@ -129,7 +141,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -156,7 +168,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(1.06, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(1.06, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -246,18 +258,18 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41;
     const double r96 = c2 * r68, r97 = r1 * r69, r98 = r26 - r27, r99 = r1 * r98, r100 = r0 * r68;
     const double r101 = r0 * r69, r102 = c2 * r98, r107 = r32 * r69, r108 = r10 * r98;
-    const double r112 = r10 * r68 + r39 * r69, r120 = r39 * r98 + r32 * r68, r131 = r40 - r42;
-    const double r165 = s6 * r10 - c6 * r37, r167 = s6 * r32 - c6 * r34;
+    const double r112 = r10 * r68 + r39 * r69, r120 = r39 * r98 + r32 * r68, r129 = r40 - r42;
+    const double r130 = s6 * r10 - c6 * r37, r131 = s6 * r32 - c6 * r34;
     const Jacobian result = { {
         {r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0},
         {0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0},
         {0.0 - r61, c1 * r55, r1, 0.0 - 0.2 * (r101 - r102), 0.0 - 0.2 * (r107 - r108), 0.0},
-        {r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r131 + r1 * r74), r39 * r74 - r10 * r131, r69 * r131 + r68 * r74},
-        {0.0, c1 * r131 - s1 * r75, 0.0, r1 * r75 + r0 * r131, r32 * r131 - r39 * r75, 0.0 - (r68 * r75 + r98 * r131)},
+        {r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r129 + r1 * r74), r39 * r74 - r10 * r129, r69 * r129 + r68 * r74},
+        {0.0, c1 * r129 - s1 * r75, 0.0, r1 * r75 + r0 * r129, r32 * r129 - r39 * r75, 0.0 - (r68 * r75 + r98 * r129)},
         {0.0 - r75, c1 * r74, 0.0, r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74},
-        {r80, 0.0 - s1 * r165, 0.0, c2 * r80 + r1 * r165, r10 * r80 - r39 * r165, 0.0 - (r69 * r80 + r68 * r165)},
-        {0.0, s1 * r167 - c1 * r80, 0.0, 0.0 - (r1 * r167 + r0 * r80), r39 * r167 - r32 * r80, r68 * r167 + r98 * r80},
-        {r167, 0.0 - c1 * r165, 0.0, c2 * r167 - r0 * r165, r10 * r167 - r32 * r165, r98 * r165 - r69 * r167},
+        {r80, 0.0 - s1 * r130, 0.0, c2 * r80 + r1 * r130, r10 * r80 - r39 * r130, 0.0 - (r69 * r80 + r68 * r130)},
+        {0.0, s1 * r131 - c1 * r80, 0.0, 0.0 - (r1 * r131 + r0 * r80), r39 * r131 - r32 * r80, r68 * r131 + r98 * r80},
+        {r131, 0.0 - c1 * r130, 0.0, c2 * r131 - r0 * r130, r10 * r131 - r32 * r130, r98 * r130 - r69 * r131},
         {0.0 - r68, 0.0 - s1 * r69, 0.0, r97 - r96, 0.0 - r112, 0.0},
         {0.0, s1 * r98 + c1 * r68, 0.0, r100 - r99, r120, 0.0},
         {r98, 0.0 - c1 * r69, 0.0, r102 - r101, r108 - r107, 0.0},
@@ -283,12 +295,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], DBL_MIN));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], DBL_MIN), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -442,7 +454,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -468,8 +480,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -490,7 +502,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.06);
+        longest = larger(IS_ANGLE[i] ? fabs(step[i]) : fabs(step[i]) / 1.06, longest);
     }
     return longest;
 }
@@ -516,7 +528,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -613,7 +625,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -633,9 +645,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], DBL_MIN));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], DBL_MIN), weight[i]);
         }
-        weight[i] = IS_ANGLE[i] ? fmin(weight[i], 1.0) : 1.0;
+        weight[i] = IS_ANGLE[i] ? lesser(weight[i], 1.0) : 1.0;
     }
 }
 
@@ -643,7 +655,7 @@ static void weights(const Parameters *p, const double *q, double *weight)
 static void move(const double *q, size_t i, double way, double *next)
 {
     copy(q, next);
-    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * fmax(1.06, fabs(q[i]));
+    next[i] = IS_ANGLE[i] ? wrap(q[i] + way) : q[i] + way * larger(fabs(q[i]), 1.06);
 }
 
 /* Answers so far, and the largest share of an equation's value in its size for each. */
@@ -677,7 +689,7 @@ static void differences(const double *a, const double *b, double *difference)
 static void spans(const double *q, double tolerance, double *limit)
 {
     for (size_t i = 0; i < JOINTS; i++) {
-        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * fmax(1.06, fabs(q[i]));
+        limit[i] = IS_ANGLE[i] ? tolerance : tolerance * larger(fabs(q[i]), 1.06);
     }
 }
 
@@ -689,7 +701,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -700,7 +712,7 @@ static bool is_within(const double *a, const double *b, double tolerance)
     return fabs(shorter(a[5] - b[5])) <= tolerance
         && fabs(shorter(a[4] - b[4])) <= tolerance
         && fabs(shorter(a[3] - b[3])) <= tolerance
-        && fabs(a[2] - b[2]) <= tolerance * fmax(1.06, fabs(a[2]))
+        && fabs(a[2] - b[2]) <= tolerance * larger(fabs(a[2]), 1.06)
         && fabs(shorter(a[1] - b[1])) <= tolerance
         && fabs(shorter(a[0] - b[0])) <= tolerance;
 }
@@ -749,7 +761,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -824,7 +836,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1002,7 +1014,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1308,8 +1320,9 @@ typedef struct {
 /* Chart 1 of block 6: generic. */
 INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
-    const double r23 = shared->r10 - shared->r8, r27 = sqrt(fmax(shared->r22 * shared->r22 + r23 * r23, 0.0));
-    const double r28 = 1.0 / r27, c6 = shared->r22 * r28, s6 = r23 * r28;
+    const double r23 = shared->r10 - shared->r8;
+    const double r27 = sqrt(larger(shared->r22 * shared->r22 + r23 * r23, 0.0)), r28 = 1.0 / r27;
+    const double c6 = shared->r22 * r28, s6 = r23 * r28;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, known->d3, known->c4, known->s4, known->c5,
         known->s5, c6, s6,
@@ -1345,8 +1358,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13, r19 = 1.0 / sqrt(fmax(r17, 0.0));
-    const double c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19;
+    const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13;
+    const double r19 = 1.0 / sqrt(larger(r17, 0.0)), c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19;
     Known next = *known; next.c5 = c5; next.s5 = s5;
     block_6(p, &next, answers);
 }
@@ -1463,7 +1476,7 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
         return;
     }
     const double f2 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r16 - r17, known->f1 * sqrt(fmax(r21, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r16 - r17, known->f1 * sqrt(larger(r21, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w2 = roots0.values[i0], r29 = 1.0 / r18, c2 = 0.0 - w2 * shared->r9 * r29;
         const double s2 = w2 * shared->r6 * r29;
@@ -1525,7 +1538,7 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
         return;
     }
     const double f1 = 1.0;
-    const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(fmax(r10, 0.0)));
+    const Roots roots0 = square_roots(0.0 - r6 - r7, sqrt(larger(r10, 0.0)));
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
         const double w1 = roots0.values[i0], r17 = 1.0 / r8, c1 = 0.0 - w1 * shared->r3 * r17;
         const double s1 = w1 * shared->r1 * r17;
@@ -1575,7 +1588,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =
@@ -1716,7 +1729,7 @@ double stanford_residual(const double *given, const double *q)
         if (isnan(f.value[i])) {
             return f.value[i];
         }
-        size = fmax(size, fabs(f.value[i]));
+        size = larger(fabs(f.value[i]), size);
     }
     return size;
 }
@@ -1765,7 +1778,7 @@ static void turns_within(size_t i, double value, const double *limit, double *fi
 /* The number of turns between bounds that is nearest to another. */
 static double nearest_turn(double turn, double first, double last)
 {
-    return fmin(fmax(turn, first), last) + 0.0;
+    return lesser(larger(turn, first), last) + 0.0;
 }
 
 /* The bounds, brought together where one is infinite, and not too far apart. */
@@ -1774,7 +1787,7 @@ static void finite_turns(double *first, double *last)
     if (!isfinite(*first) || !isfinite(*last)) {
         *first = *last = nearest_turn(0.0, *first, *last);
     }
-    *last = fmin(*last, *first + STANFORD_MOST_TURNS);
+    *last = lesser(*last, *first + STANFORD_MOST_TURNS);
 }
 
 size_t stanford_count_turns(const double *q, const double *limits)
@@ -1787,7 +1800,7 @@ size_t stanford_count_turns(const double *q, const double *limits)
             return 0;
         }
         finite_turns(&first, &last);
-        count = fmin(count * (last - first + 1.0), STANFORD_MOST_TURNS);
+        count = lesser(count * (last - first + 1.0), STANFORD_MOST_TURNS);
     }
     return (size_t)count;
 }

@@ -784,18 +784,18 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r74 = c6 * r10 + s6 * r37; let r75 = c6 * r32 + s6 * r34; let r80 = s6 * r39 + c6 * r41;
     let r96 = c2 * r68; let r97 = r1 * r69; let r98 = r26 - r27; let r99 = r1 * r98; let r100 = r0 * r68;
     let r101 = r0 * r69; let r102 = c2 * r98; let r107 = r32 * r69; let r108 = r10 * r98;
-    let r112 = r10 * r68 + r39 * r69; let r120 = r39 * r98 + r32 * r68; let r131 = r40 - r42;
-    let r165 = s6 * r10 - c6 * r37; let r167 = s6 * r32 - c6 * r34;
+    let r112 = r10 * r68 + r39 * r69; let r120 = r39 * r98 + r32 * r68; let r129 = r40 - r42;
+    let r130 = s6 * r10 - c6 * r37; let r131 = s6 * r32 - c6 * r34;
     [
         [r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0],
         [0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0],
         [0.0 - r61, c1 * r55, r1, 0.0 - 0.2 * (r101 - r102), 0.0 - 0.2 * (r107 - r108), 0.0],
-        [r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r131 + r1 * r74), r39 * r74 - r10 * r131, r69 * r131 + r68 * r74],
-        [0.0, c1 * r131 - s1 * r75, 0.0, r1 * r75 + r0 * r131, r32 * r131 - r39 * r75, 0.0 - (r68 * r75 + r98 * r131)],
+        [r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r129 + r1 * r74), r39 * r74 - r10 * r129, r69 * r129 + r68 * r74],
+        [0.0, c1 * r129 - s1 * r75, 0.0, r1 * r75 + r0 * r129, r32 * r129 - r39 * r75, 0.0 - (r68 * r75 + r98 * r129)],
         [0.0 - r75, c1 * r74, 0.0, r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74],
-        [r80, 0.0 - s1 * r165, 0.0, c2 * r80 + r1 * r165, r10 * r80 - r39 * r165, 0.0 - (r69 * r80 + r68 * r165)],
-        [0.0, s1 * r167 - c1 * r80, 0.0, 0.0 - (r1 * r167 + r0 * r80), r39 * r167 - r32 * r80, r68 * r167 + r98 * r80],
-        [r167, 0.0 - c1 * r165, 0.0, c2 * r167 - r0 * r165, r10 * r167 - r32 * r165, r98 * r165 - r69 * r167],
+        [r80, 0.0 - s1 * r130, 0.0, c2 * r80 + r1 * r130, r10 * r80 - r39 * r130, 0.0 - (r69 * r80 + r68 * r130)],
+        [0.0, s1 * r131 - c1 * r80, 0.0, 0.0 - (r1 * r131 + r0 * r80), r39 * r131 - r32 * r80, r68 * r131 + r98 * r80],
+        [r131, 0.0 - c1 * r130, 0.0, c2 * r131 - r0 * r130, r10 * r131 - r32 * r130, r98 * r130 - r69 * r131],
         [0.0 - r68, 0.0 - s1 * r69, 0.0, r97 - r96, 0.0 - r112, 0.0],
         [0.0, s1 * r98 + c1 * r68, 0.0, r100 - r99, r120, 0.0],
         [r98, 0.0 - c1 * r69, 0.0, r102 - r101, r108 - r107, 0.0],
@@ -1691,9 +1691,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], self.at[4][k], angles[2][k], angles[3][k], angles[4][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], self.at[4][k], angles[2][k], angles[3][k], angles[4][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

@@ -95,6 +95,18 @@ void teo_leg_forward(const double *q, double *target);
 static const int INPUTS = TEO_LEG_INPUTS;
 static const int JOINTS = TEO_LEG_JOINTS;
 static const int EQUATIONS = 12;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -182,7 +194,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -209,7 +221,7 @@ static Parameters parameters(const double *target)
     const double px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
     const double r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
     const double r32_ = target[10], r33_ = target[11];
-    const double magnitude = fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(fmax(0.926083810044118, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
+    const double magnitude = larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(larger(0.926083810044118, fabs(px)), fabs(py)), fabs(pz)), fabs(r11_)), fabs(r12_)), fabs(r13_)), fabs(r21_)), fabs(r22_)), fabs(r23_)), fabs(r31_)), fabs(r32_)), fabs(r33_));
     const Parameters result = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude};
     return result;
 }
@@ -315,20 +327,20 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     const double r144 = r85 + (r81 + (r77 + r79) - r83), r149 = r90 - r92 - r94 - r96 - r98, r154 = r1 * r100;
     const double r155 = r59 - r60, r156 = s2 * r155, r162 = c5 * r38 - s5 * r40, r164 = r101 * r162;
     const double r165 = r100 * r103, r173 = r100 * r102 + r155 * r162, r178 = s2 * r101 - r0 * r100;
-    const double r186 = r0 * r155 - r1 * r101, r189 = r155 * r103 + r101 * r102;
-    const double r204 = 0.0 - (r1 * r162 + s2 * r102), r205 = s2 * r103 - r0 * r162;
-    const double r208 = 0.0 - (r0 * r102 + r1 * r103), r212 = r48 - r50, r227 = r1 * r115 - s2 * r116;
-    const double r230 = r0 * r115 - s2 * r212, r233 = r1 * r212 - r0 * r116, r240 = r156 - r154;
+    const double r186 = r0 * r155 - r1 * r101, r189 = r155 * r103 + r101 * r102, r191 = r48 - r50;
+    const double r205 = 0.0 - (r1 * r162 + s2 * r102), r206 = s2 * r103 - r0 * r162;
+    const double r209 = 0.0 - (r0 * r102 + r1 * r103), r227 = r1 * r115 - s2 * r116;
+    const double r230 = r0 * r115 - s2 * r191, r233 = r1 * r191 - r0 * r116, r240 = r156 - r154;
     const Jacobian result = { {
         {r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173},
         {0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)},
         {0.0, s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, 0.0 - 0.123005 * r186, 0.123005 * r189},
-        {r37 - r35, 0.0 - s1 * r162, r204, r204, r204, 0.0},
-        {r103, c1 * r162, r205, r205, r205, 0.0},
-        {0.0, c1 * r102 - s1 * r103, r208, r208, r208, 0.0},
+        {r37 - r35, 0.0 - s1 * r162, r205, r205, r205, 0.0},
+        {r103, c1 * r162, r206, r206, r206, 0.0},
+        {0.0, c1 * r102 - s1 * r103, r209, r209, r209, 0.0},
         {0.0 - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116},
-        {r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r212 - r103 * r115},
-        {0.0, c1 * r116 + s1 * r212, r233, r233, r233, r103 * r116 + r102 * r212},
+        {r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r191 - r103 * r115},
+        {0.0, c1 * r116 + s1 * r191, r233, r233, r233, r103 * r116 + r102 * r191},
         {r155, 0.0 - s1 * r100, r240, r240, r240, 0.0 - r173},
         {r101, c1 * r100, r178, r178, r178, r165 - r164},
         {0.0, 0.0 - (c1 * r155 + s1 * r101), r186, r186, r186, 0.0 - r189},
@@ -354,12 +366,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -514,7 +526,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -540,8 +552,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -559,7 +571,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -585,7 +597,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -682,7 +694,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -702,9 +714,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -756,7 +768,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -816,7 +828,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -891,7 +903,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1069,7 +1081,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1324,7 +1336,7 @@ typedef struct {
 static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r49 = 0.33 * shared->r46, r50 = 0.33 * shared->r48;
-    const double r55 = 1.0 / sqrt(fmax(r50 * r50 + r49 * r49, 0.0)), c3 = r50 * r55, s3 = 0.0 - r49 * r55;
+    const double r55 = 1.0 / sqrt(larger(r50 * r50 + r49 * r49, 0.0)), c3 = r50 * r55, s3 = 0.0 - r49 * r55;
     const double at[PLACES] = {
         known->c1, known->s1, known->c2, known->s2, c3, s3, known->c4, known->s4, known->c5, known->s5,
         known->c6, known->s6,
@@ -1364,8 +1376,8 @@ typedef struct {
 /* Chart 1 of block 5: generic. */
 static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
-    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10, r16 = 1.0 / sqrt(fmax(r14, 0.0));
-    const double c2 = shared->r11 * r16, s2 = shared->r10 * r16;
+    const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10;
+    const double r16 = 1.0 / sqrt(larger(r14, 0.0)), c2 = shared->r11 * r16, s2 = shared->r10 * r16;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_6(p, &next, answers);
 }
@@ -1454,7 +1466,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
     const double r40 = 0.0175 * shared->r20 - shared->r13 * shared->r25;
     const double r43 = 0.0175 * shared->r13 + shared->r20 * shared->r25;
-    const double r48 = 1.0 / sqrt(fmax(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
+    const double r48 = 1.0 / sqrt(larger(r43 * r43 + r40 * r40, 0.0)), c6 = 0.0 - r43 * r48, s6 = r40 * r48;
     Known next = *known; next.c6 = c6; next.s6 = s6;
     block_4(p, &next, answers);
 }
@@ -1576,7 +1588,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

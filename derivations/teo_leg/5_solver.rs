@@ -790,20 +790,20 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let r144 = r85 + (r81 + (r77 + r79) - r83); let r149 = r90 - r92 - r94 - r96 - r98; let r154 = r1 * r100;
     let r155 = r59 - r60; let r156 = s2 * r155; let r162 = c5 * r38 - s5 * r40; let r164 = r101 * r162;
     let r165 = r100 * r103; let r173 = r100 * r102 + r155 * r162; let r178 = s2 * r101 - r0 * r100;
-    let r186 = r0 * r155 - r1 * r101; let r189 = r155 * r103 + r101 * r102;
-    let r204 = 0.0 - (r1 * r162 + s2 * r102); let r205 = s2 * r103 - r0 * r162;
-    let r208 = 0.0 - (r0 * r102 + r1 * r103); let r212 = r48 - r50; let r227 = r1 * r115 - s2 * r116;
-    let r230 = r0 * r115 - s2 * r212; let r233 = r1 * r212 - r0 * r116; let r240 = r156 - r154;
+    let r186 = r0 * r155 - r1 * r101; let r189 = r155 * r103 + r101 * r102; let r191 = r48 - r50;
+    let r205 = 0.0 - (r1 * r162 + s2 * r102); let r206 = s2 * r103 - r0 * r162;
+    let r209 = 0.0 - (r0 * r102 + r1 * r103); let r227 = r1 * r115 - s2 * r116;
+    let r230 = r0 * r115 - s2 * r191; let r233 = r1 * r191 - r0 * r116; let r240 = r156 - r154;
     [
         [r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173],
         [0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)],
         [0.0, s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, 0.0 - 0.123005 * r186, 0.123005 * r189],
-        [r37 - r35, 0.0 - s1 * r162, r204, r204, r204, 0.0],
-        [r103, c1 * r162, r205, r205, r205, 0.0],
-        [0.0, c1 * r102 - s1 * r103, r208, r208, r208, 0.0],
+        [r37 - r35, 0.0 - s1 * r162, r205, r205, r205, 0.0],
+        [r103, c1 * r162, r206, r206, r206, 0.0],
+        [0.0, c1 * r102 - s1 * r103, r209, r209, r209, 0.0],
         [0.0 - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116],
-        [r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r212 - r103 * r115],
-        [0.0, c1 * r116 + s1 * r212, r233, r233, r233, r103 * r116 + r102 * r212],
+        [r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r191 - r103 * r115],
+        [0.0, c1 * r116 + s1 * r191, r233, r233, r233, r103 * r116 + r102 * r191],
         [r155, 0.0 - s1 * r100, r240, r240, r240, 0.0 - r173],
         [r101, c1 * r100, r178, r178, r178, r165 - r164],
         [0.0, 0.0 - (c1 * r155 + s1 * r101), r186, r186, r186, 0.0 - r189],
@@ -1696,9 +1696,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

@@ -92,6 +92,18 @@ void wrist_rotation_forward(const double *q, double *target);
 static const int INPUTS = WRIST_ROTATION_INPUTS;
 static const int JOINTS = WRIST_ROTATION_JOINTS;
 static const int EQUATIONS = 9;
+
+/* The greater and the lesser of two numbers; the second where the first is not a number. One instruction each, where fmax and fmin are calls. */
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* An equation holds when its value is at most this share of the sum of its terms' magnitudes. */
 static const double ACCEPT = 1e-12;
 /* Answers whose joints all differ by no more than this are one. */
@@ -179,7 +191,7 @@ static void push(Roots *roots, double x)
 static Roots square_roots(double constant, double scale)
 {
     Roots roots = {{0.0}, 0, false};
-    if (isnan(constant) || constant > TANGENT * fmax(constant, scale * scale)) {
+    if (isnan(constant) || constant > TANGENT * larger(constant, scale * scale)) {
         return roots;
     }
     if (constant >= 0.0) {
@@ -270,18 +282,18 @@ static Jacobian jacobian(const Parameters *p, const double *at)
     (void)p;
     const double c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], r0 = c1 * c2;
     const double r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r4 = s1 * c3, r5 = s3 * r2, r8 = c2 * s3;
-    const double r13 = c2 * c3, r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r38 = r4 - r5;
-    const double r53 = c1 * s3 - c3 * r3;
+    const double r13 = c2 * c3, r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r28 = r4 - r5;
+    const double r29 = c1 * s3 - c3 * r3;
     const Jacobian result = { {
         {0.0 - r1, 0.0 - r2, 0.0},
         {r0, 0.0 - r3, 0.0},
         {0.0, 0.0 - (s1 * r1 + c1 * r0), 0.0},
         {0.0 - r18, c1 * r8, r1 * r8 + s2 * r18},
-        {r5 - r4, s1 * r8, s2 * r38 - r0 * r8},
-        {0.0, c1 * r38 - s1 * r18, r0 * r18 + r1 * r38},
-        {r53, c1 * r13, r1 * r13 - s2 * r53},
+        {r5 - r4, s1 * r8, s2 * r28 - r0 * r8},
+        {0.0, c1 * r28 - s1 * r18, r0 * r18 + r1 * r28},
+        {r29, c1 * r13, r1 * r13 - s2 * r29},
         {r23, s1 * r13, 0.0 - (s2 * r23 + r0 * r13)},
-        {0.0, s1 * r53 - c1 * r23, 0.0 - (r0 * r53 + r1 * r23)},
+        {0.0, s1 * r29 - c1 * r23, 0.0 - (r0 * r29 + r1 * r23)},
     } };
     return result;
 }
@@ -304,12 +316,12 @@ static Fit measure_at(const Parameters *p, const double *at, const double *q)
     double most[SIZES] = {0.0};
     for (size_t i = 0; i < EQUATIONS; i++) {
         const double value = fabs(f.value[i]);
-        most[SIZE_OF[i]] = fmax(most[SIZE_OF[i]], value);
+        most[SIZE_OF[i]] = larger(value, most[SIZE_OF[i]]);
         fit.accepted = fit.accepted && value <= ACCEPT * f.size[SIZE_OF[i]];
     }
     for (size_t i = 0; i < SIZES; i++) {
-        fit.residual = fmax(fit.residual, most[i]);
-        fit.relative = fmax(fit.relative, most[i] / fmax(f.size[i], (std::numeric_limits<double>::min)()));
+        fit.residual = larger(most[i], fit.residual);
+        fit.relative = larger(most[i] / larger(f.size[i], (std::numeric_limits<double>::min)()), fit.relative);
     }
     for (size_t i = 0; i < JOINTS; i++) {
         fit.accepted = fit.accepted && isfinite(q[i]);
@@ -461,7 +473,7 @@ static void triangle(const Parameters *p, const double *q, double damping, const
             columns[i][row] = entry;
             square += entry * entry;
         }
-        size = fmax(size, square);
+        size = larger(square, size);
     }
     for (size_t row = 0; row < EQUATIONS; row++) {
         columns[JOINTS][row] = f.value[row];
@@ -487,8 +499,8 @@ static double regularity(const Parameters *p, const double *q)
     double columns[JOINTS + 1][ROWS] = {{0.0}}, least = INFINITY, most = 0.0;
     triangle(p, q, 0.0, NONE_FREE, columns);
     for (size_t i = 0; i < JOINTS; i++) {
-        least = fmin(least, fabs(columns[i][i]));
-        most = fmax(most, fabs(columns[i][i]));
+        least = lesser(least, fabs(columns[i][i]));
+        most = larger(fabs(columns[i][i]), most);
     }
     return least / most;
 }
@@ -506,7 +518,7 @@ static double longest_way(const double *step)
 {
     double longest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        longest = fmax(longest, fabs(step[i]));
+        longest = larger(fabs(step[i]), longest);
     }
     return longest;
 }
@@ -532,7 +544,7 @@ static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const 
         return false;
     }
     for (size_t l = 0; l < sizeof leaps / sizeof leaps[0]; l++) {
-        const double share = fmin(leaps[l] / longest, 1.0);
+        const double share = lesser(leaps[l] / longest, 1.0);
         for (size_t i = 0; i < JOINTS; i++) {
             part[i] = share * step[i];
         }
@@ -629,7 +641,7 @@ static void polish(const Parameters *p, double *q, Fit *fit, const bool *held)
         if (!improve(p, q, fit, held)) {
             return;
         }
-        slow = fit->relative <= fmax(0.5 * before, RESOLUTION) ? 0 : slow + 1;
+        slow = fit->relative <= larger(0.5 * before, RESOLUTION) ? 0 : slow + 1;
         for (size_t k = 0; k < JOINTS; k++) {
             step[k] = q[k] - start[k];
         }
@@ -649,9 +661,9 @@ static void weights(const Parameters *p, const double *q, double *weight)
     for (size_t i = 0; i < JOINTS; i++) {
         weight[i] = 0.0;
         for (size_t row = 0; row < EQUATIONS; row++) {
-            weight[i] = fmax(weight[i], fabs(j.rows[row][i]) / fmax(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()));
+            weight[i] = larger(fabs(j.rows[row][i]) / larger(f.size[SIZE_OF[row]], (std::numeric_limits<double>::min)()), weight[i]);
         }
-        weight[i] = fmin(weight[i], 1.0);
+        weight[i] = lesser(weight[i], 1.0);
     }
 }
 
@@ -703,7 +715,7 @@ static double farthest_of(const double *a, const double *b)
     spans(a, 1.0, size);
     double farthest = 0.0;
     for (size_t i = 0; i < JOINTS; i++) {
-        farthest = fmax(farthest, fabs(difference[i]) / size[i]);
+        farthest = larger(fabs(difference[i]) / size[i], farthest);
     }
     return farthest;
 }
@@ -760,7 +772,7 @@ static bool are_joined(const Parameters *p, const double *a, const double *b, do
  * the joints open beyond MERGE: they hold half-way too, as well as at the worse of the two. */
 static bool blurred(const Parameters *p, const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
-    const double bound = fmax(fmax(a_relative, b_relative), ALIKE);
+    const double bound = larger(larger(a_relative, b_relative), ALIKE);
     if (bound <= RESOLUTION && farthest_of(a->q, b->q) <= BLUR && regularity(p, b->q) > DISTINCT) {
         return false;
     }
@@ -835,7 +847,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     if (regular > REGULAR) {
         return false;
     }
-    bound = fmax(bound, RESOLUTION);
+    bound = larger(RESOLUTION, bound);
     for (int narrow = 0; narrow < NARROWS; narrow++) {
         if (narrow == 1 && (bound > RESOLUTION || regular > SINGULAR)) {
             return false;
@@ -1013,7 +1025,7 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     for (double farther = 1.0; farther <= FARTHEST; farther *= FARTHER) {
         for (size_t i = 0; i < 2 * JOINTS; i++) {
             const double sign = i % 2 == 0 ? -1.0 : 1.0;
-            const double way = fmin(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
+            const double way = lesser(farther * sqrt(missed / (fit->accepted ? 1.0 : weight[i / 2])), APART);
             double start[JOINTS];
             move(q, i / 2, 2.0 * sign * way, start);
             Fit end = measure(p, start);
@@ -1264,7 +1276,7 @@ typedef struct {
 /* Chart 1 of block 3: generic. */
 static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
-    const double r5 = shared->r1 - shared->r0, r9 = sqrt(fmax(shared->r4 * shared->r4 + r5 * r5, 0.0));
+    const double r5 = shared->r1 - shared->r0, r9 = sqrt(larger(shared->r4 * shared->r4 + r5 * r5, 0.0));
     const double r10 = 1.0 / r9, c3 = shared->r4 * r10, s3 = r5 * r10;
     const double at[PLACES] = {known->c1, known->s1, known->c2, known->s2, c3, s3};
     finish(p, known->branch, known->last, known->close, at, known->free, answers);
@@ -1291,7 +1303,7 @@ typedef struct {
 /* Chart 1 of block 2: generic. */
 static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
-    const double r6 = sqrt(fmax(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), r7 = 1.0 / r6;
+    const double r6 = sqrt(larger(shared->r2 * shared->r2 + p->r31_ * p->r31_, 0.0)), r7 = 1.0 / r6;
     const double c2 = shared->r2 * r7, s2 = 0.0 - p->r31_ * r7;
     Known next = *known; next.c2 = c2; next.s2 = s2;
     block_3(p, &next, answers);
@@ -1365,7 +1377,7 @@ static bool make_rotation(double *r)
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
             excess[i][j] = dot(r + 3 * i, r + 3 * j) - (i == j ? 1.0 : 0.0);
-            deviation = fmax(fabs(excess[i][j]), deviation);
+            deviation = larger(fabs(excess[i][j]), deviation);
         }
     }
     const double determinant =

@@ -594,17 +594,17 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
     let [c1, s1, c2, s2, c3, s3] = *at;
     let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = s1 * c3; let r5 = s3 * r2;
     let r8 = c2 * s3; let r13 = c2 * c3; let r18 = c1 * c3 + s3 * r3; let r23 = s1 * s3 + c3 * r2;
-    let r38 = r4 - r5; let r53 = c1 * s3 - c3 * r3;
+    let r28 = r4 - r5; let r29 = c1 * s3 - c3 * r3;
     [
         [0.0 - r1, 0.0 - r2, 0.0],
         [r0, 0.0 - r3, 0.0],
         [0.0, 0.0 - (s1 * r1 + c1 * r0), 0.0],
         [0.0 - r18, c1 * r8, r1 * r8 + s2 * r18],
-        [r5 - r4, s1 * r8, s2 * r38 - r0 * r8],
-        [0.0, c1 * r38 - s1 * r18, r0 * r18 + r1 * r38],
-        [r53, c1 * r13, r1 * r13 - s2 * r53],
+        [r5 - r4, s1 * r8, s2 * r28 - r0 * r8],
+        [0.0, c1 * r28 - s1 * r18, r0 * r18 + r1 * r28],
+        [r29, c1 * r13, r1 * r13 - s2 * r29],
         [r23, s1 * r13, 0.0 - (s2 * r23 + r0 * r13)],
-        [0.0, s1 * r53 - c1 * r23, 0.0 - (r0 * r53 + r1 * r23)],
+        [0.0, s1 * r29 - c1 * r23, 0.0 - (r0 * r29 + r1 * r23)],
     ]
 }
 
@@ -1491,9 +1491,9 @@ impl Answers<'_> {
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
+            let q = [angles[0][k], angles[1][k], angles[2][k]];
             let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
             let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            let q = [angles[0][k], angles[1][k], angles[2][k]];
             if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
                 self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
                 self.relative[self.count] = fit.relative;

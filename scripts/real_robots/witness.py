@@ -1,5 +1,6 @@
 """Forward kinematics that is not ours: a chain of a URDF in Pinocchio."""
 
+import re
 from collections.abc import Iterable
 from functools import cached_property
 from xml.parsers import expat
@@ -72,7 +73,15 @@ class Witness:
         for name, (leader, factor, offset) in self.followers.items():
             if leader not in out and name in values:
                 out[leader] = (values[name] - offset) / factor
+        for name, value in values.items():
+            leader, *others = re.split(r" ([+-]) ", name)
+            if others:
+                out[leader] = value / (1.0 + sum(self._share(*other) for other in zip(others[::2], others[1::2])))
         return out
+
+    def _share(self, sign: str, name: str) -> float:
+        """What a joint of a telescope, of which groebot tells the sum, adds to it where its leader adds one."""
+        return float(sign + "1") * self.followers[name][1]
 
     def forward(self, values: dict[str, float]) -> pinocchio.SE3:
         """base_from_tip at joint values."""
@@ -85,8 +94,11 @@ class Witness:
         """The twist (v, w) of the tip against the base, in the tip's frame, by the rates of `joints`: 6 rows."""
         q = self._configuration(values)
         tip_from_base = self.forward(values).inverse()
-        of_tip = pinocchio.computeFrameJacobian(self.model, self.data, q, self.tip, pinocchio.LOCAL)
-        of_base = pinocchio.computeFrameJacobian(self.model, self.data, q, self.base, pinocchio.LOCAL)
+        # Of a model with one joint Pinocchio gives a vector.
+        of_tip, of_base = (
+            pinocchio.computeFrameJacobian(self.model, self.data, q, frame, pinocchio.LOCAL).reshape(6, -1)
+            for frame in (self.tip, self.base)
+        )
         twists = of_tip - tip_from_base.toActionMatrix() @ of_base
         return twists[:, [joint.column for joint in self.joints]]
 

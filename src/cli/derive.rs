@@ -131,6 +131,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// Which joints are given, and what else might be.
 fn told_choice(choice: &Choice) -> String {
     let joints = choice.given.iter().map(|joint| format!("`{joint}`")).collect::<Vec<_>>().join(", ");
+    if choice.candidates.is_empty() {
+        return format!("Given with each target: the value of {joints}, which other joints of the chain follow.\n\n");
+    }
     let candidates: String = choice.candidates.iter().map(|candidate| format!("  {candidate}\n")).collect();
     format!(
         "Given with each target: the value of {joints}. The planner chose; `--given JOINT` chooses another of\n{candidates}\n"

@@ -119,13 +119,13 @@ type Aim = (Target, Vec<f64>);
 /// The target that `text` names, in the form of the chain's task, then the values of the given joints.
 fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     let values = numbers(text)?;
-    let count = chain.given().len();
+    let count = chain.given_inputs().len();
     let Some(own) = values.len().checked_sub(count) else {
         let names = chain.parts().given.join(", ");
         let text = format!("{} numbers are given; the values of {count} joints stand last: {names}", values.len());
         return Err(Error::new(ErrorKind::BadValue, text));
     };
-    let turns = chain.given().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
+    let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
     let inside = |(value, turns): (&f64, bool)| if degrees && turns { value.to_radians() } else { *value };
     let given = values[own..].iter().zip(turns).map(inside).collect();
     Ok((asked(chain, &values[..own], degrees)?, given))
@@ -176,7 +176,7 @@ fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     let inside = |(i, value): (usize, f64)| if degrees && turns(i) { value.to_radians() } else { value };
     let q: Vec<f64> = numbers(text)?.into_iter().enumerate().map(inside).collect();
     let target = Target::reached(chain, &q)?;
-    Ok((target, chain.given().into_iter().map(|joint| q[joint]).collect()))
+    Ok((target, chain.given_inputs().into_iter().map(|joint| q[joint]).collect()))
 }
 
 /// The answers to a target.

@@ -7,7 +7,7 @@ use super::needs::has_families;
 use super::printer::{Language, Printer, number};
 use super::samples::Table;
 use super::steps::Walk;
-use crate::solver::{Block, Chart, Guard, JointValue, Operand, Program, Rule, Step};
+use crate::solver::{Block, Chart, Following, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
@@ -181,6 +181,9 @@ impl Scene<'_> {
                 Rule::Input(input) => format!("target[{input}]"),
                 Rule::Cosine(input) => self.language.call("cos", &format!("target[{input}]")),
                 Rule::Sine(input) => self.language.call("sin", &format!("target[{input}]")),
+                Rule::Following(law) => following(law),
+                Rule::CosineFollowing(law) => self.language.call("cos", &format!("({})", following(law))),
+                Rule::SineFollowing(law) => self.language.call("sin", &format!("({})", following(law))),
                 Rule::Root { code, value } => {
                     let mut printer = self.printer(Demand::of_code(code, [value])).among_parameters(registers);
                     lines.extend(printer.code(code));
@@ -302,4 +305,10 @@ fn unknowns(joint: JointValue) -> Vec<usize> {
         JointValue::Angle { cosine, sine } => vec![cosine, sine],
         JointValue::Plain(unknown) => vec![unknown],
     }
+}
+
+/// The value that follows an input.
+fn following(law: &Following) -> String {
+    let Following { input, factor, offset } = *law;
+    format!("{} * target[{input}] + {}", number(factor), number(offset))
 }

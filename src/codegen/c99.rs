@@ -127,7 +127,7 @@ impl Language for C99 {
     }
 
     fn greater(&self, a: &str, b: &str) -> String {
-        format!("fmax({a}, {b})")
+        format!("larger({a}, {b})")
     }
 
     fn declare(&self, name: &str, value: &str) -> String {

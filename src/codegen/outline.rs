@@ -18,7 +18,7 @@ use super::samples::Table;
 use super::six_axes;
 use super::tolerances::{Arc, Tolerances};
 use crate::document::word;
-use crate::solver::{DAMPINGS, JointValue, LEAPS, Operand, Program, TWINS_AT, Unit};
+use crate::solver::{DAMPINGS, JointValue, LEAPS, Operand, Program, Short, TWINS_AT, Unit};
 
 /// Shares of the squared Jacobian's size that are added where a plain Newton step fails, in single precision.
 const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
@@ -96,6 +96,9 @@ pub(super) struct Outline {
     pairs: bool,
     jacobian: Code,
     jacobian_rows: Vec<Vec<String>>,
+    /// The equations of the short way to a solution nearby: for each its value, what that is a share of, and its derivatives.
+    short: Code,
+    short_rows: Vec<Vec<String>>,
     preference: Option<PreferenceText>,
     needs: Needs,
 }
@@ -174,6 +177,9 @@ impl Outline {
         let forward = forward.map(|forward| ForwardText::new(&scene, &forward));
         scene.lanes = needs.answers && program.compares_tip();
         let (jacobian_lines, jacobian_rows) = scene.checks(&jacobian);
+        let short: Vec<Vec<Operand>> =
+            program.checks.short.iter().map(|one| one.operands().copied().collect()).collect();
+        let (short_lines, short_rows) = scene.checks(&short.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let unique = once(&sizes);
         let place = |size: &String| unique.iter().position(|other| other == size).unwrap_or(0);
         let size_of = sizes.iter().map(place).collect();
@@ -228,6 +234,8 @@ impl Outline {
             pairs: scene.mirror.as_ref().is_some_and(|mirror| mirror.block + 1 < program.blocks.len()),
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
             jacobian_rows,
+            short: Code::new(language, short_lines, short_rows.concat()),
+            short_rows,
             preference: PreferenceText::new(&scene).filter(|_| needs.answers),
             needs,
         }
@@ -273,6 +281,7 @@ impl Parameters {
         }
         if needs.answers {
             readers.push(Demand::of_code(&checks.code, checks.jacobian.iter().flatten()));
+            readers.push(Demand::of_code(&checks.code, checks.short.iter().flat_map(Short::operands)));
         }
         let demand = ParameterDemand::new(program, &readers.iter().collect::<Vec<_>>());
         let lines = scene.parameters(&demand);

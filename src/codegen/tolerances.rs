@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::printer::number;
 use crate::solver::{
     ACCEPT, ADRIFT, ALIKE, ALONE, APART, APPROACHES, ARRIVED, ASIDE, BESIDE, BLUR, CONSISTENT, DISTINCT, DOUBLINGS,
-    EIGHTH, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEVER, MEETING, MERGE, NARROWS, NEAR, OVERSHOT, PATIENCE, PIVOT,
-    PLAIN, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STEEP, STIFF,
-    TINY, TWIN,
+    EIGHTH, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEVER, MEETING, MERGE, MILD, NARROWS, NEAR, OVERSHOT, PATIENCE,
+    PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, REST, RETURNS, ROUNDING, SERIES, SHORT, SINGULAR, STAGES, STEEP,
+    STIFF, TINY, TURN, TWIN,
 };
 
 /// A critical point where a polynomial misses zero by this share of its size counts as a root: as in the library.
@@ -61,6 +61,8 @@ pub(super) struct Tolerances {
     approaches: usize,
     plain: String,
     steep: String,
+    mild: String,
+    turn: String,
     farther: String,
     farthest: String,
     returns: usize,
@@ -111,6 +113,8 @@ impl Tolerances {
             approaches: APPROACHES,
             plain: number(PLAIN),
             steep: number(STEEP),
+            mild: number(MILD),
+            turn: number(TURN),
             farther: number(FARTHER),
             farthest: number(FARTHEST),
             returns: RETURNS,

@@ -266,7 +266,7 @@ impl<'a> Compiler<'a> {
         let ring = setting.ring(&self.system.order, Order::Lex)?;
         let mut assembler = Assembler::default();
         let symbols = self.all_symbols(&setting, &ring, &mut assembler)?;
-        let mut checks = Checks { code: Vec::new(), residuals: Vec::new(), scales: Vec::new(), jacobian: Vec::new() };
+        let mut checks = Checks::default();
         let mut scale = BigRational::zero();
         for f in setting.generators(&ring)? {
             if self.is_circle(&ring, &f) {

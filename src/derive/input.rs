@@ -193,15 +193,30 @@ impl Source {
     }
 
     fn give(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+        let led = self.give_leaders()?;
         let (Some(chain), Some((ideal, _))) = (self.chain_by_steps(), &self.ideal) else { return Ok(None) };
-        let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(None) };
-        if choice.given.len() > chain.given().len() + 1 && !self.ends.chooses {
+        let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(led) };
+        if choice.given.len() > chain.given_inputs().len() + 1 && !self.ends.chooses {
             return Err(proposed(chain, &choice));
         }
         let chain = chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone())?;
         self.ends.given.clone_from(&choice.given);
         self.take(chain)?;
         Ok(Some(choice))
+    }
+
+    /// Gives the values of joints that turn and that others of the chain follow: one value then moves them all.
+    fn give_leaders(&mut self) -> Result<Option<Choice>> {
+        let Some(chain) = self.chain_by_steps() else { return Ok(None) };
+        let leaders = chain.open_leaders();
+        if leaders.is_empty() || chain.check_leaders().is_ok() {
+            return Ok(None);
+        }
+        let given = [chain.parts().given.clone(), leaders].concat();
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), given.clone())?;
+        self.ends.given.clone_from(&given);
+        self.take(chain)?;
+        Ok(Some(Choice { given, candidates: Vec::new() }))
     }
 
     /// `chain` is what is described: with its ideal robot and, where its task has any that are solved together, its equations.

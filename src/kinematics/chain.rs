@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::exact_serde;
 use super::fk::Numeric;
+use super::mimic::Mimic;
 use super::task::Task;
 use super::validate::{self, Fault, Part};
 use crate::number::BigRational;
@@ -77,6 +78,9 @@ pub struct Joint {
     pub point: ExactVector,
     /// Least and greatest value, in radians (revolute) or the chain's length unit (prismatic).
     pub limits: Option<(f64, f64)>,
+    /// The joint of the chain that it follows, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mimic: Option<Mimic>,
 }
 
 impl Joint {
@@ -245,18 +249,19 @@ impl Chain {
         &self.parts.direction
     }
 
-    /// The places of the joints whose values the user gives, from the base.
+    /// The places of the joints whose values the user gives, and of those that follow them, from the base.
     pub fn given(&self) -> Vec<usize> {
-        let is_given = |joint: &Joint| self.parts.given.contains(&joint.name);
+        let is_named = |name: &String| self.parts.given.contains(name);
+        let is_given = |joint: &Joint| is_named(joint.mimic.as_ref().map_or(&joint.name, |mimic| &mimic.leader));
         self.joints().iter().enumerate().filter(|(_, joint)| is_given(joint)).map(|(place, _)| place).collect()
     }
 
-    /// Fails unless there is one finite value for each given joint.
+    /// Fails unless there is one finite value for each given joint that follows no other.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with their names.
     pub fn check_given(&self, values: &[f64]) -> Result<()> {
-        let count = self.given().len();
+        let count = self.given_inputs().len();
         if values.len() == count && values.iter().all(|value| value.is_finite()) {
             return Ok(());
         }
@@ -320,7 +325,8 @@ impl fmt::Display for Chain {
                 (JointKind::Prismatic, None) => ("slides along", String::new()),
             };
             let (unknowns, axis, point) = (joint.unknowns().join(" "), show(&joint.axis), show(&joint.point));
-            writeln!(f, "  {unknowns:<6} {:<14} {kind} {axis} through {point}{limits}", joint.name)?;
+            let follows = joint.mimic.as_ref().map(|mimic| format!(", follows {mimic}")).unwrap_or_default();
+            writeln!(f, "  {unknowns:<6} {:<14} {kind} {axis} through {point}{limits}{follows}", joint.name)?;
         }
         write!(f, "  tip at {}", show(&self.tip().point))
     }

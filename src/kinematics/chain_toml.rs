@@ -7,14 +7,17 @@ use std::path::Path;
 use super::chain::{along_z, show};
 use super::validate::{Fault, Part, check_count};
 use super::{
-    Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Placement, Plane, Root, Task, Tip, Turn,
+    Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Plane, Root, Task, Tip,
+    Turn,
 };
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
+use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
+use num_traits::One;
 
 const ROOT_KEYS: [&str; 11] =
     ["name", "description", "source", "length_unit", "angle_unit", "order", "given", "choice", "task", "joint", "tip"];
-const JOINT_KEYS: [&str; 7] = ["name", "symbol", "type", "axis", "point", "origin", "limits"];
+const JOINT_KEYS: [&str; 8] = ["name", "symbol", "type", "axis", "point", "origin", "limits", "mimic"];
 const PLANES: [(&str, Plane); 3] = [("xy", Plane::Xy), ("xz", Plane::Xz), ("yz", Plane::Yz)];
 
 impl Chain {
@@ -151,8 +154,20 @@ fn read_joint(
         axis: frame.rotation.turn(&axis),
         point: frame.origin.clone(),
         limits: table.optional("limits").map(|node| read_limits(node, kind, units)).transpose()?,
+        mimic: table.optional("mimic").map(|node| read_mimic(node.table()?)).transpose()?,
     };
     Ok((joint, frame))
+}
+
+/// The joint that is followed, by default as it is.
+fn read_mimic(table: Table<'_>) -> Result<Mimic> {
+    table.deny_unknown(&["joint", "multiplier", "offset"])?;
+    let number = |key| table.optional(key).map(|node| node.exact()).transpose();
+    Ok(Mimic {
+        leader: table.required("joint")?.text()?.to_owned(),
+        multiplier: number("multiplier")?.unwrap_or_else(BigRational::one),
+        offset: number("offset")?.unwrap_or_default(),
+    })
 }
 
 fn form_of(table: Table<'_>) -> Result<Form> {

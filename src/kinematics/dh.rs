@@ -84,6 +84,7 @@ impl DhRow {
     /// The joint whose axis is the z axis of `frame`.
     fn joint(&self, frame: &Frame) -> Joint {
         Joint {
+            mimic: None,
             name: self.name.clone(),
             symbol: self.symbol.clone(),
             kind: self.kind,

@@ -1,5 +1,22 @@
 //! Exact coordinates as strings such as "1029/10" in serialised chains.
 
+/// For `#[serde(with)]` on an exact number.
+pub mod number {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use crate::number::{BigRational, parse_rational};
+
+    /// Writes a string.
+    pub fn serialize<S: Serializer>(number: &BigRational, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(number)
+    }
+
+    /// Reads a string.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BigRational, D::Error> {
+        parse_rational(&String::deserialize(deserializer)?).map_err(serde::de::Error::custom)
+    }
+}
+
 /// For `#[serde(with)]` on an exact vector.
 pub mod vector {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};

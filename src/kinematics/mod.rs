@@ -14,6 +14,7 @@ mod frame;
 pub mod geometry;
 pub mod ideal;
 pub mod jacobian;
+mod mimic;
 pub mod numeric;
 pub mod oracle;
 mod placement;
@@ -31,6 +32,7 @@ pub use chain::{
 pub use dh::{DhConvention, DhRow, DhTable};
 pub use exact_rotation::{ExactRotation, Turn};
 pub use geometry::Geometry;
+pub use mimic::Mimic;
 pub use placement::Placement;
 pub use task::{Plane, Task};
 pub use tree::Tree;

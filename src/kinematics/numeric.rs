@@ -18,7 +18,7 @@ const SEEDS: usize = 300;
 #[derive(Clone, Debug)]
 pub struct NumericSolver {
     chain: Chain,
-    /// The joints that are not given.
+    /// The joints that are not given and follow no others.
     unknown: Vec<usize>,
     /// The reach, or one for a chain that only turns its tip.
     length: f64,
@@ -31,7 +31,8 @@ impl NumericSolver {
     /// [`ErrorKind::PositiveDimensional`] when there are more unknown joints than the task asks for numbers.
     pub fn new(chain: &Chain) -> Result<Self> {
         let given = chain.given();
-        let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
+        let is_unknown = |joint: &usize| !given.contains(joint) && chain.leader(*joint).is_none();
+        let unknown: Vec<usize> = (0..chain.joints().len()).filter(is_unknown).collect();
         if unknown.len() > chain.task().freedoms() {
             let text = format!(
                 "the `{}` task leaves some of the {} unknown joints free: give the values of at least {}",
@@ -56,10 +57,11 @@ impl NumericSolver {
         self.chain.check_given(given)?;
         let unknowns: Vec<Unknown> = self.unknown.iter().map(|&joint| self.sought(joint)).collect();
         let mut start = vec![0.0; self.chain.joints().len()];
-        self.chain.given().into_iter().zip(given).for_each(|(joint, value)| start[joint] = *value);
+        self.chain.given_inputs().into_iter().zip(given).for_each(|(joint, value)| start[joint] = *value);
         let whole = |values: &[f64]| {
             let mut q = start.clone();
             self.unknown.iter().zip(values).for_each(|(&joint, value)| q[joint] = *value);
+            self.chain.follow(&mut q);
             q
         };
         let oracle = Oracle { seeds: SEEDS, ..Oracle::default() };

@@ -32,7 +32,9 @@ struct Draws<'a> {
 impl Draws<'_> {
     /// A value of each joint.
     fn posture(&mut self) -> Vec<f64> {
-        (0..self.chain.joints().len()).map(|joint| self.value(joint)).collect()
+        let mut q: Vec<f64> = (0..self.chain.joints().len()).map(|joint| self.value(joint)).collect();
+        self.chain.follow(&mut q);
+        q
     }
 
     /// A value of a joint's range, by the generator of Park and Miller 1988.
@@ -74,7 +76,8 @@ impl Chain {
     /// The share of random values of `joint`, of its range, and of random reachable poses with the joints `given`, that have solutions; none
     /// where screw theory does not find them.
     pub fn counted_share(&self, given: &[usize], joint: usize) -> Option<f64> {
-        let mut places: Vec<usize> = given.iter().copied().chain([joint]).collect();
+        let leads = |place: &usize| self.leader(*place).is_none();
+        let mut places: Vec<usize> = given.iter().copied().chain([joint]).filter(leads).collect();
         places.sort_unstable();
         let names = places.iter().map(|&place| self.joints()[place].name.clone()).collect();
         let asked = self.with_task(self.task(), self.direction().clone(), names).ok()?;

@@ -49,6 +49,7 @@ pub fn check(parts: &ChainParts) -> Checked {
     }
     check_tip(&parts.tip)?;
     check_direction(parts)?;
+    check_mimics(parts)?;
     check_given(parts)?;
     let unknowns: Vec<String> = parts.joints.iter().flat_map(Joint::unknowns).collect();
     let unknowns: Vec<&str> = unknowns.iter().map(String::as_str).collect();
@@ -207,6 +208,37 @@ fn check_direction(parts: &ChainParts) -> Checked {
     Err(fault(Part::Task, "direction", ErrorKind::BadValue, message))
 }
 
+/// A leader must be another joint of the chain that follows none; a factor must not be zero.
+fn check_mimics(parts: &ChainParts) -> Checked {
+    for (index, joint) in parts.joints.iter().enumerate() {
+        let Some(mimic) = &joint.mimic else { continue };
+        let bad = |kind, message: String| Err(joint_fault(index, joint, "mimic", kind, &message));
+        let leader = parts.joints.iter().find(|other| other.name == mimic.leader);
+        match leader {
+            None => {
+                let names: Vec<&str> = parts.joints.iter().map(|joint| joint.name.as_str()).collect();
+                let among = one_among(&mimic.leader, &names);
+                return bad(
+                    ErrorKind::UnknownName,
+                    format!("it mimics `{}`, which is no joint{among}", shown(&mimic.leader)),
+                );
+            }
+            Some(leader) if leader.mimic.is_some() => {
+                let text = format!(
+                    "it mimics `{}`, which follows another joint; name the one that leads",
+                    shown(&mimic.leader)
+                );
+                return bad(ErrorKind::BadValue, text);
+            }
+            Some(_) if mimic.multiplier.is_zero() => {
+                return bad(ErrorKind::BadValue, "its multiplier is zero; leave the joint out".into());
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(())
+}
+
 /// Joints with given values must be there, once each, and leave one to solve for.
 fn check_given(parts: &ChainParts) -> Checked {
     let bad = |kind, message| Err(fault(Part::Chain, "given", kind, format!("`given`: {message}")));
@@ -220,7 +252,15 @@ fn check_given(parts: &ChainParts) -> Checked {
             return bad(ErrorKind::DuplicateName, format!("`{}` stands twice; name each joint once", shown(name)));
         }
     }
-    if parts.given.len() == names.len() {
+    for joint in parts.joints.iter().filter(|joint| parts.given.contains(&joint.name)) {
+        if let Some(mimic) = &joint.mimic {
+            let text = format!("joint `{}` follows `{}`; name that one", shown(&joint.name), shown(&mimic.leader));
+            return bad(ErrorKind::BadValue, text);
+        }
+    }
+    let is_given =
+        |joint: &Joint| parts.given.contains(joint.mimic.as_ref().map_or(&joint.name, |mimic| &mimic.leader));
+    if parts.joints.iter().all(is_given) {
         return bad(ErrorKind::BadValue, "every joint is given; leave one or more to solve for".into());
     }
     Ok(())

@@ -2,14 +2,16 @@
 
 use super::angle::angle;
 use super::apart::difference;
-use super::approach::approached;
+use super::approach::{Approach, approached};
 use super::evaluate::{Nearest, Solution};
 use super::frame::Frame;
 use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::walk::Path;
-use super::{ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, NEAR, ROUNDING, TWIN, TWINS_AT};
+use super::{
+    ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN, TWINS_AT,
+};
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -91,7 +93,17 @@ impl<'a> Answers<'a> {
             self.pairs.give_up();
             return self.propose_member(path, q);
         }
-        if !path.close {
+        if self.program.nearby {
+            if let Some(Approach { end, fit, missed, pivot }) = approached(self.program, &q, &mut self.frame) {
+                self.pairs.give_up();
+                self.keep(path, &end, &fit);
+                if pivot < missed * if path.close { STEEP } else { MILD } {
+                    self.unsound = self.candidates;
+                    self.twin(path, &end, missed);
+                }
+                return;
+            }
+        } else if !path.close {
             let fit = refine::measure_unknowns(self.program, &q, &mut self.frame);
             if fit.accepted && fit.relative < ROUNDING && self.is_round(unknowns) {
                 self.pairs.add(self.program, path, fit.residual, unknowns);
@@ -123,11 +135,6 @@ impl<'a> Answers<'a> {
     fn settle(&mut self, path: &Path, q: Joints) {
         let (mut end, mut fit) = (q, refine::measure(self.program, &q, &mut self.frame));
         let missed = fit.relative;
-        if self.program.nearby
-            && let Some((end, fit)) = approached(self.program, &q, missed, &mut self.frame)
-        {
-            return self.keep(path, &end, &fit);
-        }
         refine::polish(self.program, &mut end, &mut fit, &NONE_FREE, &mut self.frame);
         if !(fit.accepted && fit.relative < ROUNDING && self.way(&q, &end) <= MERGE) {
             self.unsound = self.candidates;
@@ -154,8 +161,13 @@ impl<'a> Answers<'a> {
         }
         for times in TWINS_AT {
             let mut start = refine::moved(self.program, end, &way.map(|way| times * missed.sqrt() * way));
-            let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
-            self.keep(path, &start, &fit);
+            refine::unknowns_of(self.program, &start, &mut self.frame.unknowns);
+            if let Some(Approach { end, fit, .. }) = approached(self.program, &start, &mut self.frame) {
+                self.keep(path, &end, &fit);
+            } else {
+                let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
+                self.keep(path, &start, &fit);
+            }
         }
     }
 

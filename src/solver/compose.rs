@@ -168,10 +168,8 @@ impl Places {
 
     fn parameter(&self, parameter: ParameterRule) -> Result<ParameterRule> {
         let rule = match parameter.rule {
-            Rule::Input(index) => Rule::Input(self.input(index)?),
-            Rule::Cosine(index) => Rule::Cosine(self.input(index)?),
-            Rule::Sine(index) => Rule::Sine(self.input(index)?),
             Rule::Root { code, value } => Rule::Root { code: self.code(&code), value: self.operand(value) },
+            rule => rule.with_input(|index| self.input(index))?,
         };
         Ok(ParameterRule { rule, ..parameter })
     }
@@ -244,6 +242,7 @@ impl Places {
             residuals: own(&self.operands(&checks.residuals), counts).collect(),
             scales: own(&self.operands(&checks.scales), counts).collect(),
             jacobian: own(&checks.jacobian, counts).map(|line| row(&line)).collect(),
+            short: Vec::new(),
             code,
         }
     }
@@ -326,6 +325,7 @@ fn without_repeats(checks: &Checks) -> Checks {
         residuals: all(&checks.residuals),
         scales: all(&checks.scales),
         jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
+        short: Vec::new(),
         code,
     }
 }
@@ -352,5 +352,6 @@ fn moved(checks: &Checks, place: &dyn Fn(usize) -> usize) -> Checks {
         residuals: all(&checks.residuals),
         scales: all(&checks.scales),
         jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
+        short: Vec::new(),
     }
 }

@@ -93,6 +93,9 @@ impl Program {
                 Rule::Input(index) => target[*index],
                 Rule::Cosine(index) => target[*index].cos(),
                 Rule::Sine(index) => target[*index].sin(),
+                Rule::Following(law) => law.value(target),
+                Rule::CosineFollowing(law) => law.value(target).cos(),
+                Rule::SineFollowing(law) => law.value(target).sin(),
                 Rule::Root { code, value } => {
                     let mut frame = Frame::new(&values, 0.0, 0, code.len());
                     frame.run(code);

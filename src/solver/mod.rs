@@ -33,8 +33,8 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use pairs::Pairs;
 pub(crate) use program::square;
 pub use program::{
-    Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference, Program, Rule,
-    Step, Unit,
+    Block, Chart, Checks, Condition, Following, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference,
+    Program, Rule, Short, Step, Unit,
 };
 
 /// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
@@ -121,11 +121,15 @@ pub const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
 /// So many plain Newton steps lead a candidate of a nearby mechanism's formulas to where the equations hold within [`ROUNDING`], or it is
 /// polished with more care.
 pub const APPROACHES: usize = 3;
-/// Such a step is taken where each pivot of the normal equations is more than this share of their size, and than [`STEEP`] times what the
-/// candidate misses: no other answer is next to it then.
+/// Such a step is taken where each pivot of the normal equations is more than this share of their size.
 pub const PLAIN: f64 = 1e-6;
-/// See [`PLAIN`]: four times the square of [`TWIN`].
+/// Where a pivot is less than so many times what the candidate missed, a second answer is looked for next to the first: four times the square of
+/// [`TWIN`].
 pub const STEEP: f64 = 400.0;
+/// The same where the formulas proposed other roots far from this one: then each answer has a candidate, but for those that polishing moves far.
+pub const MILD: f64 = 4.0;
+/// Up to such a turn in a step a few terms of its cosine's and sine's series are enough.
+pub const TURN: f64 = 1e-2;
 /// Inverse iterations that tell in what direction the equations change least.
 pub const INVERSIONS: usize = 3;
 /// Half-way between two answers next to each other that are one the equations hold within this share, which is hardly more than rounding

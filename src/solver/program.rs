@@ -96,6 +96,12 @@ pub enum Rule {
     Cosine(usize),
     /// The sine of an input angle.
     Sine(usize),
+    /// A value that follows an input.
+    Following(Following),
+    /// The cosine of an angle that follows an input.
+    CosineFollowing(Following),
+    /// The sine of an angle that follows an input.
+    SineFollowing(Following),
     /// The non-negative square root of a value computed from earlier parameters.
     Root {
         /// Code that computes the value.
@@ -103,6 +109,44 @@ pub enum Rule {
         /// The value under the root.
         value: Operand,
     },
+}
+
+/// The value `factor * input + offset`, of a joint that follows a given one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Following {
+    /// The index of the input.
+    pub input: usize,
+    /// The factor.
+    pub factor: f64,
+    /// The summand.
+    pub offset: f64,
+}
+
+impl Following {
+    /// The value for these inputs.
+    pub fn value(&self, inputs: &[f64]) -> f64 {
+        self.factor * inputs[self.input] + self.offset
+    }
+}
+
+impl Rule {
+    /// The same rule with the input that `place` tells.
+    ///
+    /// # Errors
+    /// Those of `place`.
+    pub fn with_input<E>(self, place: impl Fn(usize) -> std::result::Result<usize, E>) -> std::result::Result<Rule, E> {
+        let moved = |law: Following| Ok(Following { input: place(law.input)?, ..law });
+        Ok(match self {
+            Rule::Input(input) => Rule::Input(place(input)?),
+            Rule::Cosine(input) => Rule::Cosine(place(input)?),
+            Rule::Sine(input) => Rule::Sine(place(input)?),
+            Rule::Following(law) => Rule::Following(moved(law)?),
+            Rule::CosineFollowing(law) => Rule::CosineFollowing(moved(law)?),
+            Rule::SineFollowing(law) => Rule::SineFollowing(moved(law)?),
+            root @ Rule::Root { .. } => root,
+        })
+    }
 }
 
 /// When a chart runs: its factor is near zero (a stratum) or away from it (a denominator).
@@ -197,7 +241,7 @@ pub struct Block {
 }
 
 /// The equations and their derivatives by the joints, to measure and polish each answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checks {
     /// Code over parameters and unknowns, from register 0. Where the derivatives' code comes last, it runs only for Newton steps.
     pub code: Vec<Instruction>,
@@ -207,6 +251,28 @@ pub struct Checks {
     pub scales: Vec<Operand>,
     /// `jacobian[i][j]`: the derivative of equation `i` by joint `j`.
     pub jacobian: Vec<Vec<Operand>>,
+    /// As few equations that say the same near a solution, for the short way there: empty where nothing is polished.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub short: Vec<Short>,
+}
+
+/// One of the equations that lead a nearby candidate to its solution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Short {
+    /// Its value, zero at a solution.
+    pub residual: Operand,
+    /// What the value is a share of.
+    pub scale: Operand,
+    /// The derivatives of the value by the joints, at a solution.
+    pub derivatives: Vec<Operand>,
+}
+
+impl Short {
+    /// All that it reads.
+    pub(crate) fn operands(&self) -> impl Iterator<Item = &Operand> {
+        [&self.residual, &self.scale].into_iter().chain(&self.derivatives)
+    }
 }
 
 /// Which solutions are marked as the source's own choice.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{Block, Chart, Checks, Program, Step};
+use super::program::{Block, Chart, Checks, Program, Short, Step};
 
 impl Program {
     /// The same program without the instructions whose results nothing reads.
@@ -158,15 +158,31 @@ fn prune_block(block: &mut Block) {
 }
 
 fn prune_checks(checks: &mut Checks) {
-    let (measured, mut derived) = (checks.measured(), Live::default());
-    checks.jacobian.iter().flatten().for_each(|operand| derived.read(*operand));
-    derived.code(&checks.code);
-    derived.0.retain(|register| !measured.0.contains(register));
-    let mut behind = checks.code.clone();
+    let whole = std::mem::take(&mut checks.code);
+    let live = |operands: &mut dyn Iterator<Item = &Operand>| {
+        let mut live = Live::default();
+        operands.for_each(|operand| live.read(*operand));
+        live.code(&whole);
+        live
+    };
+    // First what measures, then what the short way needs beyond that, then the rest.
+    let mut parts = [
+        live(&mut checks.residuals.iter().chain(&checks.scales)),
+        live(&mut checks.short.iter().flat_map(Short::operands)),
+        live(&mut checks.jacobian.iter().flatten()),
+    ];
     let mut numbers = Numbers::default();
-    numbers.code(&mut checks.code, &measured);
-    numbers.code(&mut behind, &derived);
-    checks.code.append(&mut behind);
+    for part in 0..parts.len() {
+        let (before, rest) = parts.split_at_mut(part);
+        rest[0].0.retain(|register| !before.iter().any(|live| live.0.contains(register)));
+        let mut code = whole.clone();
+        numbers.code(&mut code, &rest[0]);
+        checks.code.append(&mut code);
+    }
+    let short = checks
+        .short
+        .iter_mut()
+        .flat_map(|short| [&mut short.residual, &mut short.scale].into_iter().chain(&mut short.derivatives));
     let operands = checks.residuals.iter_mut().chain(&mut checks.scales).chain(checks.jacobian.iter_mut().flatten());
-    operands.for_each(|operand| numbers.operand(operand));
+    operands.chain(short).for_each(|operand| numbers.operand(operand));
 }

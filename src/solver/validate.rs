@@ -1,7 +1,7 @@
 //! The check that a program is well formed: [`Program::validate`].
 
 use super::instruction::{Instruction, Operand};
-use super::program::{Block, Chart, Checks, Condition, JointValue, Program, Rule, Step};
+use super::program::{Block, Chart, Checks, Condition, JointValue, Program, Rule, Short, Step};
 use super::{MAX_JOINTS, Unit};
 use crate::{Error, ErrorKind, Result, roots};
 
@@ -121,6 +121,10 @@ impl Context<'_> {
             let place = format!("parameter `{}`", parameter.name);
             match &parameter.rule {
                 Rule::Input(i) | Rule::Cosine(i) | Rule::Sine(i) => ensure(*i < program.inputs.len(), &place)?,
+                Rule::Following(law) | Rule::CosineFollowing(law) | Rule::SineFollowing(law) => {
+                    let is_sound = law.factor.is_finite() && law.offset.is_finite();
+                    ensure(law.input < program.inputs.len() && is_sound, &place)?;
+                }
                 Rule::Root { code, value } => {
                     self.code(code, &place)?;
                     self.operand(*value, &place)?;
@@ -219,9 +223,12 @@ impl Context<'_> {
         let equations = checks.residuals.len();
         let square = checks.scales.len() == equations
             && checks.jacobian.len() == equations
-            && checks.jacobian.iter().all(|row| row.len() == self.program.joints.len());
+            && checks.jacobian.iter().all(|row| row.len() == self.program.joints.len())
+            && checks.short.iter().all(|short| short.derivatives.len() == self.program.joints.len());
         ensure(square && equations > 0, "checks: sizes differ")?;
+        ensure(!self.program.nearby || !checks.short.is_empty(), "checks: what is polished needs a short way")?;
         let operands = checks.residuals.iter().chain(&checks.scales).chain(checks.jacobian.iter().flatten());
+        let operands = operands.chain(checks.short.iter().flat_map(Short::operands));
         operands.copied().try_for_each(|operand| self.operand(operand, "checks"))
     }
 }

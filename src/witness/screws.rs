@@ -54,7 +54,7 @@ impl Screws {
             }
             Screws::Planned(solver) => {
                 let chain = solver.chain();
-                let (target, given) = target.split_at(target.len().saturating_sub(chain.given().len()));
+                let (target, given) = target.split_at(target.len().saturating_sub(chain.given_inputs().len()));
                 let found = solver.solve_given(&planned(chain.task(), target)?, given)?;
                 let answer = |(branch, answer): (usize, screw::Solution)| Solution {
                     q: answer.q,

@@ -22,8 +22,13 @@ fn named(names: &[String]) -> Program {
         terms.push(code.sub(constant(0.0), parameter(i)));
     }
     let (value, scale) = code.equation(&terms);
-    let checks =
-        Checks { code: code.take(), residuals: vec![value], scales: vec![scale], jacobian: vec![vec![constant(1.0)]] };
+    let checks = Checks {
+        code: code.take(),
+        residuals: vec![value],
+        scales: vec![scale],
+        jacobian: vec![vec![constant(1.0)]],
+        short: Vec::new(),
+    };
     let mut steps: Vec<Step> = (0..=count)
         .map(|i| Step::Set { unknown: i, value: if i < count { parameter(i) } else { constant(0.0) } })
         .collect();

@@ -8,6 +8,7 @@ mod explain;
 mod families;
 mod lift;
 mod limbs;
+mod mimic;
 mod noisy;
 mod planner;
 mod random_chains;

@@ -108,7 +108,15 @@ pub fn planar_chain(kinds: &str, task: Task, seed: u64) -> Chain {
 fn joint(draw: &mut Draw, place: usize, kind: char) -> Joint {
     let kind = if kind == 'P' { JointKind::Prismatic } else { JointKind::Revolute };
     let symbol = (place + 1).to_string();
-    Joint { name: format!("joint{symbol}"), symbol, kind, axis: draw.axis(), point: draw.point(), limits: None }
+    Joint {
+        mimic: None,
+        name: format!("joint{symbol}"),
+        symbol,
+        kind,
+        axis: draw.axis(),
+        point: draw.point(),
+        limits: None,
+    }
 }
 
 fn parts(joints: Vec<Joint>, tip: Tip, task: Task, direction: ExactVector) -> Chain {

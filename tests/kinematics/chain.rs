@@ -13,6 +13,7 @@ fn rotation(rows: [[&str; 3]; 3]) -> ExactMatrix {
 
 fn parts() -> ChainParts {
     let joint = |name: &str, symbol: &str, kind, axis: [&str; 3]| Joint {
+        mimic: None,
         name: name.into(),
         symbol: symbol.into(),
         kind,

@@ -8,6 +8,7 @@ mod fk;
 mod geometry;
 mod ideal;
 pub mod jacobian;
+mod mimic;
 mod numeric;
 mod oracle;
 mod screw;

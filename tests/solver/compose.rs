@@ -39,6 +39,7 @@ fn slide() -> Program {
         residuals: vec![cosine, sine, position],
         scales: vec![constant(1.0); 3],
         jacobian: vec![vec![fall, constant(0.0)], vec![unknown(0), constant(0.0)], vec![slope, constant(1.0)]],
+        short: Vec::new(),
     };
     Program {
         name: "slide".into(),

@@ -101,7 +101,13 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let (a, b) = (code.sub(x, constant(1.0)), code.sub(x, constant(2.0)));
     let (product, slope) = (code.mul(a, b), code.add(a, b));
     let code = code.take();
-    let checks = Checks { code, residuals: vec![product], scales: vec![constant(1.0)], jacobian: vec![vec![slope]] };
+    let checks = Checks {
+        code,
+        residuals: vec![product],
+        scales: vec![constant(1.0)],
+        jacobian: vec![vec![slope]],
+        short: Vec::new(),
+    };
     let root = |claim: usize| {
         let mut code = Code::default();
         (code.sqrt(parameter(claim)), code.take())

@@ -74,6 +74,7 @@ pub fn chain(axes: &[([BigRational; 3], [BigRational; 3])]) -> Chain {
 /// The same, of which these joints slide.
 pub fn chain_of(axes: &[([BigRational; 3], [BigRational; 3])], sliding: &[usize]) -> Chain {
     let joint = |(index, (axis, point)): (usize, &([BigRational; 3], [BigRational; 3]))| Joint {
+        mimic: None,
         name: format!("Joint{}", index + 1),
         symbol: (index + 1).to_string(),
         kind: if sliding.contains(&index) { JointKind::Prismatic } else { JointKind::Revolute },

@@ -21,6 +21,8 @@ pub struct ScrewJoint {
     pub square: BigRational,
     /// o: a point of the axis.
     pub point: ExactVector,
+    /// The place of the joint that it follows, the factor and the summand.
+    pub follows: Option<(usize, [f64; 2])>,
     /// The limits of a slide, if it has two, in the chain's unit.
     pub travel: Option<(f64, f64)>,
     /// w / |w|^2.
@@ -32,7 +34,8 @@ impl ScrewJoint {
         let axis = vector::normalised(axis);
         let (square, point) = (vector::dot(&axis, &axis), point.clone());
         let dual = vector::scale(&axis, &square.recip());
-        ScrewJoint { name: name.to_owned(), symbol: symbol.to_owned(), kind, axis, square, point, travel: None, dual }
+        let (name, symbol) = (name.to_owned(), symbol.to_owned());
+        ScrewJoint { name, symbol, kind, axis, square, point, follows: None, travel: None, dual }
     }
 
     /// The screw of a chain's joint.
@@ -72,9 +75,13 @@ impl Mechanism {
     /// The mechanism of `chain`, with its task and the joints that it gives.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a given joint that the chain has not.
+    /// [`ErrorKind::BadValue`] for a given joint that the chain has not; as [`Chain::check_leaders`].
     pub fn new(chain: &Chain) -> Result<Self> {
+        chain.check_leaders()?;
         let mut joints: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
+        for (place, joint) in joints.iter_mut().enumerate() {
+            joint.follows = chain.leader(place).map(|(leader, mimic)| (leader, mimic.law()));
+        }
         let task = chain.task();
         // The angle of a planar pose is counted from the zero configuration, and so is the turn about a ray.
         let tip_rotation = match task {

@@ -11,13 +11,19 @@ use crate::derive::assemble::{Assembler, of_least_work};
 use crate::derive::closure::{Arithmetic, Mechanism, ScrewJoint};
 use crate::kinematics::{ExactVector, Plane, Task};
 use crate::number::BigRational;
-use crate::solver::{Checks, JointValue, Operand};
+use crate::solver::{Checks, JointValue, Operand, Short};
 
 type Vector = [Emitted; 3];
 
 /// The checks of a mechanism whose unknowns and parameters stand as `layout` says, by sums of the length that leaves the least code for what
 /// each candidate is measured by. `reach` is the size of its positions.
 pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
+    let short = Checks { short: Vec::new(), ..polishing(mechanism, layout, reach) };
+    short.pruned()
+}
+
+/// The same with what the short way to a solution nearby takes.
+pub(super) fn polishing(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
     let [usual, others @ ..] = Assembler::ways().map(|assembler| written(mechanism, layout, reach, assembler));
     of_least_work(usual, others, Checks::work)
 }
@@ -55,7 +61,7 @@ impl<'a> Forward<'a> {
             position: std::array::from_fn(|_| number(false)),
             twists: Vec::with_capacity(mechanism.driven().len()),
             shifts: Operand::Constant(0.0),
-            checks: Checks { code: Vec::new(), residuals: Vec::new(), scales: Vec::new(), jacobian: Vec::new() },
+            checks: Checks::default(),
         }
     }
 
@@ -156,7 +162,46 @@ impl<'a> Forward<'a> {
             Task::PlanarPose { plane } => self.tilted(&columns, plane),
             Task::Position | Task::PlanarPosition { .. } => {}
         }
+        match task {
+            Task::Pose => self.shortened(3, &columns),
+            Task::Rotation => self.shortened(0, &columns),
+            _ => self.shortened(self.checks.residuals.len(), &columns),
+        }
         mechanism.given().iter().for_each(|&joint| self.given(joint));
+        for (joint, screw) in mechanism.driven().iter().enumerate() {
+            if let Some((leader, [factor, offset])) = screw.follows.filter(|_| !mechanism.given().contains(&joint)) {
+                self.follows(joint, leader, factor, offset);
+            }
+        }
+    }
+
+    /// The short way: the first `count` equations, then, unless these are all, the rotation from the target to the frame with these columns as a
+    /// vector, `1/2 sum t_k x r_k`, whose derivatives are the axes themselves.
+    fn shortened(&mut self, count: usize, columns: &[Vector; 3]) {
+        let checks = &self.checks;
+        let rows = (0..count).map(|row| Short {
+            residual: checks.residuals[row],
+            scale: checks.scales[row],
+            derivatives: checks.jacobian[row].clone(),
+        });
+        let mut short: Vec<Short> = rows.collect();
+        if count < checks.residuals.len() {
+            let target = |row: usize, column: usize| Emitted::code(Operand::Parameter(count + 3 * row + column));
+            let crossed: Vec<Vector> =
+                (0..3).map(|k| self.cross(&std::array::from_fn(|row| target(row, k)), &columns[k])).collect();
+            for k in 0..3 {
+                let sum = crossed[1..].iter().fold(crossed[0][k].clone(), |sum, one| self.emitter.add(&sum, &one[k]));
+                let residual = self.emitter.operand(&sum.times(0.5));
+                let twists = self.twists.clone();
+                let derivative = |(axis, centre): &(Vector, Option<Vector>)| match centre {
+                    Some(_) => self.emitter.operand(&axis[k]),
+                    None => Operand::Constant(0.0),
+                };
+                let derivatives = twists.iter().map(derivative).collect();
+                short.push(Short { residual, scale: Operand::Constant(1.0), derivatives });
+            }
+        }
+        self.checks.short = short;
     }
 
     /// `tip - p` in some coordinates, whose parameters stand from `first` on.
@@ -221,9 +266,12 @@ impl<'a> Forward<'a> {
         twists.iter().map(rate).collect()
     }
 
-    /// A given joint is where it is told to be.
+    /// A given joint is where it is told to be, and stays there.
     fn given(&mut self, joint: usize) {
         let count = self.twists.len();
+        let (zero, one) = (Operand::Constant(0.0), Operand::Constant(1.0));
+        let derivatives = (0..count).map(|other| if other == joint { one } else { zero }).collect();
+        self.checks.short.push(Short { residual: zero, scale: one, derivatives });
         let row = |derivative: Operand| {
             let mut row = vec![Operand::Constant(0.0); count];
             row[joint] = derivative;
@@ -240,6 +288,42 @@ impl<'a> Forward<'a> {
             (JointValue::Plain(unknown), &[d]) => {
                 let value = Emitted::code(Operand::Unknown(unknown));
                 self.equation(&value, Operand::Parameter(d), Operand::Magnitude, row(Operand::Constant(1.0)));
+            }
+            _ => {}
+        }
+    }
+
+    /// A joint is where the one that it follows brings it; angles turn a whole number of times as far.
+    fn follows(&mut self, joint: usize, leader: usize, factor: f64, offset: f64) {
+        let count = self.twists.len();
+        let row = |own: Operand, other: Operand| {
+            let mut row = vec![Operand::Constant(0.0); count];
+            (row[joint], row[leader]) = (own, other);
+            row
+        };
+        let one = Operand::Constant(1.0);
+        let known = |unknown: usize| Emitted::code(Operand::Unknown(unknown));
+        match (self.layout.joints[joint], self.layout.joints[leader]) {
+            (JointValue::Angle { cosine, sine }, JointValue::Angle { cosine: c, sine: s }) => {
+                let [mut across, mut up] = [offset.cos(), offset.sin()].map(|x| Emitted::integer(1).times(x));
+                let (c, s) = (known(c), known(s).times(factor.signum()));
+                for _ in 0..factor.abs() as usize {
+                    let products = [(&across, &c), (&up, &s), (&up, &c), (&across, &s)];
+                    let [cc, ss, sc, cs] = products.map(|(a, b)| self.emitter.mul(a, b));
+                    (across, up) = (self.emitter.sub(&cc, &ss), self.emitter.add(&sc, &cs));
+                }
+                let (fall, rise) = (known(sine).times(-1.0), known(cosine));
+                for (value, target, own, other) in
+                    [(known(cosine), &across, fall, up.times(factor)), (known(sine), &up, rise, across.times(-factor))]
+                {
+                    let [target, own, other] = [target, &own, &other].map(|x| self.emitter.operand(x));
+                    self.equation(&value, target, one, row(own, other));
+                }
+            }
+            (JointValue::Plain(own), JointValue::Plain(other)) => {
+                let shift = self.emitter.add(&known(other).times(factor), &Emitted::integer(1).times(offset));
+                let target = self.emitter.operand(&shift);
+                self.equation(&known(own), target, Operand::Magnitude, row(one, Operand::Constant(-factor)));
             }
             _ => {}
         }

@@ -323,7 +323,7 @@ fn joint((value, joint): (&JointValue, &crate::kinematics::Joint)) -> Joint {
 
 /// The equations that hold the joints `given` among `count` where they are told to be.
 fn held(layout: &Layout, given: &[usize], count: usize) -> Checks {
-    let mut checks = Checks { code: Vec::new(), residuals: Vec::new(), scales: Vec::new(), jacobian: Vec::new() };
+    let mut checks = Checks::default();
     let mut emit = |operation: Operation| {
         checks.code.push(Instruction { target: checks.code.len(), operation });
         Operand::Register(checks.code.len() - 1)
@@ -354,10 +354,6 @@ fn held(layout: &Layout, given: &[usize], count: usize) -> Checks {
 
 /// The rule with its input `by` places further on.
 fn moved(rule: Rule, by: usize) -> Rule {
-    match rule {
-        Rule::Input(index) => Rule::Input(index + by),
-        Rule::Cosine(index) => Rule::Cosine(index + by),
-        Rule::Sine(index) => Rule::Sine(index + by),
-        root @ Rule::Root { .. } => root,
-    }
+    let Ok(rule) = rule.with_input(|index| Ok::<_, std::convert::Infallible>(index + by));
+    rule
 }

@@ -6,10 +6,10 @@ use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
 use crate::derive::assemble::Assembler;
-use crate::derive::closure::{self, Assignment, Mechanism, Target};
+use crate::derive::closure::{self, Assignment, Mechanism, ScrewJoint, Target};
 use crate::kinematics::{JointKind, LengthUnit, Task};
 use crate::number::BigRational;
-use crate::solver::{Condition, Input, JointValue, Operand, ParameterRule, Rule, Unit};
+use crate::solver::{Condition, Following, Input, JointValue, Operand, ParameterRule, Rule, Unit};
 
 /// The names and places of all numbers of a program.
 pub(super) struct Layout {
@@ -58,20 +58,41 @@ impl Layout {
         layout.across = mechanism
             .hidden()
             .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
-        for &index in mechanism.given() {
+        layout.givens(mechanism, length);
+        layout
+    }
+
+    /// The inputs and parameters of the given joints, those that follow others last.
+    fn givens(&mut self, mechanism: &Mechanism, length: Unit) {
+        let (followers, inputs): (Vec<usize>, Vec<usize>) =
+            mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
+        let first = self.inputs.len();
+        for &index in &inputs {
             let joint = &mechanism.joints()[index];
-            let input = layout.inputs.len();
-            let (unit, rules): (Unit, Vec<(char, Rule)>) = match joint.kind {
-                JointKind::Revolute => (Unit::Radian, vec![('c', Rule::Cosine(input)), ('s', Rule::Sine(input))]),
-                JointKind::Prismatic => (length, vec![('d', Rule::Input(input))]),
-            };
-            layout.inputs.push(Input { name: joint.name.clone(), unit });
-            for (letter, rule) in rules {
-                layout.given[index].push(layout.parameters.len());
-                layout.parameters.push(ParameterRule { name: format!("{letter}{}", joint.symbol), rule });
+            let input = self.inputs.len();
+            let unit = if joint.is_revolute() { Unit::Radian } else { length };
+            self.inputs.push(Input { name: joint.name.clone(), unit });
+            self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
+        }
+        for index in followers {
+            let joint = &mechanism.joints()[index];
+            let law = joint.follows.and_then(|(leader, [factor, offset])| {
+                let input = first + inputs.iter().position(|&input| input == leader)?;
+                Some(Following { input, factor, offset })
+            });
+            if let Some(law) = law {
+                self.give(joint, index, [Rule::CosineFollowing(law), Rule::SineFollowing(law), Rule::Following(law)]);
             }
         }
-        layout
+    }
+
+    /// The parameters of a given joint by the rules for its cosine, sine and value.
+    fn give(&mut self, joint: &ScrewJoint, index: usize, [cosine, sine, value]: [Rule; 3]) {
+        let rules = if joint.is_revolute() { vec![('c', cosine), ('s', sine)] } else { vec![('d', value)] };
+        for (letter, rule) in rules {
+            self.given[index].push(self.parameters.len());
+            self.parameters.push(ParameterRule { name: format!("{letter}{}", joint.symbol), rule });
+        }
     }
 
     /// The inputs and parameters of the task.

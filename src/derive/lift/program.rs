@@ -1,7 +1,7 @@
 //! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
 
 use super::charts::{Place, Sized, charts, quartic, tell_spread};
-use super::checks::checks;
+use super::checks::polishing;
 use super::frame::framed;
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
@@ -59,13 +59,13 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     Ok(program)
 }
 
-/// The checks of a program by `chain`, which has the joints and the task of the chain that the program solves.
+/// The checks of a program that is polished on `chain`, which has the joints and the task of the chain that the program solves.
 ///
 /// # Errors
 /// As [`Mechanism::new`].
 pub(in crate::derive) fn checks_on(chain: &Chain) -> Result<Checks> {
     let mechanism = Mechanism::new(chain)?;
-    Ok(checks(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
+    Ok(polishing(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
 }
 
 /// The size of the chain's positions; one when it is a point.

@@ -159,13 +159,7 @@ impl Derived {
             joints.join(", ")
         );
         if let Some((_, report)) = &self.truth {
-            let _ = writeln!(
-                text,
-                "The closed form is that of the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on \
-                 the robot as described, and measured on it. What was taken to be meant:\n\n{}\n",
-                report.tolerance,
-                report.lines().iter().map(|line| format!("* {line}\n")).collect::<String>()
-            );
+            let _ = writeln!(text, "{}", report.paragraph());
         }
         text += &self.steps_text(mechanism);
         text += "\nEach equation is a rigid-motion invariant of the loop E1 ... En = G, where G moves the tip from its place at zero to \

@@ -42,7 +42,9 @@ pub struct Candidate {
 /// # Errors
 /// [`ErrorKind::Unsupported`] when there is no such joint, with the number of solutions for each; what `watch` stops with.
 pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
-    let names = |joints: &[usize]| joints.iter().map(|&joint| chain.joints()[joint].name.clone()).collect();
+    let leads = |joint: &&usize| chain.leader(**joint).is_none();
+    let names =
+        |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
     let mut given = chain.given();
     let Some(excess) = (chain.joints().len() - given.len()).checked_sub(chain.task().freedoms()).filter(|n| *n > 0)
     else {
@@ -99,7 +101,9 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
 /// The joint that leaves six which are found together: the last one, or the first.
 fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
     let fits_with = |place: &usize| {
-        let given = given.iter().chain([place]).map(|&joint| chain.joints()[joint].name.clone()).collect();
+        let leads = |joint: &&usize| chain.leader(**joint).is_none();
+        let given =
+            given.iter().chain([place]).filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
         let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
         asked.is_ok_and(|chain| fits(&chain).is_ok())
     };

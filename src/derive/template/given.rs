@@ -1,7 +1,7 @@
-//! Seven joints of which the first or the last is given: six axes for a target that the given joint's motion is taken off.
+//! Six axes behind and before joints that are given: the target is one that the given joints' motions are taken off.
 //!
 //! `E1 E2 .. E7 M = T` with E1 known is `E2 .. E7 M = E1^-1 T`; with E7 known it is `E1 .. E6 M = T (M^-1 E7^-1 M)`. So the six joints
-//! in between are solved by one eigenvalue problem, whatever the given value.
+//! in between are solved by one eigenvalue problem, whatever the given values.
 
 use crate::derive::assemble::Assembler;
 use crate::kinematics::{Chain, Task};
@@ -10,12 +10,14 @@ use crate::spatial::{Axis, Screw};
 use crate::{Error, ErrorKind, Result};
 use nalgebra::{Matrix3, Vector3};
 
-/// The six joints that are found together, and the given one.
+/// The six joints that are found together, and the given ones.
 pub(super) struct Six {
-    /// The chain of the six joints, the given one at zero.
+    /// The chain of the six joints, the given ones at zero.
     pub chain: Chain,
-    /// The place of the given joint, the first or the last of seven.
-    pub given: Option<usize>,
+    /// How many given joints are before the six.
+    before: usize,
+    /// The places of the given joints, ascending.
+    given: Vec<usize>,
 }
 
 impl Six {
@@ -24,46 +26,52 @@ impl Six {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for another task than a pose, another number of joints, or a joint given between others.
     pub fn of(chain: &Chain) -> Result<Six> {
-        let unsupported = || {
-            let text = "the eigenvalue problem is for the pose of six joints, or of seven of which the first or the last is given";
-            Error::new(ErrorKind::Unsupported, text)
-        };
-        let given = match (chain.task(), chain.joints().len(), chain.given().as_slice()) {
-            (Task::Pose, 6, []) => return Ok(Six { chain: chain.clone(), given: None }),
-            (Task::Pose, 7, [place @ (0 | 6)]) => *place,
-            _ => return Err(unsupported()),
-        };
+        let given = chain.given();
+        let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
+        let is_row = unknown.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        if chain.task() != Task::Pose || unknown.len() != 6 || !is_row {
+            let text = "the eigenvalue problem is for the pose of six joints in a row; all that are before and behind them must be given";
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
         let mut parts = chain.parts().clone();
-        parts.joints.remove(given);
+        parts.joints = unknown.iter().map(|&joint| parts.joints[joint].clone()).collect();
         parts.given.clear();
-        Ok(Six { chain: Chain::new(parts)?, given: Some(given) })
+        Ok(Six { chain: Chain::new(parts)?, before: unknown[0], given })
     }
 
     /// The place in the whole chain of each of the six.
     pub fn places(&self) -> [usize; 6] {
-        std::array::from_fn(|place| if self.given == Some(0) { place + 1 } else { place })
+        std::array::from_fn(|place| self.before + place)
     }
 
-    /// The target of the six joints: position, then rotation by rows. `target` are the numbers that are asked for, `value` the cosine and sine
-    /// of the given joint of `chain`, or its length.
+    /// The target of the six joints: position, then rotation by rows. `target` are the numbers that are asked for, `value` tells of a joint of
+    /// `chain` that is given the cosine and sine, or the length.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for values of another kind.
     pub fn target(
         &self,
         chain: &Chain,
         target: [Operand; 12],
-        value: &[Operand],
+        value: impl Fn(usize) -> Vec<Operand>,
         assembler: &mut Assembler,
     ) -> Result<[Operand; 12]> {
-        let Some(given) = self.given else { return Ok(target) };
-        let screw = chain.screws()[given];
-        let back = if given == 0 { Back::of(&screw) } else { Back::of(&screw.moved(&chain.base_from_tip().inverse())) };
-        let Some(motion) = back.motion(value, assembler) else {
-            return Err(Error::new(ErrorKind::Unsupported, "the given joint's value has no such numbers"));
-        };
-        let target = Motion {
+        let mut six = Motion {
             rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| target[3 + 3 * i + j])),
             translation: [target[0], target[1], target[2]],
         };
-        let six = if given == 0 { motion.times(&target, assembler) } else { target.times(&motion, assembler) };
+        let (before, behind) = self.given.split_at(self.before);
+        for (&joint, is_before) in
+            before.iter().map(|joint| (joint, true)).chain(behind.iter().rev().map(|joint| (joint, false)))
+        {
+            let screw = chain.screws()[joint];
+            let back =
+                if is_before { Back::of(&screw) } else { Back::of(&screw.moved(&chain.base_from_tip().inverse())) };
+            let Some(motion) = back.motion(&value(joint), assembler) else {
+                return Err(Error::new(ErrorKind::Unsupported, "a given joint's value has no such numbers"));
+            };
+            six = if is_before { motion.times(&six, assembler) } else { six.times(&motion, assembler) };
+        }
         let rows = six.rotation.concat();
         Ok(std::array::from_fn(|i| if i < 3 { six.translation[i] } else { rows[i - 3] }))
     }

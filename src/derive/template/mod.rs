@@ -58,7 +58,7 @@ pub fn all() -> impl Iterator<Item = Formulation> {
     (0..6).flat_map(|hidden| [false, true].map(|second| Formulation { hidden, second }))
 }
 
-/// Whether the eigenvalue problem is one for `chain`: six joints for a pose, or seven of which the first or the last is given.
+/// Whether the eigenvalue problem is one for `chain`: six joints in a row for a pose, all others given.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] that says what it is for.

@@ -19,10 +19,10 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let frame = frame_of(chain, &mechanism);
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
     let Layout { lines, slides, length } = layout(&six.chain);
-    // The parameters: the target's twelve, then those of the given joint.
-    let value: Vec<Operand> = (12..frame.parameters.len()).map(Operand::Parameter).collect();
+    // The parameters of a given joint are what its block sets its unknowns to.
+    let value = |joint: usize| set_to(&frame, &chain.joints()[joint].name);
     let mut assembler = Assembler::default();
-    let target = six.target(chain, std::array::from_fn(Operand::Parameter), &value, &mut assembler)?;
+    let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
     let step = SixAxes::new(SixAxesParts {
         length,
         lines,
@@ -47,6 +47,14 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let program = Program { blocks, capacity: ROOM, isolated: Some(dimension), nearby: false, ..frame };
     program.validate().map_err(|error| unsupported(error.message()))?;
     Ok(program)
+}
+
+/// What the block `label` of a program sets unknowns to.
+fn set_to(program: &Program, label: &str) -> Vec<Operand> {
+    let block = program.blocks.iter().find(|block| block.label == label);
+    let steps = block.into_iter().flat_map(|block| &block.charts).flat_map(|chart| &chart.steps);
+    let value = |step: &Step| if let Step::Set { value, .. } = step { Some(*value) } else { None };
+    steps.filter_map(value).collect()
 }
 
 /// The tip in the base frame at zero.

@@ -76,9 +76,16 @@ impl DerivedSixAxes {
 
     /// What is done with the joint that is given.
     pub fn given(&self) -> Option<String> {
-        let name = self.chain.parts().given.first()?;
-        let text = "is given: its motion is taken off the target, and what is left is the target of the six others";
-        Some(format!("{name} {text}."))
+        let given = self.chain.given();
+        let names: Vec<&str> = given.iter().map(|&joint| self.chain.joints()[joint].name.as_str()).collect();
+        let text = match names.as_slice() {
+            [] => return None,
+            [one] => format!("{one} is given: its motion is taken off the target"),
+            [many @ .., last] => {
+                format!("{} and {last} are given: their motions are taken off the target", many.join(", "))
+            }
+        };
+        Some(format!("{text}, and what is left is the target of the six others."))
     }
 
     /// What random targets modulo primes showed.
@@ -137,6 +144,9 @@ impl DerivedSixAxes {
              become one eigenvalue problem. Answers that rounding loses are rare and counted: `6_check.csv`.\n",
             self.dimension()
         );
+        if let Some((_, report)) = &self.truth {
+            let _ = writeln!(text, "{}", report.paragraph());
+        }
         for line in self.given().map(|line| line + "\n").into_iter().chain(self.choices()) {
             let _ = writeln!(text, "{line}");
         }

@@ -1,23 +1,35 @@
 //! The ideal directions, from the base: each in its relation to the one before.
 
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::SAME;
 use crate::kinematics::exact_vector::{cosine, cross, dot, is_zero, scale, sine, sub};
 use crate::kinematics::{ExactVector, Joint};
 use crate::number::BigRational;
 
+/// From this grain on directions are told in short numbers.
+const COARSE: f64 = 1e-4;
+
 /// The directions that are meant within `tolerance`: parallel to the one before where that is near, else perpendicular to it where that is
 /// near; of these one that an earlier joint has, or one along coordinate axes, where there is one; else as it is, but in a coordinate plane where
-/// it nearly is. What is exact already keeps its own length.
-pub(super) fn directions(joints: &[Joint], tolerance: f64) -> Vec<ExactVector> {
+/// it nearly is. What is exact already keeps its own length. Others are told in integers as short as `grain`, a share of the tolerance, allows: what is
+/// perpendicular to them, and what meets there, is told in products of theirs.
+pub(super) fn directions(joints: &[Joint], tolerance: f64, grain: f64) -> Vec<ExactVector> {
     let mut ideal: Vec<ExactVector> = Vec::new();
     for joint in joints {
         let own = &joint.axis;
-        let straight = straightened(own, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
+        let short = if grain < COARSE { own.clone() } else { shortened(own, grain * tolerance) };
+        let straight = straightened(&short, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
         ideal.push(straight.unwrap_or_else(|| own.clone()));
     }
     ideal
+}
+
+/// `direction` in integers, within `angle` \[rad\].
+fn shortened(direction: &ExactVector, angle: f64) -> ExactVector {
+    let greatest = direction.iter().map(Signed::abs).max().unwrap_or_else(BigRational::one);
+    let size = BigRational::from_float((1.0 / angle).round()).unwrap_or_else(BigRational::one);
+    direction.each_ref().map(|x| (x / &greatest * &size).round())
 }
 
 /// What `own` is behind the directions `earlier`; none for itself.

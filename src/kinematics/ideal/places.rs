@@ -1,6 +1,7 @@
 //! The ideal places, from the base to the tip: each axis at its offset from the one before, told by their common normal as by Denavit and
 //! Hartenberg (1955), so that what almost meets does.
 
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::directions::directions;
@@ -17,7 +18,7 @@ const PLACES: usize = 18;
 
 /// `chain` with what almost holds made exact, and lengths rounded to decimals within `grain` of the tolerance.
 pub(super) fn ideal(chain: &Chain, tolerance: f64, grain: f64) -> Result<Chain> {
-    let directions = directions(chain.joints(), tolerance);
+    let directions = directions(chain.joints(), tolerance, grain);
     let length = lengths(chain, tolerance);
     let mut placing =
         Placing { tolerance: length, grain: grain * length, true_pivot: Default::default(), lines: Vec::new() };
@@ -29,6 +30,10 @@ pub(super) fn ideal(chain: &Chain, tolerance: f64, grain: f64) -> Result<Chain> 
     let direction = aimed(chain, &tip, &placing, tolerance);
     Chain::new(ChainParts { joints, tip, direction, ..chain.parts().clone() })
 }
+
+/// A rotation whose entries have more bits than this is told in shorter numbers, where that much of an angle is allowed \[rad\].
+const LONG: u64 = 64;
+const COARSEST: f64 = 1e-12;
 
 /// An ideal axis with the point from which the next one is reached.
 struct Placed {
@@ -102,14 +107,27 @@ impl Placing {
     fn straightened_along(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
         let along = scale(direction, &(dot(step, direction) / dot(direction, direction)));
         let tidy = self.tidy(&along);
-        self.nearly_zero(if is_zero(&cross(&tidy, direction)) { tidy } else { along })
+        self.nearly_zero(if is_zero(&cross(&tidy, direction)) { tidy } else { self.short(step, direction) })
+    }
+
+    /// The part of `step` along `direction`, as a multiple of it that is as short a decimal as the grain allows.
+    fn short(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
+        let share = dot(step, direction) / dot(direction, direction);
+        // Of the greatest entry, which may be a long integer.
+        let size = direction.iter().map(Signed::abs).max().unwrap_or_else(BigRational::one);
+        let most = size.to_f64().unwrap_or(1.0) / length(direction);
+        scale(direction, &(shortest_decimal(&(share * &size), self.grain * most) / size))
     }
 
     /// The part of `step` across `direction`, without short parts along coordinate axes; zero when it is short.
     fn straightened_across(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
         let across = sub(step, &scale(direction, &(dot(step, direction) / dot(direction, direction))));
         let straight = self.tidy(&straightened(&across, self.tolerance));
-        let straight = if dot(&straight, direction).is_zero() { straight } else { across };
+        let short = || {
+            let first = upright(direction);
+            add(&self.short(step, &first), &self.short(step, &cross(direction, &first)))
+        };
+        let straight = if dot(&straight, direction).is_zero() { straight } else { short() };
         self.nearly_zero(straight)
     }
 
@@ -136,7 +154,10 @@ impl Placing {
             _ => (ExactVector::default(), straightened(&step, self.tolerance)),
         };
         let point = add(&last.pivot, &add(&along, &across));
-        Tip { point, rotation: straight(&tip.rotation, tolerance) }
+        let rotation = straight(&tip.rotation, tolerance);
+        let is_long = rotation.iter().flatten().any(|entry| entry.denom().bits() > LONG);
+        let angle = self.grain / lengths(chain, 1.0);
+        Tip { point, rotation: if is_long && angle >= COARSEST { shortened(&rotation, angle) } else { rotation } }
     }
 }
 
@@ -154,6 +175,13 @@ fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVe
         (_, true) => flat(),
         _ => own.clone(),
     }
+}
+
+/// A vector across `direction`, and across the coordinate axis that is most so.
+fn upright(direction: &ExactVector) -> ExactVector {
+    let least = (0..3).min_by_key(|&i| direction[i].abs()).unwrap_or(0);
+    let axis = std::array::from_fn(|i| if i == least { BigRational::one() } else { BigRational::zero() });
+    cross(direction, &axis)
 }
 
 /// `step` without parts along coordinate axes that are not longer than `tolerance`.
@@ -183,4 +211,24 @@ fn straight(rotation: &ExactMatrix, tolerance: f64) -> ExactMatrix {
     let whole = rotation.each_ref().map(|row| row.each_ref().map(BigRational::round));
     let mut entries = rotation.iter().flatten().zip(whole.iter().flatten());
     if entries.all(|(x, whole)| is_small(&(x - whole), tolerance)) { whole } else { rotation.clone() }
+}
+
+/// The rotation of a quaternion of integers within `angle` \[rad\] of `rotation`: exactly orthogonal.
+fn shortened(rotation: &ExactMatrix, angle: f64) -> ExactMatrix {
+    let matrix = Matrix3::from_fn(|i, j| rotation[i][j].to_f64().unwrap_or(0.0));
+    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+    let whole = |x: f64| BigRational::from_float((x / angle).round()).unwrap_or_default();
+    let [w, x, y, z] = [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(whole);
+    let two = BigRational::from_integer(2.into());
+    let (square, axis) = (&w * &w + &x * &x + &y * &y + &z * &z, [x, y, z]);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let across = match (i + 3 - j) % 3 {
+                0 => &w * &w * &two - &square,
+                1 => &w * &axis[3 - i - j] * &two,
+                _ => -(&w * &axis[3 - i - j] * &two),
+            };
+            (&axis[i] * &axis[j] * &two + across) / &square
+        })
+    })
 }

@@ -188,6 +188,16 @@ impl Relation {
 }
 
 impl Report {
+    /// What a mechanism's README says of it, in Markdown.
+    pub fn paragraph(&self) -> String {
+        format!(
+            "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
+             described, and measured on it. What was taken to be meant:\n\n{}\n",
+            self.tolerance,
+            self.lines().iter().map(|line| format!("* {line}\n")).collect::<String>()
+        )
+    }
+
     /// One line a relation that misses by more than rounding in doubles, then how far the axes moved.
     pub fn lines(&self) -> Vec<String> {
         let is_length = |kind| !matches!(kind, RelationKind::Parallel | RelationKind::Perpendicular);

@@ -32,8 +32,9 @@ impl Model {
     ///
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined; [`ErrorKind::Unsupported`] for more joints
-    /// than the solver holds.
+    /// than the solver holds; as [`Chain::check_leaders`].
     pub fn of(chain: &Chain) -> Result<Model> {
+        chain.check_leaders()?;
         let (joints, given, task) = (chain.joints().len(), chain.given(), chain.task());
         if joints - given.len() > task.freedoms() {
             let text = format!(

@@ -110,13 +110,14 @@ impl ScrewSolver {
         self.solve_given(target, &[])
     }
 
-    /// The same with the values `given` of the chain's given joints, from the base: radians or lengths of the chain's unit. They
-    /// stand in the answers as they were given.
+    /// The same with the values `given` of the chain's given joints that follow no others, from the base: radians or lengths of the chain's unit.
+    /// They stand in the answers as they were given.
     ///
     /// # Errors
-    /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each given joint.
+    /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each of these.
     pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         self.chain.check_given(given)?;
+        let given = &self.chain.given_values(given)[..];
         let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
         let goal = target.goal(if self.described.is_some() { &self.chain } else { &self.ideal })?;
         let mut found = Vec::with_capacity(self.plan().most_solutions());
@@ -126,6 +127,7 @@ impl ScrewSolver {
         for order in degenerate.filter_map(|at| self.orders.without(at)) {
             self.visit(order, &start, &goal, given, &mut found);
         }
+        found.retain(|answer| self.chain.strays(&answer.q) <= MERGE);
         Ok(found)
     }
 

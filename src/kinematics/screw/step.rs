@@ -22,8 +22,8 @@ use crate::spatial::{Axis, Pose, Screw, angle};
 use smallvec::SmallVec;
 
 /// How far a step lets its target be out of reach, relative to the size of its subproblem: rounding in the joints solved
-/// before adds up, and forward kinematics judges every answer in the end.
-const LOOSE: Reach = Reach::Within(1e-7);
+/// before adds up, a robot as described is off the ideal one by up to 1e-6, and forward kinematics judges every answer in the end.
+const LOOSE: Reach = Reach::Within(1e-5);
 
 /// Values for the joints that a step solves, in the order of [`Step::solved`]; `None` when every value does it.
 pub(super) type Answer = [Option<f64>; 6];

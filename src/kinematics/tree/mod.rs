@@ -2,13 +2,14 @@
 
 mod outline;
 mod path;
+mod telescope;
 
 use std::collections::HashMap;
 
 pub use path::TreePath;
 
 use super::validate::{is_plain, joint_message};
-use super::{ExactVector, Placement};
+use super::{ExactVector, Mimic, Placement};
 use crate::document::{did_you_mean, shown};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -62,17 +63,6 @@ impl TreeJointKind {
     pub fn has_axis(self) -> bool {
         !matches!(self, TreeJointKind::Fixed | TreeJointKind::Floating)
     }
-}
-
-/// That a joint follows another one: value = multiplier * leader + offset.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mimic {
-    /// The joint that is followed.
-    pub leader: String,
-    /// The factor.
-    pub multiplier: BigRational,
-    /// The summand, in radians or metres.
-    pub offset: BigRational,
 }
 
 /// A joint between two links. Metres and radians.

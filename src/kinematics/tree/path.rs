@@ -2,14 +2,16 @@
 
 use std::collections::HashMap;
 
+use super::telescope::{Telescope, joined};
 use super::{Mimic, Tree, TreeJoint, TreeJointKind, listing, some_among};
 use crate::document::shown;
 use crate::kinematics::chain::Meant;
 use crate::kinematics::chain::along_z;
 use crate::kinematics::frame::{Frame, Rationality, Reading};
 use crate::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, Task, Tip};
+use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
-use num_traits::ToPrimitive;
+use num_traits::{One, Zero};
 
 /// The longest path, fixed joints included.
 const MAX_PATH: usize = 64;
@@ -67,19 +69,21 @@ impl Tree {
 
     /// The chain from the link `base` to the link `tip` (defaults as in [`Tree::path`]), in the frame of `base`, with the task
     /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
-    /// reversed, so that its values and limits stay its own. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
+    /// reversed, so that its values and limits stay its own. Joints that move together by `mimic` are one unknown: slides along one direction, as
+    /// of a telescope, become one joint whose value is their sum; any other follows its leader, or, where that is not on the way, the first that
+    /// moves with it. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
     ///
     /// # Errors
-    /// As [`Tree::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way, and for joints on the way that
-    /// depend on each other by `mimic`; [`ErrorKind::BadValue`] when nothing moves on the way, and as [`Chain::new`].
+    /// As [`Tree::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way; [`ErrorKind::BadValue`] when nothing moves on the
+    /// way, and as [`Chain::new`].
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
-        let path = self.path(base, tip)?;
-        self.check_independent(&path)?;
-        self.chain_along(&path)
+        self.chain_along(&self.path(base, tip)?)
     }
 
     fn chain_along(&self, path: &TreePath) -> Result<Chain> {
         let (joints, tip) = self.walk(path, Reading::AsDescribed)?;
+        let telescopes = Telescope::among(&joints);
+        let joints = joined(joints, &telescopes);
         if joints.is_empty() {
             let text = format!(
                 "nothing moves between `{}` and `{}`; choose links with moving joints between them",
@@ -90,6 +94,7 @@ impl Tree {
         }
         let name: String = format!("{}_{}", self.name, path.tip).chars().take(MAX_NAME).collect();
         let (meant, tip_meant) = self.walk(path, Reading::AsMeant)?;
+        let meant = joined(meant, &telescopes);
         Chain::new(ChainParts {
             name: name.trim().to_owned(),
             description: Some(format!("from link {} to link {}", path.base, path.tip)),
@@ -110,17 +115,20 @@ impl Tree {
     /// that are passed upwards.
     pub fn notes(&self, path: &TreePath) -> Vec<String> {
         let mut notes = Vec::new();
+        let mimics = self.mimics(path);
+        let alone =
+            |joint: &TreeJoint| mimics.iter().all(|(name, mimic)| *name != joint.name && mimic.leader != joint.name);
         for (index, _) in &path.joints {
             let joint = &self.joints[*index];
             let name = shown(&joint.name);
             notes.extend(joint.notes.iter().map(|note| format!("{name}: {note}")));
-            if let Some(mimic) = &joint.mimic {
-                notes.push(format!(
-                    "{name}: in the robot it follows {}, outside this chain; here it moves freely",
-                    law(mimic)
-                ));
+            if let Some(mimic) = joint.mimic.as_ref().filter(|_| alone(joint)) {
+                notes
+                    .push(format!("{name}: in the robot it follows {mimic}, outside this chain; here it moves freely"));
             }
         }
+        let walked = self.walk(path, Reading::AsDescribed).map(|(joints, _)| joints).unwrap_or_default();
+        notes.extend(Telescope::among(&walked).iter().flat_map(|telescope| telescope.notes(&walked)));
         let up = path.joints.iter().filter(|(index, is_up)| *is_up && self.joints[*index].kind != TreeJointKind::Fixed);
         let up: Vec<String> = up.map(|(index, _)| shown(&self.joints[*index].name)).collect();
         if !up.is_empty() {
@@ -146,31 +154,40 @@ impl Tree {
         std::iter::successors(first, |joint| self.above[self.ends[*joint].0]).collect()
     }
 
-    /// No joint of the chain may lead another one, nor may two follow the same leader.
-    fn check_independent(&self, path: &TreePath) -> Result<()> {
-        let mut leaders: HashMap<&str, &str> = HashMap::new();
+    /// The joints on the way that move with others of it, and how they follow: the one that leads them all, or where that is not on the way the
+    /// first of them.
+    fn mimics(&self, path: &TreePath) -> Vec<(&str, Mimic)> {
         let moving = path.joints.iter().map(|(index, _)| &self.joints[*index]);
-        for joint in moving.filter(|joint| joint.kind != TreeJointKind::Fixed) {
-            let leader = self.leader(joint);
-            if let Some(other) = leaders.insert(&leader.name, &joint.name) {
-                let message = format!(
-                    "it moves with joint `{}` of the same chain (mimic); choose links so that only one of them is \
-                                       between",
-                    shown(other)
-                );
-                return Err(joint.error(ErrorKind::Unsupported, &message));
+        let laws = moving.filter(|joint| joint.kind != TreeJointKind::Fixed).map(|joint| (joint, self.law(joint)));
+        let mut heads: HashMap<String, (&str, Mimic)> = HashMap::new();
+        let laws: Vec<(&TreeJoint, Mimic)> = laws.collect();
+        for (joint, law) in &laws {
+            let leads = joint.mimic.is_none();
+            if leads || !heads.contains_key(&law.leader) {
+                heads.insert(law.leader.clone(), (&joint.name, law.clone()));
             }
         }
-        Ok(())
+        let followers = laws.into_iter().filter_map(|(joint, law)| {
+            let (head, first) = heads.get(&law.leader).filter(|(head, _)| *head != joint.name)?;
+            // x = (head - b) / m is the leader's value.
+            let back = Mimic {
+                leader: (*head).to_owned(),
+                multiplier: first.multiplier.recip(),
+                offset: -&first.offset / &first.multiplier,
+            };
+            Some((joint.name.as_str(), back.then(&law)))
+        });
+        followers.collect()
     }
 
-    /// The joint that `joint` follows in the end; itself when it follows none.
-    fn leader<'t>(&'t self, joint: &'t TreeJoint) -> &'t TreeJoint {
-        let next = |follower: &&'t TreeJoint| {
-            let leader = &follower.mimic.as_ref()?.leader;
-            self.joints.iter().find(|joint| joint.name == *leader)
-        };
-        std::iter::successors(Some(joint), next).last().unwrap_or(joint)
+    /// How `joint` follows the one that leads it in the end; itself when it follows none.
+    fn law(&self, joint: &TreeJoint) -> Mimic {
+        let own = Mimic { leader: joint.name.clone(), multiplier: BigRational::one(), offset: BigRational::zero() };
+        let leader = |mimic: &Mimic| self.joints.iter().find(|joint| joint.name == mimic.leader);
+        match joint.mimic.as_ref().and_then(|mimic| Some((mimic, leader(mimic)?))) {
+            Some((mimic, leader)) if !mimic.multiplier.is_zero() => self.law(leader).then(mimic),
+            _ => own,
+        }
     }
 
     /// The moving joints in the base frame, and the tip.
@@ -181,6 +198,7 @@ impl Tree {
     /// The same from a base frame, and whether the joints' axes are rational.
     fn walk_from(&self, base: Frame, path: &TreePath) -> Result<((Vec<Joint>, Frame), Rationality)> {
         let (mut joints, mut frame, mut told) = (Vec::new(), base, Rationality::default());
+        let mimics = self.mimics(path);
         for (index, is_up) in &path.joints {
             let joint = &self.joints[*index];
             if !is_up {
@@ -196,6 +214,7 @@ impl Tree {
                     axis: if *is_up { axis.map(|x| -x) } else { axis },
                     point: frame.point(),
                     limits: joint.limits.filter(|_| joint.kind != TreeJointKind::Continuous),
+                    mimic: mimics.iter().find(|(name, _)| *name == joint.name).map(|(_, mimic)| mimic.clone()),
                 });
             }
             if *is_up {
@@ -203,16 +222,6 @@ impl Tree {
             }
         }
         Ok(((joints, frame), told))
-    }
-}
-
-/// `Leader`, or `2 * Leader + 0.1`.
-fn law(mimic: &Mimic) -> String {
-    let [factor, summand] = [&mimic.multiplier, &mimic.offset].map(|x| x.to_f64().unwrap_or(f64::NAN));
-    match (shown(&mimic.leader), factor, summand) {
-        (leader, 1.0, 0.0) => leader,
-        (leader, _, 0.0) => format!("{factor} * {leader}"),
-        (leader, _, _) => format!("{factor} * {leader} + {summand}"),
     }
 }
 

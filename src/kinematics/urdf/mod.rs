@@ -8,8 +8,9 @@ use std::path::Path;
 
 use num_traits::ToPrimitive;
 
+use super::Mimic;
 use super::surd::recognised;
-use super::tree::{Mimic, Tree, TreeJoint, TreeJointKind, TreeLink};
+use super::tree::{Tree, TreeJoint, TreeJointKind, TreeLink};
 use super::{ExactRotation, ExactVector, Placement, Turn};
 use crate::document::{did_you_mean, one_among, read_text, shown};
 use crate::number::BigRational;

@@ -87,9 +87,11 @@ impl<'a> Check<'a> {
         let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
         let mut targets = Targets::new(&model, options.seed);
+        // The angle of a joint that follows another by an odd factor is no rational point of the circle.
+        let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
+        let exact = if follows { 0 } else { options.exact };
         let check = Check { model: &model, solver, bound, screws, options: *options, watch };
-        let rows =
-            check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), options.exact, watch))?;
+        let rows = check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), exact, watch))?;
         Ok(Report {
             inputs: model.input_names(),
             joints: chain.joints().iter().map(|joint| joint.name.clone()).collect(),
@@ -223,7 +225,8 @@ impl<'a> Check<'a> {
 
     /// Whether each answer of the screw solver has its match among ours, and each ordinary one of ours among its. Answers that hold
     /// within a solver's tolerance only, out of reach by less than that, may be missing on the other side; next to singular
-    /// configurations the screw solver loses answers, and one that it lacks is judged by forward kinematics alone.
+    /// configurations, and where the task asks more than the joints can do, the screw solver loses answers, and one that it lacks is judged by
+    /// forward kinematics alone.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
@@ -231,7 +234,13 @@ impl<'a> Check<'a> {
             let is_same = |other: &Solution| self.model.is_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };
-        let ours = |answer: &Solution| self.model.sigma(&answer.q) <= ORDINARY || covers(others, answer);
+        let asks_too_much = |answer: &Solution| {
+            let jacobian = self.model.jacobian(&answer.q);
+            jacobian.nrows() > jacobian.ncols()
+        };
+        let ours = |answer: &Solution| {
+            self.model.sigma(&answer.q) <= ORDINARY || asks_too_much(answer) || covers(others, answer)
+        };
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
     }
 

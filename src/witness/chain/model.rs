@@ -61,7 +61,7 @@ impl<'a> Model<'a> {
             Task::Direction => aim,
             Task::Rotation => rotation,
         };
-        names.extend(self.given.iter().map(|&joint| self.chain.joints()[joint].name.clone()));
+        names.extend(self.chain.given_inputs().iter().map(|&joint| self.chain.joints()[joint].name.clone()));
         names
     }
 
@@ -77,7 +77,7 @@ impl<'a> Model<'a> {
     /// The target that joint values reach, as the numbers that a program takes.
     pub fn target(&self, q: &[f64]) -> Vec<f64> {
         let mut target = self.seen(&self.forward(q));
-        target.extend(self.given.iter().map(|&joint| q[joint]));
+        target.extend(self.chain.given_inputs().iter().map(|&joint| q[joint]));
         target
     }
 
@@ -119,7 +119,10 @@ impl<'a> Model<'a> {
             2 if planar => angle::difference(*seen, *wanted),
             _ => seen - wanted,
         };
-        seen.iter().zip(target).enumerate().map(miss).collect()
+        let misses = seen.iter().zip(target).enumerate().map(miss);
+        // Where no joint follows another this is no number of the task's.
+        let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
+        misses.chain(strays).collect()
     }
 
     /// The reach with the slides of `q` added.
@@ -288,8 +291,9 @@ impl Configuration for Model<'_> {
             return answer;
         }
         let mut q = vec![0.0; self.chain.joints().len()];
-        let values = &target[target.len() - self.given.len()..];
-        self.given.iter().zip(values).for_each(|(&joint, &value)| q[joint] = value);
+        let inputs = &target[target.len() - self.chain.given_inputs().len()..];
+        let values = self.chain.given_values(inputs);
+        self.given.iter().zip(values).for_each(|(&joint, value)| q[joint] = value);
         self.unknown.iter().zip(&answer.q).for_each(|(&joint, &value)| q[joint] = value);
         let free = answer.free.iter().map(|&place| self.unknown[place]).collect();
         Solution { q, free, ..answer }

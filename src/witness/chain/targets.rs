@@ -110,14 +110,17 @@ impl<'a> Targets<'a> {
         })
     }
 
-    fn reached(&self, kind: Kind, q: Vec<f64>) -> Target {
+    fn reached(&self, kind: Kind, mut q: Vec<f64>) -> Target {
+        self.model.chain.follow(&mut q);
         let q = self.model.wrapped(&q);
         Target { kind, inputs: self.model.target(&q), joints: Some(q) }
     }
 
     /// Random values of all joints.
     pub fn joints(&mut self) -> Vec<f64> {
-        (0..self.model.chain.joints().len()).map(|joint| self.joint(joint)).collect()
+        let mut q: Vec<f64> = (0..self.model.chain.joints().len()).map(|joint| self.joint(joint)).collect();
+        self.model.chain.follow(&mut q);
+        q
     }
 
     /// A random value: an angle in (-pi, pi], a slide within its limits, or within the reach to either side.
@@ -249,7 +252,7 @@ impl<'a> Targets<'a> {
         let side = if (self.done / 4).is_multiple_of(2) { 1.0 } else { -1.0 };
         let shift = outward * side * 10.0_f64.powi(-k);
         let mut inputs = self.shifted(&found.q, shift.as_slice())?;
-        inputs.extend(self.model.given.iter().map(|&joint| found.q[joint]));
+        inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| found.q[joint]));
         let k = k.unsigned_abs();
         Some(Target { kind: Kind::Edge(k), inputs, joints: None })
     }
@@ -295,7 +298,7 @@ impl<'a> Targets<'a> {
         };
         let pose = Pose::from_parts(Translation3::from(translation), turn);
         let mut inputs = self.model.seen(&pose);
-        inputs.extend(self.model.given.iter().map(|&joint| given[joint]));
+        inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| given[joint]));
         Target { kind: Kind::Anywhere, inputs, joints: None }
     }
 

@@ -152,5 +152,6 @@ fn checks() -> Checks {
         residuals: vec![x.0, y.0, z.0],
         scales: vec![x.1, y.1, z.1],
         jacobian: vec![x_row.to_vec(), y_row.to_vec(), vec![constant(0.0), out, lower_out]],
+        short: Vec::new(),
     }
 }

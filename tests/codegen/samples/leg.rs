@@ -104,5 +104,6 @@ fn checks() -> Checks {
         residuals: vec![x.0, z.0],
         scales: vec![x.1, z.1],
         jacobian: vec![vec![x_by_hip, x_by_knee], vec![z_by_hip, z_by_knee]],
+        short: Vec::new(),
     }
 }

@@ -114,5 +114,6 @@ fn checks() -> Checks {
         residuals: equations.iter().map(|equation| equation.0).collect(),
         scales: vec![constant(1.0); 3],
         jacobian: vec![vec![minus_cs, minus_s[0]], vec![cc, minus_s[1]], vec![constant(0.0), c2]],
+        short: Vec::new(),
     }
 }

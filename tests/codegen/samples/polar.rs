@@ -110,5 +110,6 @@ fn checks() -> Checks {
         residuals: vec![first.0, second.0, third.0],
         scales: vec![first.1, second.1, third.1],
         jacobian: vec![vec![minus[4], c], vec![rc, s], vec![constant(0.0), by_slide]],
+        short: Vec::new(),
     }
 }

@@ -56,5 +56,11 @@ fn checks() -> Checks {
     let (value, scale) = code.equation(&terms);
     let slopes: Vec<_> = (1..5).map(|i| code.product(&[constant(i as f64), parameter(i), powers[i - 1]])).collect();
     let slope = code.sum(&slopes);
-    Checks { code: code.take(), residuals: vec![value], scales: vec![scale], jacobian: vec![vec![slope]] }
+    Checks {
+        code: code.take(),
+        residuals: vec![value],
+        scales: vec![scale],
+        jacobian: vec![vec![slope]],
+        short: Vec::new(),
+    }
 }

@@ -191,5 +191,5 @@ fn checks() -> Checks {
     ];
     let residuals = (0..9).map(|i| code.sub(values[i], parameter(i))).collect();
     let jacobian = (0..9).map(|i| columns.iter().map(|column| column[i]).collect()).collect();
-    Checks { code: code.take(), residuals, scales: vec![constant(1.0); 9], jacobian }
+    Checks { code: code.take(), residuals, scales: vec![constant(1.0); 9], jacobian, short: Vec::new() }
 }

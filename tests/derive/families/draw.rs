@@ -96,6 +96,7 @@ impl Draw {
     /// A chain of these joints; its tip is anywhere and turned, as is what it aims.
     pub fn chain(&mut self, joints: &[Placed], task: Task, given: &[usize]) -> Chain {
         let joint = |(place, placed): (usize, &Placed)| Joint {
+            mimic: None,
             name: format!("joint{}", place + 1),
             symbol: (place + 1).to_string(),
             kind: placed.kind,

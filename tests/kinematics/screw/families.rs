@@ -29,6 +29,7 @@ type Placed = (Vector, Option<Vector>);
 
 fn chain(joints: &[Placed], tip: Vector, task: Task) -> Chain {
     let joint = |(index, (axis, point)): (usize, &Placed)| Joint {
+        mimic: None,
         name: format!("joint{}", index + 1),
         symbol: (index + 1).to_string(),
         kind: if point.is_some() { JointKind::Revolute } else { JointKind::Prismatic },
