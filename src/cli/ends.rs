@@ -6,7 +6,8 @@ use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
 /// The tasks that need no plane.
-const TASKS: [Task; 5] = [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation];
+const TASKS: [Task; 6] =
+    [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation, Task::PositionPitchRoll];
 /// Those that need one.
 const PLANAR: [fn(Plane) -> Task; 2] = [|plane| Task::PlanarPosition { plane }, |plane| Task::PlanarPose { plane }];
 /// The planes.
@@ -21,8 +22,8 @@ pub struct EndArguments {
     /// URDF: the link where the chain ends (default: the only leaf)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// What is asked of the tip: pose, position, ray, direction, rotation, planar_position or planar_pose (default: as described; of a
-    /// URDF, pose)
+    /// What is asked of the tip: pose, position, ray, direction, rotation, position_pitch_roll, planar_position or planar_pose (default: as
+    /// described; of a URDF, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
     task: Option<AskedTask>,
     /// The plane of the base frame in which a planar task moves: xy, xz or yz

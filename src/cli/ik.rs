@@ -138,6 +138,7 @@ fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
         Task::Pose => "a pose has 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z, qx, qy, qz, qw)",
         Task::Position => "a position has 3 numbers (x, y, z)",
         Task::Ray => "a ray has 6 numbers (x, y, z and the direction's x, y, z)",
+        Task::PositionPitchRoll => "a position with pitch and roll has 5 numbers (x, y, z, pitch, roll)",
         Task::Direction => "a direction has 3 numbers (x, y, z, of any length)",
         Task::Rotation => "a rotation has 3 numbers (roll, pitch, yaw) or 4 (qx, qy, qz, qw)",
         Task::PlanarPosition { .. } => "a planar position has 2 numbers",
@@ -156,6 +157,9 @@ fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
         (Task::Position, 3, &[x, y, z]) => Target::Position([x, y, z].into()),
         (Task::Ray, 6, &[x, y, z, i, j, k]) => {
             Target::Ray { point: [x, y, z].into(), direction: unit(Vector3::new(i, j, k)) }
+        }
+        (Task::PositionPitchRoll, 5, &[x, y, z, pitch, roll]) => {
+            Target::PositionPitchRoll { point: [x, y, z].into(), pitch: radians(pitch), roll: radians(roll) }
         }
         (Task::Direction, 3, &[i, j, k]) => Target::Direction(unit(Vector3::new(i, j, k))),
         (Task::Rotation, 3, &[roll, pitch, yaw]) => Target::Rotation(euler([roll, pitch, yaw])),

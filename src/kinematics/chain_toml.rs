@@ -266,6 +266,7 @@ fn read_kind(table: Table<'_>) -> Result<Task> {
         ("ray", TaskKind::Spatial(Task::Ray)),
         ("direction", TaskKind::Spatial(Task::Direction)),
         ("rotation", TaskKind::Spatial(Task::Rotation)),
+        ("position_pitch_roll", TaskKind::Spatial(Task::PositionPitchRoll)),
     ];
     match (table.required("kind")?.one_of(&kinds)?, table.optional("plane")) {
         (TaskKind::Spatial(task), None) => Ok(task),

@@ -23,6 +23,7 @@ mod shares;
 mod surd;
 mod task;
 pub mod tree;
+pub mod upright;
 pub mod urdf;
 mod validate;
 

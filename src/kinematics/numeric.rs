@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use super::oracle::{Oracle, Unknown};
 use super::screw::{Solution, Target};
 use super::{Chain, JointKind};
-use crate::spatial::angle;
+use crate::spatial::{angle, vertical};
 use crate::{Error, ErrorKind, Result};
 
 /// Starting points: three times those of the checks, so that what is seldom reached is found too.
@@ -123,6 +123,10 @@ fn difference(reached: &Target, target: &Target) -> (Vec<f64>, Vec<f64>) {
         (Target::Ray { point, direction }, Target::Ray { point: to, direction: along }) => {
             (list(point - to), list(direction - along))
         }
+        (
+            Target::PositionPitchRoll { point, pitch, roll },
+            Target::PositionPitchRoll { point: to, pitch: other, roll: rolled },
+        ) => (list(point - to), list(vertical(*pitch, *roll) - vertical(*other, *rolled))),
         (Target::Direction(a), Target::Direction(b)) => (Vec::new(), list(a - b)),
         (Target::Rotation(a), Target::Rotation(b)) => (Vec::new(), turn(a, b)),
         (Target::PlanarPosition(a), Target::PlanarPosition(b)) => (vec![a[0] - b[0], a[1] - b[1]], Vec::new()),

@@ -67,6 +67,8 @@ pub enum Task {
     Direction,
     /// The orientation: three numbers.
     Rotation,
+    /// The position, and pitch and roll of the tip, whatever its yaw, in R = Rz(yaw) Ry(pitch) Rx(roll): five numbers.
+    PositionPitchRoll,
 }
 
 impl Task {
@@ -74,7 +76,9 @@ impl Task {
     pub fn plane(self) -> Option<Plane> {
         match self {
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => Some(plane),
-            Task::Position | Task::Pose | Task::Ray | Task::Direction | Task::Rotation => None,
+            Task::Position | Task::Pose | Task::Ray | Task::Direction | Task::Rotation | Task::PositionPitchRoll => {
+                None
+            }
         }
     }
 
@@ -82,7 +86,7 @@ impl Task {
     pub fn freedoms(self) -> usize {
         match self {
             Task::Pose => 6,
-            Task::Ray => 5,
+            Task::Ray | Task::PositionPitchRoll => 5,
             Task::Position | Task::PlanarPose { .. } | Task::Rotation => 3,
             Task::PlanarPosition { .. } | Task::Direction => 2,
         }
@@ -93,7 +97,8 @@ impl Task {
         matches!(self, Task::Ray | Task::Direction)
     }
 
-    /// Its name in a file: `position`, `planar_position`, `planar_pose`, `pose`, `ray`, `direction` or `rotation`.
+    /// Its name in a file: `position`, `planar_position`, `planar_pose`, `pose`, `ray`, `direction`, `rotation` or
+    /// `position_pitch_roll`.
     pub fn name(self) -> &'static str {
         match self {
             Task::Position => "position",
@@ -103,6 +108,7 @@ impl Task {
             Task::Ray => "ray",
             Task::Direction => "direction",
             Task::Rotation => "rotation",
+            Task::PositionPitchRoll => "position_pitch_roll",
         }
     }
 }

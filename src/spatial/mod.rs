@@ -17,6 +17,7 @@ mod wrench;
 
 pub use line::Relation;
 pub use roll_pitch_yaw::RollPitchYaw;
+pub use rotation::{pitch_and_roll, vertical};
 pub(crate) use screw::Half;
 pub use screw::{Axis, Screw};
 pub use screw_coordinates::ScrewCoordinates;

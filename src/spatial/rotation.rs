@@ -96,3 +96,15 @@ fn versine(angle: f64) -> f64 {
 pub(super) fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
+
+/// Pitch and roll \[rad\] of a rotation Rz(yaw) Ry(pitch) Rx(roll): by its third row, -sin pitch, cos pitch sin roll, cos pitch cos roll.
+pub fn pitch_and_roll(rotation: &UnitQuaternion<f64>) -> (f64, f64) {
+    let matrix = rotation.to_rotation_matrix();
+    let [along, across, up] = [0, 1, 2].map(|k| matrix[(2, k)]);
+    ((-along).atan2(across.hypot(up)), across.atan2(up))
+}
+
+/// The third row of a rotation with this pitch and roll: where the vertical is, seen from the tip.
+pub fn vertical(pitch: f64, roll: f64) -> Vector3<f64> {
+    Vector3::new(-pitch.sin(), pitch.cos() * roll.sin(), pitch.cos() * roll.cos())
+}

@@ -113,6 +113,9 @@ fn planned(task: Task, target: &[f64]) -> Result<Target> {
             Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation(&target[3..])))
         }
         (Task::Rotation, _) if target.len() == 9 => Target::Rotation(rotation(target)),
+        (Task::PositionPitchRoll, &[x, y, z, pitch, roll]) => {
+            Target::PositionPitchRoll { point: [x, y, z].into(), pitch, roll }
+        }
         (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
         (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
         (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),

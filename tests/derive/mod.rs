@@ -17,3 +17,4 @@ mod seed;
 mod strata;
 mod system;
 mod system_toml;
+mod upright;

@@ -80,7 +80,8 @@ fn an_axis_of_decimals_is_the_unit_vector() {
     let directions: Vec<_> = chain.joints().iter().map(|joint| joint.direction().into_inner()).collect();
     assert_eq!(Geometry::of(&chain).parallel.first(), Some(&(0..2)));
     assert_eq!(chain.joints()[0].axis, chain.joints()[1].axis);
-    assert!((directions[0] - nalgebra::Vector3::new(0.75f64.sqrt(), 0.0, 0.5)).norm() < 1e-15);
+    // The robot as described is off by more, so answers are polished: the ideal direction is told in integers, within a thousandth of the tolerance.
+    assert!((directions[0] - nalgebra::Vector3::new(0.75f64.sqrt(), 0.0, 0.5)).norm() < 1e-9);
     // Three places are too few.
     assert!((directions[2] - directions[0]).norm() > 1e-6);
 }

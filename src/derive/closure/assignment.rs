@@ -64,7 +64,7 @@ impl<V: Clone> Target<V> {
         }
         let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
         let turn = match mechanism.seen() {
-            Task::Pose | Task::Ray => {
+            Task::Pose | Task::Ray | Task::PositionPitchRoll => {
                 position.clone_from_slice(&parameters[..3]);
                 Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
             }

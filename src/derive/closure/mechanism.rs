@@ -1,6 +1,7 @@
 //! A chain as exact screws with its task: what relations are made of. Main type: [`Mechanism`].
 
 use super::vector;
+use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -69,6 +70,17 @@ pub struct Mechanism {
     given: Vec<usize>,
     /// Motions of the tip that the task does not see, as joints behind the last one.
     unseen: Vec<ScrewJoint>,
+    /// What the joints are of, where they are the loop of the task `position_pitch_roll`.
+    upright: Option<Box<Standing>>,
+}
+
+/// The loop of a [chain that stands upright](Chain::upright), as a mechanism with a target that never changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Standing {
+    /// The chain itself.
+    pub plain: Mechanism,
+    /// The loop.
+    pub upright: Upright,
 }
 
 impl Mechanism {
@@ -77,6 +89,27 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a given joint that the chain has not; as [`Chain::check_leaders`].
     pub fn new(chain: &Chain) -> Result<Self> {
+        if chain.task() != Task::PositionPitchRoll {
+            return Mechanism::of_chain(chain);
+        }
+        let upright = chain.upright()?;
+        let plain = Mechanism::of_chain(chain)?;
+        let closed = Mechanism::of_joints(&upright.chain)?;
+        let given = upright.chain.given();
+        let standing = Some(Box::new(Standing { plain, upright }));
+        Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: standing, ..closed })
+    }
+
+    /// The mechanism of `chain` itself, whatever its task: what forward kinematics takes.
+    ///
+    /// # Errors
+    /// As [`Chain::check_leaders`].
+    pub fn of_chain(chain: &Chain) -> Result<Self> {
+        Mechanism::of_joints(chain)?.with_given(&chain.given())
+    }
+
+    /// The mechanism of the joints of `chain`, none of them given.
+    fn of_joints(chain: &Chain) -> Result<Self> {
         chain.check_leaders()?;
         let mut joints: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
         for (place, joint) in joints.iter_mut().enumerate() {
@@ -95,7 +128,7 @@ impl Mechanism {
             joints.push(ScrewJoint::new("turn about the ray", &symbol, JointKind::Revolute, &aim, &tip_point));
         }
         let unseen = unseen(task, &tip_point, &aim);
-        Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen }.with_given(&chain.given())
+        Ok(Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen, upright: None })
     }
 
     /// The same mechanism with these joints, by their places, given by the user.
@@ -103,6 +136,15 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a place beyond the last joint.
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
+        if let Some(standing) = &self.upright
+            && given != standing.plain.given()
+        {
+            let text = "the task `position_pitch_roll` is for as many joints as it has numbers: name the joints that are given (`given`)";
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        if self.upright.is_some() {
+            return Ok(self);
+        }
         let count = self.driven().len();
         if let Some(place) = given.iter().find(|&&place| place >= count) {
             let text = format!("joint {} cannot be given: the chain has {count} joints", place + 1);
@@ -121,13 +163,31 @@ impl Mechanism {
 
     /// The joints of the chain itself.
     pub fn driven(&self) -> &[ScrewJoint] {
-        &self.joints[..self.hidden().unwrap_or(self.joints.len())]
+        match &self.upright {
+            Some(standing) => &standing.plain.joints,
+            None => &self.joints[..self.hidden().unwrap_or(self.joints.len())],
+        }
     }
 
-    /// The place of the joint behind the last one that turns the tip about its ray, when the task is a ray. Its angle is found with the
-    /// others and is no part of an answer.
+    /// The chain itself and the loop that these joints are of, for the task `position_pitch_roll`.
+    pub fn standing(&self) -> Option<&Standing> {
+        self.upright.as_deref()
+    }
+
+    /// The mechanism of the chain itself.
+    pub fn plain(&self) -> &Mechanism {
+        self.standing().map_or(self, |standing| &standing.plain)
+    }
+
+    /// The place of the joint that turns the tip about its ray, behind the last one, or about the vertical, when the task leaves that turn open.
+    /// Its angle is found with the others and is no part of an answer.
     pub fn hidden(&self) -> Option<usize> {
-        (self.task == Task::Ray).then(|| self.joints.len() - 1)
+        match self.task {
+            Task::Ray => Some(self.joints.len() - 1),
+            // Behind it are the radius, the height and the first joint.
+            Task::PositionPitchRoll => self.upright.as_ref().map(|_| self.joints.len() - 4),
+            _ => None,
+        }
     }
 
     /// The origin of the tip at zero, in the base frame.
@@ -153,7 +213,7 @@ impl Mechanism {
 
     /// What relations see of the tip: what is asked, and of a ray the pose with the turn that is chosen.
     pub fn seen(&self) -> Task {
-        if self.task == Task::Ray { Task::Pose } else { self.task }
+        if matches!(self.task, Task::Ray | Task::PositionPitchRoll) { Task::Pose } else { self.task }
     }
 
     /// The places of the joints that the user gives, ascending.
@@ -199,6 +259,7 @@ fn numbers(task: Task) -> Vec<String> {
         Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
         Task::Direction => coordinates('d', &[0, 1, 2]),
         Task::Rotation => rotation().collect(),
+        Task::PositionPitchRoll => position().into_iter().chain(["pitch".to_owned(), "roll".to_owned()]).collect(),
     }
 }
 
@@ -214,7 +275,7 @@ fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
     let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));
     let about_aim = joint(JointKind::Revolute, aim);
     match task {
-        Task::Pose | Task::PlanarPose { .. } | Task::Ray => Vec::new(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll => Vec::new(),
         Task::Position | Task::PlanarPosition { .. } => every(JointKind::Revolute).collect(),
         Task::Direction => every(JointKind::Prismatic).chain([about_aim]).collect(),
         Task::Rotation => every(JointKind::Prismatic).collect(),

@@ -57,6 +57,7 @@ fn task(task: Task) -> &'static str {
         Task::Ray => "the position of the tip and a direction for it to point in",
         Task::Direction => "a direction for the tip to point in",
         Task::Rotation => "the rotation of the tip, by rows",
+        Task::PositionPitchRoll => "the position of the tip, its pitch and its roll, whatever its yaw",
     }
 }
 
@@ -85,7 +86,14 @@ fn chain(page: &mut Document, derived: &Derived, mechanism: &Mechanism) {
         true => page.say("No two neighbouring axes meet or are parallel."),
         false => page.items(common),
     }
-    if let Some(hidden) = mechanism.hidden() {
+    if mechanism.standing().is_some() {
+        page.say(
+            "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut there: behind the tip follow the \
+             roll and the pitch, which are given, the turn about the vertical that is left, the way from the first axis to the tip and the tip's \
+             height, which are given, and last the first joint, counted from where the tip is to be, seen from above. This loop closes where its \
+             tip is back at the base: its target never changes.",
+        );
+    } else if let Some(hidden) = mechanism.hidden() {
         page.say(&format!(
             "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
              pose. Joint {} is none of the chain's: it turns the tip about the ray from where the chain brings it to there. Its angle is found \

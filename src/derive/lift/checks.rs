@@ -24,6 +24,7 @@ pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Chec
 
 /// The same with what the short way to a solution nearby takes.
 pub(super) fn polishing(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
+    let mechanism = mechanism.plain();
     let [usual, others @ ..] = Assembler::ways().map(|assembler| written(mechanism, layout, reach, assembler));
     of_least_work(usual, others, Checks::work)
 }
@@ -150,7 +151,7 @@ impl<'a> Forward<'a> {
         });
         let size = self.emitter.0.add(Operand::Constant(reach), self.shifts);
         match task {
-            Task::Pose | Task::Position | Task::Ray => self.at(&tip, &[0, 1, 2], 0, size),
+            Task::Pose | Task::Position | Task::Ray | Task::PositionPitchRoll => self.at(&tip, &[0, 1, 2], 0, size),
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => self.at(&tip, &plane.coordinates(), 0, size),
             Task::Direction | Task::Rotation => {}
         }
@@ -160,6 +161,7 @@ impl<'a> Forward<'a> {
             Task::Ray => self.aimed(mechanism, 3),
             Task::Direction => self.aimed(mechanism, 0),
             Task::PlanarPose { plane } => self.tilted(&columns, plane),
+            Task::PositionPitchRoll => self.upright(&columns),
             Task::Position | Task::PlanarPosition { .. } => {}
         }
         match task {
@@ -243,6 +245,19 @@ impl<'a> Forward<'a> {
         for k in 0..3 {
             let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
             self.equation(&aim[k], Operand::Parameter(first + k), Operand::Constant(1.0), row);
+        }
+    }
+
+    /// The third row of the rotation against that of the pitch and the roll: -sin pitch, cos pitch sin roll, cos pitch cos roll.
+    fn upright(&mut self, columns: &[Vector; 3]) {
+        let Some([cr, sr, cp, sp]) = self.layout.told else { return };
+        let code = |parameter: usize| Emitted::code(Operand::Parameter(parameter));
+        let [across, up] = [sr, cr].map(|roll| self.emitter.mul(&code(cp), &code(roll)));
+        for (column, wanted) in columns.iter().zip([code(sp).times(-1.0), across, up]) {
+            let rates = self.rates(column);
+            let row = rates.iter().map(|rate| self.emitter.operand(&rate[2])).collect();
+            let wanted = self.emitter.operand(&wanted);
+            self.equation(&column[2], wanted, Operand::Constant(1.0), row);
         }
     }
 

@@ -6,10 +6,13 @@ use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
 use crate::derive::assemble::Assembler;
-use crate::derive::closure::{self, Assignment, Mechanism, ScrewJoint, Target};
+use crate::derive::closure::{self, Assignment, Mechanism, ScrewJoint, Standing, Target};
+use crate::kinematics::upright::GIVEN;
 use crate::kinematics::{JointKind, LengthUnit, Task};
 use crate::number::BigRational;
-use crate::solver::{Condition, Following, Input, JointValue, Operand, ParameterRule, Rule, Unit};
+use crate::solver::{
+    Condition, Following, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
+};
 
 /// The names and places of all numbers of a program.
 pub(super) struct Layout {
@@ -23,9 +26,18 @@ pub(super) struct Layout {
     pub across: Option<[[usize; 3]; 2]>,
     /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
+    /// For a target with pitch and roll, the parameters that are the cosine and the sine of the roll, and of the pitch.
+    pub told: Option<[usize; 4]>,
+    /// For such a target, the unknowns that are the cosine and the sine of the arm's first joint.
+    pub swing: Option<[usize; 2]>,
     /// The first parameter of the target.
     pub first: usize,
 }
+
+/// Where the inputs of the task `position_pitch_roll` stand.
+const HEIGHT: usize = 2;
+const PITCH: usize = 3;
+const ROLL: usize = 4;
 
 impl Layout {
     /// The layout for `mechanism` with lengths in `unit`.
@@ -38,6 +50,8 @@ impl Layout {
             joints: Vec::new(),
             across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
+            told: None,
+            swing: None,
             first: 0,
         };
         let length = match unit {
@@ -55,8 +69,13 @@ impl Layout {
             };
             layout.joints.push(value);
         }
+        layout.swing = mechanism.standing().map(|standing| {
+            let symbol = &standing.plain.joints()[0].symbol;
+            ["c", "s"].map(|letter| layout.unknown(&format!("{letter}{symbol}")))
+        });
         layout.across = mechanism
             .hidden()
+            .filter(|_| mechanism.standing().is_none())
             .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
         layout.givens(mechanism, length);
         layout
@@ -64,6 +83,9 @@ impl Layout {
 
     /// The inputs and parameters of the given joints, those that follow others last.
     fn givens(&mut self, mechanism: &Mechanism, length: Unit) {
+        if let Some(standing) = mechanism.standing() {
+            return self.standing_givens(mechanism, standing, length);
+        }
         let (followers, inputs): (Vec<usize>, Vec<usize>) =
             mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
         let first = self.inputs.len();
@@ -86,6 +108,28 @@ impl Layout {
         }
     }
 
+    /// The same of a loop that stands for a target with pitch and roll: these, the way from the first axis and the height are of the target.
+    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
+        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
+        for &index in own {
+            let joint = &mechanism.joints()[index];
+            let input = self.inputs.len();
+            let unit = if joint.is_revolute() { Unit::Radian } else { length };
+            self.inputs.push(Input { name: joint.name.clone(), unit });
+            self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
+        }
+        let turn = |input| [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)];
+        let way = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
+        let rules = [turn(ROLL), turn(PITCH), [way.clone(), way.clone(), radius(standing)], turn(HEIGHT)];
+        for (&index, rules) in told.iter().zip(rules) {
+            self.give(&mechanism.joints()[index], index, rules);
+        }
+        let of = |k: usize| told.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
+        if let (&[cr, sr], &[cp, sp]) = (&of(0)[..], &of(1)[..]) {
+            self.told = Some([cr, sr, cp, sp]);
+        }
+    }
+
     /// The parameters of a given joint by the rules for its cosine, sine and value.
     fn give(&mut self, joint: &ScrewJoint, index: usize, [cosine, sine, value]: [Rule; 3]) {
         let rules = if joint.is_revolute() { vec![('c', cosine), ('s', sine)] } else { vec![('d', value)] };
@@ -101,6 +145,10 @@ impl Layout {
         let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
         for name in names {
             let input = self.inputs.len();
+            if mechanism.standing().is_some() && input >= PITCH {
+                self.inputs.push(Input { name, unit: Unit::Radian });
+                continue;
+            }
             let rule = match name.as_str() {
                 "cphi" if planar => Rule::Cosine(input),
                 "sphi" if planar => Rule::Sine(input - 1),
@@ -150,6 +198,7 @@ impl Layout {
         let emitter = &mut Emitter(assembler);
         let parameters = match self.across {
             Some(across) => ray::turned(mechanism, across, emitter),
+            None if mechanism.standing().is_some() => closed(|number| Emitted::integer(number)),
             None => {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
@@ -189,7 +238,10 @@ impl Layout {
         let emitter = &mut super::emit::Sizes(assembler);
         let size =
             |input: &str| if input.starts_with('p') { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
-        let parameters: Vec<Emitted> = mechanism.parameters().iter().map(|name| size(name)).collect();
+        let parameters: Vec<Emitted> = match mechanism.standing() {
+            Some(_) => closed(|number| Emitted::integer(number)),
+            None => mechanism.parameters().iter().map(|name| size(name)).collect(),
+        };
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {
             _ if !known.contains(&joint) => closure::JointValue::Unknown,
@@ -203,4 +255,25 @@ impl Layout {
         let joints = joints.collect();
         Ok(Assignment { joints, target })
     }
+}
+
+/// The numbers of the pose that a closed loop has for a target: the identity.
+fn closed(integer: impl Fn(i32) -> Emitted) -> Vec<Emitted> {
+    let rotation = (0..9).map(|entry| i32::from(entry / 3 == entry % 3));
+    [0; 3].into_iter().chain(rotation).map(integer).collect()
+}
+
+/// How far the target is from the first axis: the first two parameters are where it is, seen from above.
+fn radius(standing: &Standing) -> Rule {
+    let register = Operand::Register;
+    let [x, y] = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
+    let operations = [
+        Operation::Sub(Operand::Parameter(0), x),
+        Operation::Sub(Operand::Parameter(1), y),
+        Operation::Mul(register(0), register(0)),
+        Operation::Mul(register(1), register(1)),
+        Operation::Add(register(2), register(3)),
+    ];
+    let code = operations.into_iter().enumerate().map(|(target, operation)| Instruction { target, operation });
+    Rule::Root { code: code.collect(), value: register(4) }
 }

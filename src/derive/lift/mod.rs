@@ -19,6 +19,7 @@ mod shape;
 mod slack;
 mod squares;
 mod stages;
+mod standing;
 mod symbols;
 mod target;
 mod template;
@@ -110,7 +111,7 @@ impl Derived {
         let parts = Parts { plan, steps, templates, half_angles };
         let mechanism = Mechanism::new(&chain)?;
         let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.deviation()))?;
-        derived.program.checks = program::checks_on(truth)?;
+        derived.program.checks = program::checks_on(&chain, truth)?;
         derived.program.nearby = true;
         derived.truth = Some((truth.clone(), report));
         derived.unpolished = Some(Box::new(unpolished));

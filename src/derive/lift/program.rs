@@ -10,7 +10,7 @@ use super::samples::Samples;
 use super::slack::Slack;
 use super::symbols::Symbols;
 use super::template::{Form, Template};
-use super::{Lifted, Parts};
+use super::{Lifted, Parts, standing};
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
 use crate::kinematics::{Chain, LengthUnit};
@@ -46,6 +46,9 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
         blocks.push(block);
         known.push(step.joint);
     }
+    if let Some(standing) = mechanism.standing() {
+        standing::close(standing, &mut layout, &mut blocks, reach);
+    }
     let program = Program {
         capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
         // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
@@ -59,13 +62,17 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     Ok(program)
 }
 
-/// The checks of a program that is polished on `chain`, which has the joints and the task of the chain that the program solves.
+/// The checks of a program of `ideal` that is polished on `chain`, which has its joints and its task.
 ///
 /// # Errors
 /// As [`Mechanism::new`].
-pub(in crate::derive) fn checks_on(chain: &Chain) -> Result<Checks> {
-    let mechanism = Mechanism::new(chain)?;
-    Ok(polishing(&mechanism, &Layout::new(&mechanism, chain.length_unit()), reach(chain)))
+pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Checks> {
+    let mechanism = Mechanism::new(ideal)?;
+    let mut layout = Layout::new(&mechanism, chain.length_unit());
+    if let Some(standing) = mechanism.standing() {
+        standing::close(standing, &mut layout, &mut Vec::new(), reach(chain));
+    }
+    Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
 }
 
 /// The size of the chain's positions; one when it is a point.

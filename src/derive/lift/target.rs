@@ -3,6 +3,7 @@
 use super::Derived;
 use crate::Result;
 use crate::kinematics::Task;
+use crate::spatial::pitch_and_roll;
 
 impl Derived {
     /// The target that the joint values `q` reach, in the order of the program's inputs.
@@ -22,6 +23,10 @@ impl Derived {
             Task::Position => position.iter().copied().collect(),
             Task::Ray => position.iter().chain(aim().iter()).copied().collect(),
             Task::Direction => aim().iter().copied().collect(),
+            Task::PositionPitchRoll => {
+                let (pitch, roll) = pitch_and_roll(&base_from_tip.rotation);
+                position.iter().copied().chain([pitch, roll]).collect()
+            }
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => {
                 plane.coordinates().iter().map(|&k| position[k]).collect::<Vec<f64>>()
             }
@@ -31,7 +36,7 @@ impl Derived {
             let turn = (base_from_tip.rotation * chain.base_from_tip().rotation.inverse()).to_rotation_matrix();
             target.push(turn[(b, a)].atan2(turn[(a, a)]));
         }
-        target.extend(self.plan.given.iter().map(|&joint| q[joint]));
+        target.extend(chain.given_inputs().iter().map(|&joint| q[joint]));
         Ok(target)
     }
 }

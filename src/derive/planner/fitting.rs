@@ -26,7 +26,7 @@ fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
     let planes = [Plane::Xz, Plane::Xy, Plane::Yz];
     let plain = |task: Task| (task, along(2));
     match free {
-        5 => aimed(Task::Ray).to_vec(),
+        5 => aimed(Task::Ray).into_iter().chain([plain(Task::PositionPitchRoll)]).collect(),
         4 => vec![plain(Task::Position)],
         3 => {
             let planar = planes.map(|plane| plain(Task::PlanarPose { plane }));

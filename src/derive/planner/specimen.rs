@@ -104,7 +104,7 @@ fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modu
     }
     let rotation = (0..9).map(|entry| columns[entry % 3][entry / 3]);
     Ok(match mechanism.seen() {
-        Task::Pose | Task::Ray => position.into_iter().chain(rotation).collect(),
+        Task::Pose | Task::Ray | Task::PositionPitchRoll => position.into_iter().chain(rotation).collect(),
         Task::Position => position.to_vec(),
         Task::Direction => aim.to_vec(),
         Task::Rotation => rotation.collect(),

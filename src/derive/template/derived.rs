@@ -111,7 +111,7 @@ impl DerivedSixAxes {
     /// As [`Mechanism::new`].
     pub fn polished_on(mut self, truth: &Chain, report: Report) -> Result<Self> {
         self.unpolished = Some(Box::new(self.program.clone()));
-        self.program.checks = checks_on(truth)?;
+        self.program.checks = checks_on(&self.chain, truth)?;
         (self.program.nearby, self.program.isolated) = (true, None);
         self.truth = Some((truth.clone(), report));
         Ok(self)

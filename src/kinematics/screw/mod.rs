@@ -24,6 +24,7 @@ mod trigonometric;
 mod turn;
 pub mod two_joints;
 pub mod two_link;
+mod upright;
 pub mod values;
 
 pub use plan::{Plan, PlanStep, Subproblem};

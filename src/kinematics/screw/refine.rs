@@ -6,8 +6,8 @@ use smallvec::SmallVec;
 use super::reduced::Goal;
 use crate::spatial::{Pose, Screw};
 
-/// The most joints: six for a pose, and one whose value is given.
-pub(super) const MOST_JOINTS: usize = 7;
+/// The most joints: six for a pose, and some whose values are given.
+pub(super) const MOST_JOINTS: usize = 10;
 
 /// Steps at most.
 const STEPS: usize = 6;

@@ -11,7 +11,9 @@ use super::reduced::{Goal, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
 use super::target::{Solution, Target};
+use super::upright;
 use crate::kinematics::ideal::TOLERANCE;
+use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, Geometry, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
@@ -38,6 +40,8 @@ pub struct ScrewSolver {
     described: Option<Model>,
     orders: Orders,
     reach: f64,
+    /// The loop that stands for the task `position_pitch_roll`, and its solver.
+    upright: Option<Box<(Upright, ScrewSolver)>>,
 }
 
 /// A partial answer on the way through the steps.
@@ -78,13 +82,19 @@ impl ScrewSolver {
     /// As [`ScrewSolver::new`] and [`Chain::ideal_within`].
     pub fn within(chain: &Chain, tolerance: f64) -> Result<Self> {
         let (ideal, report) = chain.ideal_within(tolerance)?;
+        if chain.task() == Task::PositionPitchRoll {
+            let upright = ideal.upright()?;
+            let inner = ScrewSolver::within(&upright.chain, 0.0)?;
+            let parts = Some(Box::new((upright, inner.clone())));
+            return Ok(ScrewSolver { chain: chain.clone(), ideal, upright: parts, ..inner });
+        }
         let mut model = Model::of(&ideal)?;
         model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
         let samples = samples(&ideal, &model)?;
         let scale = scale_of(&samples[0].start, model.reach);
         let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(&ideal)) };
         let described = if report.is_same() { None } else { Some(Model::of(chain)?) };
-        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), ideal, model, described, orders })
+        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), ideal, model, described, orders, upright: None })
     }
 
     /// The order of subproblems. Others are taken as well where one of its steps degenerates and the chain does not, or no answer is
@@ -117,6 +127,10 @@ impl ScrewSolver {
     /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each of these.
     pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         self.chain.check_given(given)?;
+        if let Some(parts) = &self.upright {
+            let (upright, inner) = &**parts;
+            return upright::solved(&self.chain, upright, inner, target, given);
+        }
         let given = &self.chain.given_values(given)[..];
         let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
         let goal = target.goal(if self.described.is_some() { &self.chain } else { &self.ideal })?;

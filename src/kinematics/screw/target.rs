@@ -5,7 +5,7 @@ use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use super::model::ray_goal;
 use super::reduced::{Goal, Member, Reduced};
 use crate::kinematics::{Chain, Plane, Task};
-use crate::spatial::Pose;
+use crate::spatial::{Pose, pitch_and_roll};
 use crate::{Error, ErrorKind, Result};
 
 /// Where the tip is to be, in the base frame; lengths in the chain's unit.
@@ -30,6 +30,15 @@ pub enum Target {
     Direction(Vector3<f64>),
     /// The rotation base_from_tip.
     Rotation(UnitQuaternion<f64>),
+    /// The position of the tip, and pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll) \[rad\].
+    PositionPitchRoll {
+        /// The position.
+        point: Point3<f64>,
+        /// The pitch.
+        pitch: f64,
+        /// The roll.
+        roll: f64,
+    },
 }
 
 /// One inverse-kinematics answer, checked by forward kinematics.
@@ -64,6 +73,10 @@ impl Target {
             Task::Ray => Target::Ray { point: tip.into(), direction: aimed() },
             Task::Direction => Target::Direction(aimed()),
             Task::Rotation => Target::Rotation(pose.rotation),
+            Task::PositionPitchRoll => {
+                let (pitch, roll) = pitch_and_roll(&pose.rotation);
+                Target::PositionPitchRoll { point: tip.into(), pitch, roll }
+            }
             Task::PlanarPosition { plane } => Target::PlanarPosition(plane.coordinates().map(|i| tip[i])),
             Task::PlanarPose { plane } => {
                 let [x, y] = plane.coordinates().map(|i| tip[i]);
@@ -87,6 +100,10 @@ impl Target {
     /// # Errors
     /// [`ErrorKind::BadValue`] when the target is not the chain's task's kind, or not finite.
     pub(super) fn goal(&self, chain: &Chain) -> Result<Goal> {
+        if let (Target::PositionPitchRoll { point, pitch, roll }, Task::PositionPitchRoll) = (self, chain.task()) {
+            let size = if pitch.is_finite() && roll.is_finite() { point.coords } else { Vector3::repeat(f64::NAN) };
+            return check_finite(Goal::Point { from: Point3::origin(), to: size.into() });
+        }
         let tip = chain.base_from_tip();
         let from = Point3::from(tip.translation.vector);
         let goal = match (self, chain.task()) {

@@ -184,7 +184,8 @@ fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
             let last = chain.joints().iter().rfind(|joint| joint.kind == JointKind::Revolute);
             [points(last.map_or(&tip.point, |joint| &joint.point)), columns()].concat()
         }
-        Task::Ray => [points(&tip.point), aim()].concat(),
+        // What a task sees from the tip is not counted.
+        Task::Ray | Task::PositionPitchRoll => [points(&tip.point), aim()].concat(),
         Task::Direction => aim(),
         Task::Rotation => columns(),
     }

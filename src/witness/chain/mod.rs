@@ -17,7 +17,7 @@ mod targets;
 use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
 use super::{DUPLICATE, ORACLE, Options, SEEDS, SINGULAR, TIE};
-use crate::kinematics::Chain;
+use crate::kinematics::{Chain, Task};
 use crate::solver::{Program, Solution};
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
@@ -89,7 +89,8 @@ impl<'a> Check<'a> {
         let mut targets = Targets::new(&model, options.seed);
         // The angle of a joint that follows another by an odd factor is no rational point of the circle.
         let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
-        let exact = if follows { 0 } else { options.exact };
+        let is_counted = !follows && chain.task() != Task::PositionPitchRoll;
+        let exact = if is_counted { options.exact } else { 0 };
         let check = Check { model: &model, solver, bound, screws, options: *options, watch };
         let rows = check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), exact, watch))?;
         Ok(Report {

@@ -11,7 +11,7 @@ use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::kinematics::{Chain, JointKind, Task};
 use crate::solver::{BLUR, Solution};
-use crate::spatial::{Pose, angle};
+use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
 pub(super) const RESIDUAL: f64 = 1e-11;
@@ -60,6 +60,7 @@ impl<'a> Model<'a> {
             Task::Ray => [position(&[0, 1, 2]), aim].concat(),
             Task::Direction => aim,
             Task::Rotation => rotation,
+            Task::PositionPitchRoll => [position(&[0, 1, 2]), vec!["pitch".to_owned(), "roll".to_owned()]].concat(),
         };
         names.extend(self.chain.given_inputs().iter().map(|&joint| self.chain.joints()[joint].name.clone()));
         names
@@ -68,7 +69,7 @@ impl<'a> Model<'a> {
     /// The number of a target's numbers that are lengths, all in front.
     pub fn lengths(&self) -> usize {
         match self.chain.task() {
-            Task::Position | Task::Pose | Task::Ray => 3,
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll => 3,
             Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
             Task::Direction | Task::Rotation => 0,
         }
@@ -106,12 +107,17 @@ impl<'a> Model<'a> {
             Task::Ray => [point, aim()].concat(),
             Task::Direction => aim(),
             Task::Rotation => rotation(),
+            Task::PositionPitchRoll => {
+                let (pitch, roll) = pitch_and_roll(&pose.rotation);
+                [point, vec![pitch, roll]].concat()
+            }
         }
     }
 
     /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
     pub fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
-        let seen = self.seen(&self.forward(q));
+        let seen = self.compared(&self.seen(&self.forward(q)));
+        let target = &self.compared(target)[..];
         let size = self.size(q);
         let planar = matches!(self.chain.task(), Task::PlanarPose { .. });
         let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
@@ -123,6 +129,16 @@ impl<'a> Model<'a> {
         // Where no joint follows another this is no number of the task's.
         let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
         misses.chain(strays).collect()
+    }
+
+    /// A target's numbers as they are compared: in place of pitch and roll, which jump, where the vertical is, seen from the tip.
+    fn compared(&self, target: &[f64]) -> Vec<f64> {
+        match (self.chain.task(), target) {
+            (Task::PositionPitchRoll, &[x, y, z, pitch, roll, ref rest @ ..]) => {
+                [&[x, y, z], vertical(pitch, roll).as_slice(), rest].concat()
+            }
+            _ => target.to_vec(),
+        }
     }
 
     /// The reach with the slides of `q` added.

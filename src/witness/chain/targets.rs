@@ -275,7 +275,7 @@ impl<'a> Targets<'a> {
                 w.copy_from_slice(&rows[3..]);
             }
             Task::Rotation => w.copy_from_slice(rows),
-            Task::Ray | Task::Direction => return None,
+            Task::Ray | Task::Direction | Task::PositionPitchRoll => return None,
         }
         let turn = UnitQuaternion::from_scaled_axis(w) * pose.rotation;
         let translation = Translation3::from(pose.translation.vector + v * self.model.length);
