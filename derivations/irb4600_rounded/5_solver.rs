@@ -2059,14 +2059,16 @@ impl Answers<'_> {
             return self.flush_pairs(p);
         }
         let angles = angles(&self.at);
+        let ways = ways(p, &self.at, self.waiting);
         let waiting = core::mem::take(&mut self.waiting).min(ROOM);
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let Found { branch, last, close, free } = self.found[k];
             let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
-            let at = core::array::from_fn(|place| self.at[place][k]);
-            let approached = if free != NONE_FREE { None } else { approached(p, &at, &q) };
             let number = self.candidates + 1 + k - waiting;
+            let at = || core::array::from_fn(|place| self.at[place][k]);
+            let short = free == NONE_FREE && ways.sound[k] > 0.0 && ways.relative[k] < RESOLUTION;
+            let approached = if short { Some(ways.approach(k, &q)) } else if free != NONE_FREE { None } else { approached(p, &at(), &q) };
             let Some(approach) = approached else {
                 usual = false;
                 self.refine(p, number, branch, last, q, free);
@@ -2147,6 +2149,209 @@ fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
     fits
 }
 
+/// The short ways of candidates: the sums of their steps, how well the equations hold behind them, what they were missed by and the least pivot before, and
+/// whether the equations are regular and near: 1, else 0.
+struct Ways {
+    steps: [[f64; ROOM]; JOINTS],
+    residual: [f64; ROOM],
+    relative: [f64; ROOM],
+    missed: [f64; ROOM],
+    pivot: [f64; ROOM],
+    sound: [f64; ROOM],
+}
+
+impl Ways {
+    /// That of the candidate with index `k`, from `q`.
+    fn approach(&self, k: usize, q: &[f64; JOINTS]) -> Approach {
+        let end = core::array::from_fn(|i| in_turn(q[i] - self.steps[i][k]));
+        let fit = Fit { residual: self.residual[k], relative: self.relative[k], accepted: true };
+        Approach { end, fit, missed: self.missed[k], pivot: self.pivot[k] }
+    }
+}
+
+/// The short ways of the first so many candidates.
+#[inline(never)]
+fn ways(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Ways {
+    let none = [0.0; ROOM];
+    let mut ways = Ways { steps: [none; JOINTS], residual: none, relative: none, missed: none, pivot: none, sound: none };
+    for first in (0..waiting.min(ROOM)).step_by(LANES) {
+        let mut here: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
+        let mut steps = [Lanes([0.0; LANES]); JOINTS];
+        let mut sound = Lanes([1.0; LANES]);
+        step_back_abreast(&steps, &mut here, &mut sound);
+        for round in 0..APPROACHES {
+            let (value, size, columns) = short_abreast(p, &here);
+            let (step, pivot) = normal_step_abreast(&value, &columns, &mut sound);
+            step_back_abreast(&step, &mut here, &mut sound);
+            for i in 0..JOINTS {
+                steps[i] = steps[i] + step[i];
+            }
+            let [residual, relative] = fit(p, &here);
+            let mut missed = Lanes([0.0; LANES]);
+            for row in 0..SHORTS {
+                missed = missed.greater(value[row].size() / size[row]);
+            }
+            let mut is_done = true;
+            for lane in 0..LANES {
+                let k = first + lane;
+                if round == 0 {
+                    (ways.missed[k], ways.pivot[k]) = (missed.0[lane], pivot.0[lane]);
+                }
+                (ways.residual[k], ways.relative[k], ways.sound[k]) = (residual.0[lane], relative.0[lane], sound.0[lane]);
+                for i in 0..JOINTS {
+                    ways.steps[i][k] = steps[i].0[lane];
+                }
+                is_done &= k >= waiting || !(sound.0[lane] > 0.0) || relative.0[lane] < RESOLUTION;
+            }
+            if is_done {
+                break;
+            }
+        }
+    }
+    ways
+}
+
+/// As [`short`], of several candidates at once: values, sizes, derivatives joint by joint.
+#[inline(always)]
+fn short_abreast<T: Number>(p: &Parameters, at: &[T; PLACES]) -> ([T; SHORTS], [T; SHORTS], [[T; SHORTS]; JOINTS]) where f64: With<T> {
+    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
+    let r1 = 1e-5 * s1; let r2 = 0.175 * c1 - r1; let r4 = 1e-5 * c1; let r5 = 0.175 * s1 + r4;
+    let r6 = c1 * c2; let r7 = s1 * c2; let r8 = c1 * s2; let r9 = s1 * s2; let r10 = 0.175 * r6;
+    let r14 = 0.175 * r7; let r18 = 0.175 * s2; let r23 = 2e-5 * s1; let r27 = 2e-5 * c1;
+    let r33 = r2 - (r10 - r1 + 0.495 * r8) + (r10 - r23 + 1.395 * r8);
+    let r34 = r5 - (r4 + r14 + 0.495 * r9) + (r14 + r27 + 1.395 * r9);
+    let r36 = 0.495 - (0.495 * c2 - r18 - (1.395 * c2 - r18)); let r39 = c3 * r6 - s3 * r8;
+    let r42 = c3 * r7 - s3 * r9; let r45 = s2 * c3 + c2 * s3; let r48 = s3 * r6 + c3 * r8;
+    let r51 = s3 * r7 + c3 * r9; let r54 = c2 * c3 - s2 * s3;
+    let r80 = r33 - (0.175 * r39 - r23 + 1.395 * r48) + (0.17501 * r39 - r1 + 1.57 * r48);
+    let r81 = r34 - (r27 + 0.175 * r42 + 1.395 * r51) + (r4 + 0.17501 * r42 + 1.57 * r51);
+    let r82 = r36 - (1.395 * r54 - 0.175 * r45) + (1.57 * r54 - 0.17501 * r45);
+    let r84 = 9.999999999e-11 * c4 + 0.9999999999; let r86 = s1 * s4; let r89 = c4 - 1.0;
+    let r92 = r39 * r84 + 9.9999999995e-6 * r86 + 9.999999999e-6 * (r48 * r89); let r94 = c1 * s4;
+    let r99 = r42 * r84 - 9.9999999995e-6 * r94 + 9.999999999e-6 * (r51 * r89);
+    let r103 = 9.999999999e-6 * (r54 * r89) - r45 * r84;
+    let r110 = 9.9999999995e-6 * (s4 * r39) - s1 * c4 + 0.99999999995 * (s4 * r48);
+    let r117 = c1 * c4 + 9.9999999995e-6 * (s4 * r42) + 0.99999999995 * (s4 * r51);
+    let r122 = 0.99999999995 * (s4 * r54) - 9.9999999995e-6 * (s4 * r45);
+    let r126 = 9.999999999e-6 * (r39 * r89) + 0.99999999995 * r86;
+    let r128 = 0.9999999999 * c4 + 9.999999999e-11; let r130 = r126 + r48 * r128;
+    let r134 = 9.999999999e-6 * (r42 * r89) - 0.99999999995 * r94; let r136 = r134 + r51 * r128;
+    let r140 = r54 * r128 - 9.999999999e-6 * (r45 * r89);
+    let r156 = r80 - (0.17501 * r92 + 1e-5 * r110 + 1.57 * r130);
+    let r157 = r81 - (0.17501 * r99 + 1e-5 * r117 + 1.57 * r136);
+    let r158 = r82 - (0.17501 * r103 + 1e-5 * r122 + 1.57 * r140);
+    let r173 = 1.13501 * r103 + 2e-5 * r122 + 1.57001 * r140;
+    let r174 = r156 + (1.13501 * r92 + 2e-5 * r110 + 1.57001 * r130);
+    let r175 = r157 + (1.13501 * r99 + 2e-5 * r117 + 1.57001 * r136); let r176 = r158 + r173;
+    let r178 = 0.9999999999 * c5 + 9.999999999e-11; let r180 = c5 - 1.0; let r184 = s5 * r130;
+    let r186 = r92 * r178 - 9.999999999e-6 * (r110 * r180) - 0.99999999995 * r184; let r191 = s5 * r136;
+    let r193 = r99 * r178 - 9.999999999e-6 * (r117 * r180) - 0.99999999995 * r191; let r198 = s5 * r140;
+    let r200 = r103 * r178 - 9.999999999e-6 * (r122 * r180) - 0.99999999995 * r198;
+    let r203 = 9.999999999e-11 * c5 + 0.9999999999;
+    let r208 = r110 * r203 - 9.999999999e-6 * (r92 * r180) + 9.9999999995e-6 * r184;
+    let r214 = r117 * r203 - 9.999999999e-6 * (r99 * r180) + 9.9999999995e-6 * r191;
+    let r220 = r122 * r203 - 9.999999999e-6 * (r103 * r180) + 9.9999999995e-6 * r198;
+    let r225 = 0.99999999995 * (s5 * r92) - 9.9999999995e-6 * (s5 * r110); let r227 = r225 + c5 * r130;
+    let r232 = 0.99999999995 * (s5 * r99) - 9.9999999995e-6 * (s5 * r117); let r234 = r232 + c5 * r136;
+    let r239 = 0.99999999995 * (s5 * r103) - 9.9999999995e-6 * (s5 * r122); let r241 = r239 + c5 * r140;
+    let r246 = 1.13501 * r186 + 2e-5 * r208 + 1.57001 * r227;
+    let r251 = 1.13501 * r193 + 2e-5 * r214 + 1.57001 * r234;
+    let r256 = 1.13501 * r200 + 2e-5 * r220 + 1.57001 * r241; let r260 = 1.27001 * r186;
+    let r265 = 1.27001 * r193; let r270 = 1.27001 * r200;
+    let r275 = r174 - r246 + (r260 + 1e-5 * r208 + 1.57002 * r227);
+    let r276 = r175 - r251 + (r265 + 1e-5 * r214 + 1.57002 * r234);
+    let r277 = r176 - r256 + (r270 + 1e-5 * r220 + 1.57002 * r241); let r280 = c6 * r208 + s6 * r227;
+    let r283 = c6 * r214 + s6 * r234; let r286 = c6 * r220 + s6 * r241; let r289 = c6 * r227 - s6 * r208;
+    let r292 = c6 * r234 - s6 * r214; let r295 = c6 * r241 - s6 * r220;
+    let r299 = r260 + 1e-5 * r280 + 1.57002 * r289; let r303 = r265 + 1e-5 * r283 + 1.57002 * r292;
+    let r307 = r270 + 1e-5 * r286 + 1.57002 * r295; let r311 = r299 + (r275 - r299);
+    let r312 = r303 + (r276 - r303); let r313 = r307 + (r277 - r307);
+    let r316 = 3.673205103373274e-6 * r186 + 0.9999999999932537 * r289;
+    let r320 = 3.673205103373274e-6 * r193 + 0.9999999999932537 * r292;
+    let r324 = 3.673205103373274e-6 * r200 + 0.9999999999932537 * r295;
+    let r328 = 0.9999999999932537 * r186 - 3.673205103373274e-6 * r289;
+    let r331 = 0.9999999999932537 * r193 - 3.673205103373274e-6 * r292;
+    let r334 = 0.9999999999932537 * r200 - 3.673205103373274e-6 * r295; let r349 = r39 - 1e-5 * r48;
+    let r351 = r42 - 1e-5 * r51; let r353 = 0.0 - r45 - 1e-5 * r54; let r355 = r110 + 1e-5 * r92;
+    let r357 = r117 + 1e-5 * r99; let r359 = r122 + 1e-5 * r103; let r362 = r313 - 0.495;
+    let r371 = r313 - r36; let r377 = 0.0 - (s1 * (r312 - r34) + c1 * (r311 - r33)); let r378 = r311 - r80;
+    let r379 = r312 - r81; let r380 = r313 - r82; let r393 = r311 - r174; let r394 = r312 - r175;
+    let r395 = r313 - r176; let r408 = r311 - r275; let r409 = r312 - r276; let r410 = r313 - r277;
+    let r448 = p.r31_ * r320 - p.r21_ * r324 + (p.r22_ * r286 - p.r32_ * r283); let r451 = 0.0 - s1;
+    let r454 = p.r11_ * r324 - p.r31_ * r316 + (p.r32_ * r280 - p.r12_ * r286);
+    let r459 = p.r21_ * r316 - p.r11_ * r320 + (p.r12_ * r283 - p.r22_ * r280);
+    (
+        [r311 - p.px, r312 - p.py, r313 - p.pz, 0.5 * (p.r23_ * r334 - p.r33_ * r331 + r448), 0.5 * (p.r33_ * r328 - p.r13_ * r334 + r454), 0.5 * (p.r13_ * r331 - p.r23_ * r328 + r459)],
+        [T::of(2.840000001757606), T::of(2.840000001757606), T::of(2.840000001757606), T::of(1.0), T::of(1.0), T::of(1.0)],
+        [
+            [0.0 - r312, r311, T::of(0.0), T::of(0.0), T::of(0.0), T::of(1.0)],
+            [c1 * r362, s1 * r362, 0.0 - (s1 * (r312 - r5) + c1 * (r311 - r2)), r451, c1, T::of(0.0)],
+            [c1 * r371, s1 * r371, r377, r451, c1, T::of(0.0)],
+            [0.99999999995 * (r351 * r380 - r353 * r379), 0.99999999995 * (r353 * r378 - r349 * r380), 0.99999999995 * (r349 * r379 - r351 * r378), 0.99999999995 * r349, 0.99999999995 * r351, 0.99999999995 * r353],
+            [0.99999999995 * (r357 * r395 - r359 * r394), 0.99999999995 * (r359 * r393 - r355 * r395), 0.99999999995 * (r355 * r394 - r357 * r393), 0.99999999995 * r355, 0.99999999995 * r357, 0.99999999995 * r359],
+            [r193 * r410 - r200 * r409, r200 * r408 - r186 * r410, r186 * r409 - r193 * r408, r186, r193, r200],
+        ],
+    )
+}
+
+/// As [`normal_step`], of several candidates at once; those whose pivots are small are not sound.
+#[inline(always)]
+fn normal_step_abreast<const W: usize>(value: &[Lanes<W>; SHORTS], columns: &[[Lanes<W>; SHORTS]; JOINTS], sound: &mut Lanes<W>) -> ([Lanes<W>; JOINTS], Lanes<W>) {
+    let none = Lanes([0.0; W]);
+    let dot = |a: &[Lanes<W>; SHORTS], b: &[Lanes<W>; SHORTS]| (0..SHORTS).fold(none, |sum, row| sum + a[row] * b[row]);
+    let (mut square, mut step, mut inverse) = ([[none; JOINTS]; JOINTS], [none; JOINTS], [none; JOINTS]);
+    let (mut size, mut least) = (none, Lanes([f64::INFINITY; W]));
+    for i in 0..JOINTS {
+        for j in 0..=i {
+            square[i][j] = dot(&columns[i], &columns[j]);
+        }
+        step[i] = dot(&columns[i], value);
+        size = size.greater(square[i][i]);
+    }
+    for k in 0..JOINTS {
+        let pivot = square[k][k];
+        *sound = sound.where_below(size * PLAIN - pivot, 0.0);
+        least = least.lesser(pivot);
+        inverse[k] = 1.0 / pivot;
+        for i in k + 1..JOINTS {
+            let factor = square[i][k] * inverse[k];
+            for j in k + 1..=i {
+                square[i][j] = square[i][j] - factor * square[j][k];
+            }
+            step[i] = step[i] - factor * step[k];
+        }
+    }
+    for k in (0..JOINTS).rev() {
+        for j in k + 1..JOINTS {
+            step[k] = step[k] - square[j][k] * step[j];
+        }
+        step[k] = step[k] * inverse[k];
+    }
+    (step, least / size)
+}
+
+/// As [`step_back`], of several candidates at once; those with a long step, or a pair far from the circle, are not sound.
+#[inline(always)]
+fn step_back_abreast<const W: usize>(step: &[Lanes<W>; JOINTS], at: &mut [Lanes<W>; PLACES], sound: &mut Lanes<W>) {
+    turn_back_abreast(step[0], at, [0, 1], sound);
+    turn_back_abreast(step[1], at, [2, 3], sound);
+    turn_back_abreast(step[2], at, [4, 5], sound);
+    turn_back_abreast(step[3], at, [6, 7], sound);
+    turn_back_abreast(step[4], at, [8, 9], sound);
+    turn_back_abreast(step[5], at, [10, 11], sound);
+}
+
+/// As [`turn_back`].
+#[inline(always)]
+fn turn_back_abreast<const W: usize>(way: Lanes<W>, at: &mut [Lanes<W>; PLACES], [cosine, sine]: [usize; 2], sound: &mut Lanes<W>) {
+    let (c, s) = (at[cosine], at[sine]);
+    let (norm, square) = (1.5 - (c * c + s * s) * 0.5, way * way);
+    let across = norm * way * (1.0 - square * (1.0 - square * (1.0 / 20.0)) * (1.0 / 6.0));
+    let along = norm * (1.0 - square * 0.5 * (1.0 - square * (1.0 / 12.0)));
+    (at[cosine], at[sine]) = (along * c + across * s, along * s - across * c);
+    *sound = sound.where_below(way.size(), TURN).where_below((norm - 1.0).size(), TURN);
+}
+
 /// The largest magnitude of an equation's value, and its largest share of the equation's size.
 #[inline(always)]
 fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
@@ -2218,6 +2423,12 @@ impl<const W: usize> Lanes<W> {
         Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
     }
 
+    /// The lesser of two numbers; the first where one is not a number.
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Lanes(core::array::from_fn(|i| if other.0[i] < self.0[i] { other.0[i] } else { self.0[i] }))
+    }
+
     /// The numbers where others are below a limit, and zero elsewhere.
     #[inline(always)]
     fn where_below(self, other: Self, limit: f64) -> Self {
@@ -2232,11 +2443,21 @@ impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul
 
 /// What equations are computed of: one number, or several at once.
 trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
+    /// The number, everywhere.
+    fn of(number: f64) -> Self;
 }
 
 impl Number for f64 {
+    #[inline(always)]
+    fn of(number: f64) -> Self {
+        number
+    }
 }
 impl Number for Lanes<LANES> {
+    #[inline(always)]
+    fn of(number: f64) -> Self {
+        Lanes([number; LANES])
+    }
 }
 
 macro_rules! by_lane {

@@ -99,6 +99,8 @@ pub(super) struct Outline {
     /// The equations of the short way to a solution nearby: for each its value, what that is a share of, and its derivatives.
     short: Code,
     short_rows: Vec<Vec<String>>,
+    /// The same as values of any kind of number.
+    short_generic: Vec<Vec<String>>,
     preference: Option<PreferenceText>,
     needs: Needs,
 }
@@ -235,6 +237,7 @@ impl Outline {
             jacobian: Code::new(language, jacobian_lines, jacobian_rows.concat()),
             jacobian_rows,
             short: Code::new(language, short_lines, short_rows.concat()),
+            short_generic: short_rows.iter().map(|row| lanes::generic(row)).collect(),
             short_rows,
             preference: PreferenceText::new(&scene).filter(|_| needs.answers),
             needs,

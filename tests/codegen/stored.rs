@@ -68,6 +68,10 @@ pub fn reached(chain: &Chain, q: &[f64]) -> Vec<f64> {
         Task::Rotation => rows.collect(),
         Task::Ray => position.into_iter().chain(aim).collect(),
         Task::Direction => aim.to_vec(),
+        Task::PositionPitchRoll => {
+            let (roll, pitch, _) = tip.rotation.euler_angles();
+            position.into_iter().chain([pitch, roll]).collect()
+        }
         Task::PlanarPosition { plane } => plane.coordinates().map(|k| position[k]).to_vec(),
         Task::PlanarPose { plane } => {
             let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);

@@ -69,6 +69,7 @@ fn tasks_are_as_promised() {
             "nao_left_arm_position" | "nao_right_arm_position" => (Task::Position, &[2]),
             "nao_head" => (Task::Direction, &[]),
             "wrist_rotation" => (Task::Rotation, &[]),
+            "upright_arm" => (Task::PositionPitchRoll, &[]),
             "polar" | "rrp" | "rh0_arm" => (Task::Position, &[]),
             "iiwa14" => (Task::Pose, &[2]),
             "gen3_like" => (Task::Pose, &[6]),

@@ -161,6 +161,11 @@ impl Derived {
         if let Some((_, report)) = &self.truth {
             let _ = writeln!(text, "{}", report.paragraph());
         }
+        if mechanism.standing().is_some() {
+            text += "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut there: E1 is the second joint; \
+                     behind the tip follow roll and pitch (given), the turn that is left, the way from the first axis and the height (given), and last the \
+                     first joint, counted from where the tip is to be, seen from above. The target of this loop never changes.\n\n";
+        }
         text += &self.steps_text(mechanism);
         text += "\nEach equation is a rigid-motion invariant of the loop E1 ... En = G, where G moves the tip from its place at zero to \
                  the target: `1_equations.txt`. No solution is lost, for each equation follows from the loop; none is added, for each \

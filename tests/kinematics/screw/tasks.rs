@@ -23,7 +23,7 @@ fn described(name: &str) -> Chain {
 /// arm as a ray, 8: the elbow lies on a circle about the ray and on a sphere about the shoulder (2), the shoulder's two axes place
 /// it (2), the elbow's two axes aim the forearm (2). Its position with ElbowYaw given, 4: the distance from the shoulder (2), then
 /// the shoulder's axes (2).
-const DESCRIBED: [(&str, usize); 10] = [
+const DESCRIBED: [(&str, usize); 11] = [
     ("nao_left_arm", 8),
     ("nao_right_arm_position", 4),
     ("nao_head", 2),
@@ -34,6 +34,7 @@ const DESCRIBED: [(&str, usize); 10] = [
     ("offset_wrist", 8),
     ("spherical_wrist", 8),
     ("rrp", 4),
+    ("upright_arm", 8),
 ];
 
 /// By how much the tip of `chain` at `q` misses what is asked: a length over the reach, or an angle.
@@ -47,6 +48,11 @@ fn miss(chain: &Chain, q: &[f64], target: &Target) -> f64 {
         Target::Ray { point, direction } => at(point).max((aimed - direction).norm()),
         Target::Direction(direction) => (aimed - direction).norm(),
         Target::Rotation(rotation) => pose.rotation.angle_to(rotation),
+        Target::PositionPitchRoll { point, pitch, roll } => {
+            let (rolled, pitched, _) = pose.rotation.euler_angles();
+            let differ = |a: f64, b: f64| groebot::spatial::angle::difference(a, b).abs();
+            at(point).max(differ(pitched, *pitch)).max(differ(rolled, *roll))
+        }
         Target::PlanarPosition(_) | Target::PlanarPose(_) => 0.0,
     }
 }
