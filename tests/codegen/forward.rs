@@ -14,7 +14,8 @@ fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
     for stored in all() {
         let Some(chain) = stored.chain else { continue };
         if stored.program.forward().is_none() {
-            assert_eq!(stored.name, "nao_leg_sagittal", "its equations are those of a system");
+            // The equations of the first are those of a system; pitch and roll of the other are no parameters of its equations.
+            assert!(["nao_leg_sagittal", "upright_arm"].contains(&stored.name.as_str()), "{}", stored.name);
             continue;
         }
         chains += 1;
