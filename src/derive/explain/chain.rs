@@ -101,7 +101,7 @@ fn chain(page: &mut Document, derived: &Derived, mechanism: &Mechanism) {
             hidden + 1
         ));
     }
-    if !derived.plan.given.is_empty() {
+    if !derived.plan.given.is_empty() && mechanism.standing().is_none() {
         let given = geometry::numbers(derived.plan.given.iter().copied());
         page.say(&format!("The user gives the value of {given}."));
     }

@@ -198,7 +198,7 @@ impl Layout {
         let emitter = &mut Emitter(assembler);
         let parameters = match self.across {
             Some(across) => ray::turned(mechanism, across, emitter),
-            None if mechanism.standing().is_some() => closed(|number| Emitted::integer(number)),
+            None if mechanism.standing().is_some() => closed(Emitted::integer),
             None => {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
@@ -239,7 +239,7 @@ impl Layout {
         let size =
             |input: &str| if input.starts_with('p') { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
         let parameters: Vec<Emitted> = match mechanism.standing() {
-            Some(_) => closed(|number| Emitted::integer(number)),
+            Some(_) => closed(Emitted::integer),
             None => mechanism.parameters().iter().map(|name| size(name)).collect(),
         };
         let target = Target::new(mechanism, &parameters, emitter)?;

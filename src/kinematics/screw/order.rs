@@ -66,7 +66,7 @@ impl Order {
 pub(super) fn samples(chain: &Chain, model: &Model) -> Result<Vec<Sample>> {
     const TURNS: [[f64; MOST_JOINTS]; 2] = [
         [0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129, 0.6173, 0.9677, 0.4519, -0.7283],
-        [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813, -0.8447, 0.3821, -1.0471, 0.8563],
+        [-0.4177, 0.6911, -1.2371, 1.0939, 0.7727, -0.5813, -0.8447, 0.3821, -1.0537, 0.8563],
     ];
     let length = if chain.reach() > 0.0 { chain.reach() } else { 1.0 };
     let sample = |turns: &[f64; MOST_JOINTS]| {
