@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use groebot::kinematics::Chain;
+use groebot::kinematics::screw::ScrewSolver;
 use groebot::kinematics::screw::circles::four_circles;
 use groebot::kinematics::screw::one_joint::{
     rotate_to_distance, rotate_to_plane, rotate_to_point, translate_to_distance, translate_to_plane,
@@ -12,7 +12,7 @@ use groebot::kinematics::screw::one_joint::{
 use groebot::kinematics::screw::three_joints::{rotate_three_parallel_to_pose, three_screws_to_point};
 use groebot::kinematics::screw::two_joints::two_screws_to_point;
 use groebot::kinematics::screw::values::{Reach, Values};
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::kinematics::{Chain, Target};
 use groebot::robots;
 use groebot::spatial::{Pose, Screw};
 use nalgebra::{Point3, Rotation3, Unit, Vector3};

@@ -4,16 +4,17 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::gait::{Humanoid, NAO_PREVIEW, NAO_SEED, Outline, Regular, Request, Route, Side, Usual, nao, plan};
+use groebot::gait::{Biped, Regular, Request, Route, Side, Usual, Walker, plan};
+use groebot::robots::{NAO_PREVIEW, NAO_SEED, Outline, nao_walker};
 
-fn request(usual: &Usual, robot: &Humanoid, length: f64, turn: f64) -> Request {
+fn request(usual: &Usual, robot: &Biped, length: f64, turn: f64) -> Request {
     let regular = Regular { steps: 8, length, aside: 0.0, turn, half_width: robot.half_width(), first: Side::Left };
     usual.request(robot, Route::regular(&regular).expect("eight steps"), usual.hip_heights[0])
 }
 
 fn walk(c: &mut Criterion) {
     let mut group = c.benchmark_group("walk");
-    let (robot, legs) = nao(Outline::Measured).expect("the crate's own data");
+    let Walker { biped: robot, legs, .. } = nao_walker(Outline::Measured).expect("the crate's own data");
     let cases = [
         ("nao_8_steps_seed", request(&NAO_SEED, &robot, 0.04, 0.0)),
         ("nao_8_steps_seed_turning", request(&NAO_SEED, &robot, 0.0, 0.7)),

@@ -2,7 +2,8 @@
 //!
 //!     cargo run --release --example 03_screw_solver
 
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::kinematics::Target;
+use groebot::kinematics::screw::ScrewSolver;
 use groebot::{Result, robots};
 
 fn main() -> Result<()> {

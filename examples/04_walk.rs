@@ -2,11 +2,12 @@
 //!
 //!     cargo run --release --example 04_walk
 
-use groebot::gait::{NAO_SEED, Outline, Regular, Request, Route, Side, Style, Summary, nao, plan};
+use groebot::gait::{Regular, Request, Route, Side, Style, Summary, Walker, plan};
+use groebot::robots::{NAO_SEED, Outline, nao_walker};
 use groebot::{Result, Watch};
 
 fn main() -> Result<()> {
-    let (robot, legs) = nao(Outline::Measured)?;
+    let Walker { biped: robot, legs, .. } = nao_walker(Outline::Measured)?;
     let route = Route::regular(&Regular {
         steps: 8,
         length: 0.04,

@@ -4,7 +4,8 @@
 
 use std::f64::consts::PI;
 
-use groebot::gait::{Action, Measures, Outline, RH0_SIMULATION, Route, plan, rh0, words};
+use groebot::gait::{Action, Measures, Route, Walker, plan, words};
+use groebot::robots::{RH0_SIMULATION, rh0_walker};
 use groebot::{Result, Watch};
 
 /// The figures of RH0 5.3.1 \[m\].
@@ -47,7 +48,7 @@ impl Frame {
 }
 
 fn main() -> Result<()> {
-    let (robot, legs) = rh0(Outline::Measured)?;
+    let Walker { biped: robot, legs, .. } = rh0_walker()?;
     let measures = Measures { length: LENGTH, half_width: HALF_WIDTH, most_turn: 0.1 };
     let route = Route::of_words(&words("out right, stride left")?, &measures)?;
     let request = RH0_SIMULATION.request(&robot, route, RH0_SIMULATION.hip_heights[0]);

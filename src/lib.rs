@@ -68,15 +68,17 @@ pub mod document;
 
 pub mod spatial;
 
+pub mod model;
+
 pub mod kinematics;
 
 pub mod dynamics;
 
 pub mod solver;
 
-pub mod robots;
-
 pub mod gait;
+
+pub mod robots;
 
 pub mod derive;
 

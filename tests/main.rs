@@ -12,6 +12,7 @@ mod files;
 mod gait;
 mod groebner;
 mod kinematics;
+mod model;
 mod number;
 mod poly;
 mod real;

@@ -1,9 +1,9 @@
 //! Robots: URDF.
 #![no_main]
 
-use groebot::kinematics::Tree;
+use groebot::model::Robot;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    let _ = Tree::from_urdf(text);
+    let _ = Robot::from_urdf(text);
 });

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::solver::{Joint, Program, Solution, Unit};
+use crate::kinematics::Solution;
+use crate::solver::{Joint, Program, Unit};
 
 /// The unit of angles at the edge of the tool.
 #[derive(Clone, Copy, PartialEq, Eq)]

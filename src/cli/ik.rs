@@ -8,8 +8,8 @@ use super::answers::table;
 use super::plan::Mechanism;
 use super::{Outcome, console, targets};
 use crate::kinematics::numeric::NumericSolver;
-use crate::kinematics::screw::{ScrewSolver, Solution, Target};
-use crate::kinematics::{Chain, JointKind, Task};
+use crate::kinematics::screw::ScrewSolver;
+use crate::kinematics::{Chain, InverseKinematics, JointKind, Solution, Target, Task};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
@@ -61,8 +61,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     for (text, target) in given.chain(reached) {
         let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
-        let answers = target.and_then(|(target, given)| solver.solve(&target, &given)).map_err(context)?;
-        let page_of = Page { chain: &chain, method: solver.name(), target: text, answers: &answers };
+        let mut answers = Vec::new();
+        let (target, given) = target.map_err(context)?;
+        solver.solver().solve(&target, &given, &mut answers).map_err(context)?;
+        let page_of = Page { chain: &chain, method: solver.name(), text, target: &target, answers: &answers };
         page += &if arguments.json { page_of.json(degrees) } else { page_of.table() };
     }
     if page.is_empty() {
@@ -86,10 +88,10 @@ impl Method {
         mechanism.solver(chain).map(|solver| Method::Screws(Box::new(solver)))
     }
 
-    fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+    fn solver(&self) -> &dyn InverseKinematics {
         match self {
-            Method::Screws(solver) => solver.solve_given(target, given),
-            Method::Numeric(solver) => solver.solve(target, given),
+            Method::Screws(solver) => solver.as_ref(),
+            Method::Numeric(solver) => solver.as_ref(),
         }
     }
 
@@ -188,14 +190,15 @@ struct Page<'a> {
     chain: &'a Chain,
     method: &'static str,
     /// The target as it was given.
-    target: &'a str,
+    text: &'a str,
+    target: &'a Target,
     answers: &'a [Solution],
 }
 
 impl Page<'_> {
     fn table(&self) -> String {
         let Page { chain, answers, .. } = self;
-        let title = format!("{} at {}", chain.name(), targets::shown(self.target));
+        let title = format!("{} at {}", chain.name(), targets::shown(self.text));
         let unit = chain.length_unit().symbol();
         let is_numeric = self.method == NUMERIC;
         if answers.is_empty() {
@@ -217,7 +220,7 @@ impl Page<'_> {
                 JointKind::Revolute => format!("{:.6}", value.to_degrees() + 0.0),
                 JointKind::Prismatic => format!("{value:.9}"),
             }));
-            row.extend([answer.position_residual, answer.rotation_residual].map(|miss| format!("{miss:.1e}")));
+            row.extend(self.target.missed(chain, &answer.q).map(|miss| format!("{miss:.1e}")));
             row.push(notes(chain, answer));
             rows.push(row);
         }
@@ -240,14 +243,14 @@ impl Page<'_> {
                 .map(|(i, q)| if turns(i) && degrees { q.to_degrees() } else { *q })
                 .collect(),
             free: answer.free.iter().map(|&i| chain.joints()[i].name.as_str()).collect(),
-            position_residual: answer.position_residual,
-            rotation_residual: answer.rotation_residual,
+            position_residual: self.target.missed(chain, &answer.q)[0],
+            rotation_residual: self.target.missed(chain, &answer.q)[1],
             branch: answer.branch,
         };
         let object = Object {
             name: chain.name(),
             method: self.method,
-            target: self.target,
+            target: self.text,
             joints: chain.joints().iter().map(|joint| joint.name.as_str()).collect(),
             unit: (0..chain.joints().len()).map(unit).collect(),
             solutions: self.answers.iter().map(entry).collect(),

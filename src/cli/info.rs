@@ -7,8 +7,9 @@ use super::ends::{EndArguments, SnapArgument};
 use super::{Halt, Outcome, json};
 use crate::derive::limbs::{JointPlace, Limbs};
 use crate::derive::{Description, Ends, InputFile, formulate};
-use crate::kinematics::tree::TreeJointKind;
-use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind, Tree};
+use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind};
+use crate::model::JointType;
+use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
 
@@ -39,7 +40,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
-        Description::Tree(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
+        Description::Robot(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
             console::print(&robot_page(tree, paint))
         }
         Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
@@ -48,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
             let chain = input.chain(&ends)?.ok_or_else(none)?;
             let mut notes = match description {
-                Description::Tree(tree) => notes(tree, &ends)?,
+                Description::Robot(tree) => notes(tree, &ends)?,
                 _ => Vec::new(),
             };
             let (ideal, report) = ends.ideal(&chain)?;
@@ -72,7 +73,7 @@ pub(super) fn near_words(chain: &Chain) -> Vec<String> {
     words.map(|words| format!("with --snap {NEAR:e}: {words}")).collect()
 }
 
-fn notes(tree: &Tree, ends: &Ends) -> Result<Vec<String>> {
+fn notes(tree: &Robot, ends: &Ends) -> Result<Vec<String>> {
     let path = tree.path(ends.base.as_deref(), ends.tip.as_deref())?;
     Ok(tree.notes(&path))
 }
@@ -205,8 +206,8 @@ fn limbs_page(limbs: &Limbs, paint: Paint) -> String {
     page
 }
 
-fn robot_page(tree: &Tree, paint: Paint) -> String {
-    let moving = tree.joints().iter().filter(|joint| joint.kind != TreeJointKind::Fixed).count();
+fn robot_page(tree: &Robot, paint: Paint) -> String {
+    let moving = tree.joints().iter().filter(|joint| joint.kind != JointType::Fixed).count();
     let (links, fixed) = (tree.links().len(), tree.joints().len() - moving);
     let name = paint.bold(tree.name());
     let mut page =

@@ -6,12 +6,12 @@ use nalgebra::Point2;
 
 use super::progress::{Limits, Session};
 use super::{Outcome, console};
-use crate::document::read_text;
+use crate::document::{read_text, shown};
 use crate::files::write_atomically;
 use crate::gait::{
-    Gait, Humanoid, Laws, Measures, Outline, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at,
-    words,
+    Biped, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at, words,
 };
+use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file of footsteps, in bytes.
@@ -51,17 +51,6 @@ enum FootName {
     Right,
 }
 
-/// The robot that walks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum RobotName {
-    /// NAO V5
-    Nao,
-    /// RH0 of the thesis
-    Rh0,
-    /// TEO, RH0's successor
-    Teo,
-}
-
 /// How the centre of mass is moved.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum GaitName {
@@ -82,8 +71,8 @@ enum GaitName {
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("way").args(["footsteps", "plan", "goal"]))]
 pub struct Arguments {
-    /// The robot
-    robot: RobotName,
+    /// The robot: nao, rh0 or teo
+    robot: String,
     /// The number of steps; the last one closes the feet
     #[arg(long, default_value_t = 8, conflicts_with = "way")]
     steps: usize,
@@ -182,22 +171,22 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Measured => Outline::Measured,
         SoleName::Seed => Outline::Seed,
     };
-    let walker = match arguments.robot {
-        RobotName::Nao => Walker::Nao,
-        RobotName::Rh0 => Walker::Rh0,
-        RobotName::Teo => Walker::Teo,
+    let unknown = || {
+        let text = format!("`{}` is no robot that walks; give `nao`, `rh0` or `teo`", shown(&arguments.robot));
+        Error::new(ErrorKind::UnknownName, text)
     };
-    let usual = arguments.usual(walker)?;
-    let (humanoid, legs) = walker.build(outline)?;
+    let walker = robots::walker(&arguments.robot, outline).ok_or_else(unknown)??;
+    let usual = arguments.usual(&walker)?;
+    let biped = &walker.biped;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let request = |height| arguments.request(&usual, &humanoid, height);
-    let walk = plan_at((&humanoid, &legs), arguments.hip_height, usual.hip_heights, request, &session.watch)?;
+    let request = |height| arguments.request(&usual, biped, height);
+    let walk = plan_at((biped, &walker.legs), arguments.hip_height, &usual.hip_heights, request, &session.watch)?;
     drop(session);
-    arguments.write(&humanoid, &walk)?;
+    arguments.write(biped, &walk)?;
     if arguments.quiet {
         return Ok(());
     }
-    console::print(&Summary::of(&humanoid, &walk).to_string())
+    console::print(&Summary::of(biped, &walk).to_string())
 }
 
 impl GaitName {
@@ -209,10 +198,10 @@ impl GaitName {
 
 impl Arguments {
     /// The figures of the gait, the given ones in their places.
-    fn usual(&self, walker: Walker) -> Result<Usual> {
-        let gaits = walker.gaits();
+    fn usual(&self, walker: &Walker) -> Result<Usual> {
+        let gaits = &walker.gaits;
         let wanted = self.gait.map_or(gaits[0].0.to_owned(), GaitName::name);
-        let Some(&(_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted) else {
+        let Some((_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted).cloned() else {
             let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
             return Err(bad(format!("this robot does not walk by `{wanted}`; give one of {names}")));
         };
@@ -260,10 +249,10 @@ impl Arguments {
         Ok(())
     }
 
-    fn request(&self, usual: &Usual, humanoid: &Humanoid, hip_height: f64) -> Result<Request> {
-        let route = self.route(usual, usual.half_width(humanoid))?;
-        let usual = if self.crouched { *usual } else { usual.from_upright(humanoid) };
-        Ok(usual.request(humanoid, route, hip_height))
+    fn request(&self, usual: &Usual, biped: &Biped, hip_height: f64) -> Result<Request> {
+        let route = self.route(usual, usual.half_width(biped))?;
+        let usual = if self.crouched { usual.clone() } else { usual.clone().from_upright(biped) };
+        Ok(usual.request(biped, route, hip_height))
     }
 
     fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {
@@ -288,20 +277,20 @@ impl Arguments {
         Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
-    fn write(&self, humanoid: &Humanoid, walk: &Walk) -> Result<()> {
+    fn write(&self, biped: &Biped, walk: &Walk) -> Result<()> {
         let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
         if let Some(file) = &self.out {
-            let text = if is_json(file) { walk.to_json(humanoid) } else { walk.to_csv(humanoid) };
+            let text = if is_json(file) { walk.to_json(biped) } else { walk.to_csv(biped) };
             write_atomically(file, text.as_bytes())?;
         }
         if let Some(file) = &self.json {
-            write_atomically(file, walk.to_json(humanoid).as_bytes())?;
+            write_atomically(file, walk.to_json(biped).as_bytes())?;
         }
         if let Some(file) = &self.thesis {
-            write_atomically(file, walk.to_thesis_csv(humanoid)?.as_bytes())?;
+            write_atomically(file, walk.to_thesis_csv(biped)?.as_bytes())?;
         }
         if let Some(file) = &self.plot {
-            write_atomically(file, walk.to_svg(humanoid).as_bytes())?;
+            write_atomically(file, walk.to_svg(biped).as_bytes())?;
         }
         Ok(())
     }

@@ -7,9 +7,10 @@ use super::limbs::Limbs;
 use super::planner::{Choice, joints_to_give};
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
+use crate::kinematics::Chain;
 use crate::kinematics::ideal::Report;
-use crate::kinematics::urdf::URDF_LIMIT;
-use crate::kinematics::{Chain, Tree};
+use crate::model::Robot;
+use crate::model::urdf::URDF_LIMIT;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, limbs that share motors.
@@ -25,7 +26,7 @@ pub enum Description {
     /// Equations.
     System(System),
     /// A robot with any number of limbs: URDF.
-    Tree(Tree),
+    Robot(Robot),
     /// Limbs that share motors.
     Limbs(Box<Limbs>),
 }
@@ -51,7 +52,7 @@ impl InputFile {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
-    /// [`Tree::from_urdf`], [`Limbs::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
+    /// [`Robot::from_urdf`], [`Limbs::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
     /// and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
@@ -59,12 +60,12 @@ impl InputFile {
             file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
         let text = read_text(&file, if is_xml { URDF_LIMIT } else { TEXT_LIMIT })?;
         let is_xml = is_xml || text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
-        let described = if is_xml { Tree::from_urdf(&text).map(Description::Tree) } else { from_toml(&text, &file) };
+        let described = if is_xml { Robot::from_urdf(&text).map(Description::Robot) } else { from_toml(&text, &file) };
         let description = described.map_err(|error| error.in_file(&file))?;
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
-            Description::Tree(_) => INPUT_NAMES[2],
+            Description::Robot(_) => INPUT_NAMES[2],
             Description::Limbs(_) => LIMBS_NAME,
         };
         let ends = read_ends(&file)?;
@@ -75,13 +76,13 @@ impl InputFile {
     /// or limbs.
     ///
     /// # Errors
-    /// As [`Tree::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
+    /// As [`Robot::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
     /// of a system or of limbs. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
         let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
         let chain = match &self.description {
-            Description::Tree(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
+            Description::Robot(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
             _ if ends.base.is_some() || ends.tip.is_some() => {
                 bad("base and tip are chosen, but only a URDF has links to choose from; leave them out")
             }
@@ -165,7 +166,7 @@ impl Source {
         let ends = ends.or(&input.ends);
         let InputFile { path, name, text, description, .. } = input;
         let links = match &description {
-            Description::Tree(tree) => {
+            Description::Robot(tree) => {
                 let way = tree.path(ends.base.as_deref(), ends.tip.as_deref()).map_err(|error| error.in_file(&path))?;
                 Some([way.base, way.tip])
             }

@@ -1,15 +1,13 @@
-//! Dynamics of serial chains by Lie groups, RH0 2.4: the matrices `M` and `C` of `M q'' + C q' + N = torques`, (2-41).
+//! Dynamics of robots by Lie groups, RH0 2.4: the matrices `M` and `C` of `M q'' + C q' + N = torques`, (2-41), centre of mass and momentum.
 //!
-//! A [`Manipulator`] is screws with a [`Body`] behind each; what a body weighs is its [`LinkInertia`]. A [`Multibody`] is a tree of
-//! bodies on a base that moves freely: where its centre of mass is, and its [`Momentum`].
+//! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
+//! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`].
 
-mod coriolis;
-mod inertia;
-mod manipulator;
+mod lagrange;
+mod model;
 mod momentum;
-mod multibody;
+mod placed;
 
-pub use inertia::{ASYMMETRY, LinkInertia, ROUNDING};
-pub use manipulator::{Body, Manipulator};
+pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;
-pub use multibody::{Limb, Multibody, Placed};
+pub use placed::Placed;

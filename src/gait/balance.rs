@@ -2,8 +2,8 @@
 
 use nalgebra::{Point2, Vector3};
 
+use super::biped::Biped;
 use super::footprint::Side;
-use super::humanoid::Humanoid;
 use super::motion::Motion;
 use super::parts::in_parts;
 use super::polygon::Polygon;
@@ -37,8 +37,8 @@ pub struct Balance {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] when the robot falls freely, so that there is no zero moment point.
-pub fn balance(humanoid: &Humanoid, references: &[Reference], motion: &Motion, tick: f64) -> Result<Vec<Balance>> {
-    let momenta = momenta(humanoid, motion, tick)?;
+pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f64) -> Result<Vec<Balance>> {
+    let momenta = momenta(biped, motion, tick)?;
     let last = motion.postures.len().saturating_sub(1);
     let at = |sample: usize| {
         let centre = motion.centres[sample];
@@ -52,10 +52,10 @@ pub fn balance(humanoid: &Humanoid, references: &[Reference], motion: &Motion, t
             let text = format!("nothing presses the robot to the floor; walk slower (--period) (t = {time:.2} s)");
             Error::new(ErrorKind::BadValue, text)
         };
-        let zmp = zero_moment_point(humanoid.body.mass(), &centre, &rate).ok_or_else(falls)?;
+        let zmp = zero_moment_point(biped.model.mass(), &centre, &rate).ok_or_else(falls)?;
         let [earlier, later] = [sample.saturating_sub(1), (sample + 1).min(last)].map(|near| motion.centres[near]);
         let acceleration: Vector3<f64> = ((later - centre) - (centre - earlier)) / (tick * tick);
-        let support = support(humanoid, &references[sample]);
+        let support = support(biped, &references[sample]);
         Ok(Balance {
             zmp,
             pendulum: of_pendulum(&centre, &acceleration),
@@ -69,23 +69,23 @@ pub fn balance(humanoid: &Humanoid, references: &[Reference], motion: &Motion, t
 }
 
 /// The support polygon of a reference.
-pub fn support(humanoid: &Humanoid, reference: &Reference) -> Polygon {
+pub fn support(biped: &Biped, reference: &Reference) -> Polygon {
     let standing: Vec<(Side, Pose)> = [Side::Left, Side::Right]
         .into_iter()
         .filter(|side| reference.stands[*side as usize])
         .map(|side| (side, reference.world_from_soles[side as usize]))
         .collect();
-    humanoid.support(&standing, TOUCH)
+    biped.support(&standing, TOUCH)
 }
 
 /// The momenta between the samples, with rest before the first and behind the last: one more than samples.
-fn momenta(humanoid: &Humanoid, motion: &Motion, tick: f64) -> Result<Vec<Momentum>> {
+fn momenta(biped: &Biped, motion: &Motion, tick: f64) -> Result<Vec<Momentum>> {
     let configuration = |sample: usize| {
         let posture = &motion.postures[sample];
         Configuration { world_from_base: &posture.world_from_torso, q: &posture.q }
     };
     let between =
-        |sample: usize| momentum_between(&humanoid.body, configuration(sample), configuration(sample + 1), tick);
+        |sample: usize| momentum_between(&biped.model, configuration(sample), configuration(sample + 1), tick);
     let moving = motion.postures.len().saturating_sub(1);
     let mut momenta = vec![Momentum::zero()];
     momenta.extend(in_parts(moving, &Watch::none(), |samples| samples.map(&between))?);

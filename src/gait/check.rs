@@ -1,8 +1,8 @@
 //! What keeps a motion from being walked: margins, joint limits, speeds, feet that meet. Main type: [`Fault`].
 
 use super::balance::Balance;
+use super::biped::Biped;
 use super::footprint::{Footprint, Side};
-use super::humanoid::Humanoid;
 use super::motion::Motion;
 use super::polygon::Polygon;
 use super::reference::Reference;
@@ -71,7 +71,7 @@ pub struct Demand {
 
 /// All faults of a motion in the order of time, at most one of each kind for a sample.
 pub fn faults(
-    humanoid: &Humanoid,
+    biped: &Biped,
     references: &[Reference],
     motion: &Motion,
     balances: &[Balance],
@@ -81,7 +81,7 @@ pub fn faults(
     let mut found = Vec::new();
     for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
         let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
-        if let Some(fault) = limit(humanoid, &motion.postures[sample].q) {
+        if let Some(fault) = limit(biped, &motion.postures[sample].q) {
             add(fault);
         }
         let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
@@ -92,8 +92,8 @@ pub fn faults(
         }
         if sample > 0 {
             let rate = |joint: usize| (motion.postures[sample].q[joint] - motion.postures[sample - 1].q[joint]) / tick;
-            let fast = |joint: &usize| rate(*joint).abs() > humanoid.joints[*joint].speed * demand.speed_share;
-            if let Some(joint) = (0..humanoid.joints.len()).find(fast) {
+            let fast = |joint: &usize| rate(*joint).abs() > biped.joints[*joint].speed * demand.speed_share;
+            if let Some(joint) = (0..biped.joints.len()).find(fast) {
                 add(Fault::Speed { joint, rate: rate(joint) });
             }
         }
@@ -101,27 +101,27 @@ pub fn faults(
     found
 }
 
-fn limit(humanoid: &Humanoid, q: &[f64]) -> Option<Fault> {
+fn limit(biped: &Biped, q: &[f64]) -> Option<Fault> {
     let beyond = |(range, value): (&super::JointRange, &f64)| *value < range.limits.0 || *value > range.limits.1;
-    let joint = humanoid.joints.iter().zip(q).position(beyond)?;
+    let joint = biped.joints.iter().zip(q).position(beyond)?;
     Some(Fault::Limit { joint, value: q[joint] })
 }
 
 /// The first step of a schedule, with the time in samples, on which the feet come too near to one another, seen from above.
-pub fn feet_meet(humanoid: &Humanoid, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
+pub fn feet_meet(biped: &Biped, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
     references.iter().enumerate().find_map(|(sample, reference)| {
         let swings = matches!(schedule.phases[reference.phase].action, Action::Swing(_));
         if sample > 0 && !swings {
             return None;
         }
-        let [left, right] = [Side::Left, Side::Right].map(|side| outline(humanoid, side, reference));
+        let [left, right] = [Side::Left, Side::Right].map(|side| outline(biped, side, reference));
         let apart = left.distance_to(&right);
         (apart < FEET_APART).then_some(Found { sample, phase: reference.phase, fault: Fault::Feet { apart } })
     })
 }
 
-fn outline(humanoid: &Humanoid, side: Side, reference: &Reference) -> Polygon {
+fn outline(biped: &Biped, side: Side, reference: &Reference) -> Polygon {
     let pose = reference.world_from_soles[side as usize];
     let (at, turn) = (pose.translation.vector, pose.rotation.euler_angles().2);
-    humanoid.sole_at(side, &Footprint { x: at.x, y: at.y, yaw: turn })
+    biped.sole_at(side, &Footprint { x: at.x, y: at.y, yaw: turn })
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
+use super::biped::Biped;
 use super::footprint::heading_of;
-use super::humanoid::Humanoid;
 use super::legs::{Legs, Posture};
 use super::parts::in_parts;
 use super::reference::Reference;
@@ -42,7 +42,7 @@ pub struct Motion {
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
 pub fn realise(
-    humanoid: &Humanoid,
+    biped: &Biped,
     legs: &Legs,
     references: &[Reference],
     alike: Option<&Motion>,
@@ -54,7 +54,7 @@ pub fn realise(
     let solved = in_parts(references.len(), watch, |samples| {
         let mut pursuit = Pursuit::new(legs);
         samples.map(move |sample| {
-            let centre = pursuit.follow(humanoid, legs, &references[sample], &known(sample));
+            let centre = pursuit.follow(biped, legs, &references[sample], &known(sample));
             let time = sample as f64 * tick;
             let centre =
                 centre.map_err(|error| Error::new(error.kind(), format!("{} (t = {time:.2} s)", error.message())))?;
@@ -94,7 +94,7 @@ impl Pursuit {
     /// Moves the torso to where `reference` asks for it, by about `known` from there; returns the centre of mass.
     fn follow(
         &mut self,
-        humanoid: &Humanoid,
+        biped: &Biped,
         legs: &Legs,
         reference: &Reference,
         known: &Vector3<f64>,
@@ -108,7 +108,7 @@ impl Pursuit {
             if apart.abs() <= AGREED {
                 legs.agree(&mut posture);
             }
-            let centre = humanoid.body.place(&posture.world_from_torso, &posture.q)?.centre_of_mass();
+            let centre = biped.model.place(&posture.world_from_torso, &posture.q)?.centre_of_mass();
             let off = centre.xy() - reference.centre;
             let miss = Vector3::new(off.x, off.y, apart);
             let inverse = match self.inverse {

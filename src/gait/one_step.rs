@@ -2,7 +2,7 @@
 //!
 //! A step is a shift of the weight (phases 1 and 2), a swing (3 and 4) and a balance (5). Two versions of the laws: [`Laws::Rh0`] is that
 //! of RH0 3.5, equations (3-46)..(3-53), repaired where they cannot work as printed (docs/errata.md); [`Laws::Generic`] is that of RH0
-//! 3.3, for any humanoid, where the centre of mass keeps to a circle on the sole.
+//! 3.3, for any biped, where the centre of mass keeps to a circle on the sole.
 
 use std::f64::consts::PI;
 

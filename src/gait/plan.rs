@@ -3,9 +3,9 @@
 use nalgebra::Point2;
 
 use super::balance::{Balance, balance};
+use super::biped::Biped;
 use super::check::{Demand, Found, faults, feet_meet};
 use super::footprint::Route;
-use super::humanoid::Humanoid;
 use super::legs::Legs;
 use super::motion::{Motion, realise};
 use super::one_step::OneStep;
@@ -102,7 +102,7 @@ impl Walk {
 /// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet that meet, a centre of
 /// mass too near to the border, a margin that no slower phase keeps, a figure of the gait that is not finite or not positive;
 /// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
+pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
     refusal::check(request)?;
     let actions = request.gait.actions(request.route.steps.len());
     let mut slowed = vec![1.0; actions.len()];
@@ -116,13 +116,13 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let mut references = references(humanoid, request, &schedule);
-        if let Some(found) = feet_meet(humanoid, &schedule, &references) {
-            return Err(refusal::of(humanoid, &schedule, request, &found));
+        let mut references = references(biped, request, &schedule);
+        if let Some(found) = feet_meet(biped, &schedule, &references) {
+            return Err(refusal::of(biped, &schedule, request, &found));
         }
         let (motion, balances) = match request.gait {
-            Gait::Seed | Gait::OneStep(_) => moved(humanoid, legs, request, &references, None, watch)?,
-            Gait::Preview => preview::moved(humanoid, legs, request, &schedule, &mut references, watch)?,
+            Gait::Seed | Gait::OneStep(_) => moved(biped, legs, request, &references, None, watch)?,
+            Gait::Preview => preview::moved(biped, legs, request, &schedule, &mut references, watch)?,
         };
         let demand = Demand {
             margin: request.margin,
@@ -130,11 +130,11 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
             keeps_way: request.gait.is_one_step(),
             speed_share: request.speed_share,
         };
-        let found = faults(humanoid, &references, &motion, &balances, &demand, request.tick);
+        let found = faults(biped, &references, &motion, &balances, &demand, request.tick);
         if found.is_empty() {
             return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
         }
-        slow_down(humanoid, &schedule, request, &found, &mut slowed)?;
+        slow_down(biped, &schedule, request, &found, &mut slowed)?;
     }
 }
 
@@ -143,21 +143,21 @@ pub fn plan(humanoid: &Humanoid, legs: &Legs, request: &Request, watch: &Watch) 
 /// # Errors
 /// As [`realise`] and [`balance`].
 pub(super) fn moved(
-    humanoid: &Humanoid,
+    biped: &Biped,
     legs: &Legs,
     request: &Request,
     references: &[Reference],
     alike: Option<&Motion>,
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let motion = realise(humanoid, legs, references, alike, request.tick, watch)?;
-    let balances = balance(humanoid, references, &motion, request.tick)?;
+    let motion = realise(biped, legs, references, alike, request.tick, watch)?;
+    let balances = balance(biped, references, &motion, request.tick)?;
     Ok((motion, balances))
 }
 
 /// What is asked of feet and torso at each sample, for preview control with the seed's law for the centre of mass.
-fn references(humanoid: &Humanoid, request: &Request, schedule: &Schedule) -> Vec<Reference> {
-    let ankle_height = humanoid.feet[0].ankle_height;
+fn references(biped: &Biped, request: &Request, schedule: &Schedule) -> Vec<Reference> {
+    let ankle_height = biped.feet[0].ankle_height;
     let style = &request.style;
     let stands = schedule.route.stands();
     let reference = |(phase, share): (usize, f64)| {
@@ -180,15 +180,9 @@ fn references(humanoid: &Humanoid, request: &Request, schedule: &Schedule) -> Ve
 ///
 /// # Errors
 /// The reason when no slower walk helps.
-fn slow_down(
-    humanoid: &Humanoid,
-    schedule: &Schedule,
-    request: &Request,
-    found: &[Found],
-    slowed: &mut [f64],
-) -> Result<()> {
+fn slow_down(biped: &Biped, schedule: &Schedule, request: &Request, found: &[Found], slowed: &mut [f64]) -> Result<()> {
     if let Some(hard) = found.iter().find(|found| !refusal::is_healed_by_time(&found.fault)) {
-        return Err(refusal::of(humanoid, schedule, request, hard));
+        return Err(refusal::of(biped, schedule, request, hard));
     }
     let mut slow = vec![request.gait == Gait::Preview; slowed.len()];
     for found in found {
@@ -205,7 +199,7 @@ fn slow_down(
     for (factor, slow) in slowed.iter_mut().zip(slow) {
         *factor *= if slow { SLOWER } else { 1.0 };
         if *factor > SLOWEST {
-            return Err(refusal::of(humanoid, schedule, request, &found[0]));
+            return Err(refusal::of(biped, schedule, request, &found[0]));
         }
     }
     Ok(())

@@ -4,8 +4,8 @@
 use nalgebra::{Matrix4, Point2, RowVector4, Vector2, Vector3, Vector4};
 
 use super::balance::Balance;
+use super::biped::Biped;
 use super::footprint::Footprint;
-use super::humanoid::Humanoid;
 use super::legs::Legs;
 use super::motion::Motion;
 use super::plan::{Request, moved as realised};
@@ -148,7 +148,7 @@ pub fn zmp_reference(
 /// # Errors
 /// As the motion of given references.
 pub(super) fn moved(
-    humanoid: &Humanoid,
+    biped: &Biped,
     legs: &Legs,
     request: &Request,
     schedule: &Schedule,
@@ -163,7 +163,7 @@ pub(super) fn moved(
             zmp_reference(&request.style, schedule, action, &feet, share)
         })
         .collect();
-    let resting = realised(humanoid, legs, request, &references[..1], None, watch)?;
+    let resting = realised(biped, legs, request, &references[..1], None, watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
@@ -173,7 +173,7 @@ pub(super) fn moved(
     let mut alike: Option<Motion> = None;
     for _ in 0..FEEDBACKS {
         aim(references, &centres);
-        let (motion, balances) = realised(humanoid, legs, request, references, alike.as_ref(), watch)?;
+        let (motion, balances) = realised(biped, legs, request, references, alike.as_ref(), watch)?;
         alike = Some(motion);
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
@@ -182,7 +182,7 @@ pub(super) fn moved(
         }
     }
     aim(references, &centres);
-    realised(humanoid, legs, request, references, alike.as_ref(), watch)
+    realised(biped, legs, request, references, alike.as_ref(), watch)
 }
 
 /// Asks the references for these centres of mass.

@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
+use super::biped::Biped;
 use super::check::{Fault, Found};
-use super::humanoid::Humanoid;
 use super::one_step::{Laws, OneStep};
 use super::plan::{Gait, Request};
 use super::reference::Style;
@@ -16,7 +16,7 @@ pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
 }
 
 /// The error for what was found.
-pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, found: &Found) -> Error {
+pub(super) fn of(biped: &Biped, schedule: &Schedule, request: &Request, found: &Found) -> Error {
     let time = found.sample as f64 * request.tick;
     let text = match &found.fault {
         Fault::Static { margin } => {
@@ -25,17 +25,17 @@ pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, fo
                 "the centre of mass is {} the border of the support polygon, {:.1} mm inside it are asked for; {}",
                 measured(*margin),
                 1e3 * asked,
-                feasible(humanoid, request)
+                feasible(biped, request)
             )
         }
         Fault::Dynamic { margin } => format!(
             "the zero moment point is {} the border of the support polygon, {:.1} mm inside it are asked for, and no slower walk helps; {}",
             measured(*margin),
             1e3 * request.margin,
-            feasible(humanoid, request)
+            feasible(biped, request)
         ),
         Fault::Limit { joint, value } => {
-            let range = &humanoid.joints[*joint];
+            let range = &biped.joints[*joint];
             format!(
                 "joint `{}` would be at {:.2} deg, its limits are {:.2}..{:.2} deg; give less --lift, --length or turn (--max-turn), or another --hip-height",
                 range.name,
@@ -45,7 +45,7 @@ pub(super) fn of(humanoid: &Humanoid, schedule: &Schedule, request: &Request, fo
             )
         }
         Fault::Speed { joint, rate } => {
-            let range = &humanoid.joints[*joint];
+            let range = &biped.joints[*joint];
             format!(
                 "joint `{}` would turn at {:.2} rad/s, its limit is {:.2} rad/s times {}; give a longer --period or less --length",
                 range.name, rate, range.speed, request.speed_share
@@ -81,8 +81,8 @@ fn measured(margin: f64) -> String {
 }
 
 /// Which figures keep the centre of mass over one sole.
-fn feasible(humanoid: &Humanoid, request: &Request) -> String {
-    let corners = &humanoid.feet[0].corners;
+fn feasible(biped: &Biped, request: &Request) -> String {
+    let corners = &biped.feet[0].corners;
     let range = |coordinate: fn(&Point2<f64>) -> f64| {
         let values = corners.iter().map(coordinate);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))

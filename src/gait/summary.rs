@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::humanoid::Humanoid;
+use super::biped::Biped;
 use super::plan::{Gait, Walk};
 use super::schedule::Action;
 
@@ -54,7 +54,7 @@ pub struct Summary {
 
 impl Summary {
     /// The figures of `walk`.
-    pub fn of(humanoid: &Humanoid, walk: &Walk) -> Self {
+    pub fn of(biped: &Biped, walk: &Walk) -> Self {
         let stands = walk.schedule.route.stands();
         let middles = [&stands[0], &stands[stands.len() - 1]].map(|feet| feet[0].middle(&feet[1]));
         let distance = (middles[1].point() - middles[0].point()).norm();
@@ -63,12 +63,12 @@ impl Summary {
         let walking = phases.iter().filter(walks).map(|phase| phase.samples).sum::<usize>() as f64 * walk.schedule.tick;
         let slowed = phases.iter().filter(|phase| phase.slowed > 1.0);
         Summary {
-            robot: humanoid.name.clone(),
+            robot: biped.name.clone(),
             gait: walk.request.gait,
             steps: walk.schedule.route.steps.len(),
             duration: walk.time(walk.balances.len() - 1),
             stepping: walking,
-            is_point_mass: humanoid.is_point_mass,
+            is_point_mass: biped.is_point_mass,
             distance,
             turn: middles[1].yaw - middles[0].yaw,
             torso_height: walk.request.style.torso_height,
@@ -80,8 +80,8 @@ impl Summary {
                 &|sample| (walk.balances[sample].zmp - walk.balances[sample].pendulum).norm(),
                 1.0,
             ),
-            nearest_limit: nearest_limit(humanoid, walk),
-            fastest: fastest(humanoid, walk),
+            nearest_limit: nearest_limit(biped, walk),
+            fastest: fastest(biped, walk),
             slowed: (slowed.clone().count(), slowed.map(|phase| phase.slowed).fold(1.0, f64::max)),
         }
     }
@@ -105,38 +105,33 @@ fn extreme(walk: &Walk, figure: &dyn Fn(usize) -> f64, sign: f64) -> Extreme {
 }
 
 /// The joint whose figure is the greatest over the walk. Joints that stand still are left out.
-fn among_joints(
-    humanoid: &Humanoid,
-    walk: &Walk,
-    figure: &dyn Fn(usize, usize) -> f64,
-    sign: f64,
-) -> (String, Extreme) {
+fn among_joints(biped: &Biped, walk: &Walk, figure: &dyn Fn(usize, usize) -> f64, sign: f64) -> (String, Extreme) {
     let postures = &walk.motion.postures;
     let moves = |joint: &usize| postures.iter().any(|posture| posture.q[*joint] != postures[0].q[*joint]);
-    let figures = (0..humanoid.joints.len())
+    let figures = (0..biped.joints.len())
         .filter(moves)
-        .map(|joint| (humanoid.joints[joint].name.clone(), extreme(walk, &|sample| figure(joint, sample), sign)));
+        .map(|joint| (biped.joints[joint].name.clone(), extreme(walk, &|sample| figure(joint, sample), sign)));
     figures
         .max_by(|a, b| (sign * a.1.value).total_cmp(&(sign * b.1.value)))
         .unwrap_or_else(|| ("none".into(), Extreme { value: 0.0, time: 0.0 }))
 }
 
-fn nearest_limit(humanoid: &Humanoid, walk: &Walk) -> (String, Extreme) {
+fn nearest_limit(biped: &Biped, walk: &Walk) -> (String, Extreme) {
     let room = |joint: usize, sample: usize| {
-        let (low, high) = humanoid.joints[joint].limits;
+        let (low, high) = biped.joints[joint].limits;
         let value = walk.motion.postures[sample].q[joint];
         (value - low).min(high - value)
     };
-    among_joints(humanoid, walk, &|joint, sample| -room(joint, sample), -1.0)
+    among_joints(biped, walk, &|joint, sample| -room(joint, sample), -1.0)
 }
 
-fn fastest(humanoid: &Humanoid, walk: &Walk) -> (String, Extreme) {
+fn fastest(biped: &Biped, walk: &Walk) -> (String, Extreme) {
     let postures = &walk.motion.postures;
     let share = |joint: usize, sample: usize| {
         let before = postures[sample.saturating_sub(1)].q[joint];
-        (postures[sample].q[joint] - before).abs() / walk.schedule.tick / humanoid.joints[joint].speed
+        (postures[sample].q[joint] - before).abs() / walk.schedule.tick / biped.joints[joint].speed
     };
-    among_joints(humanoid, walk, &share, 1.0)
+    among_joints(biped, walk, &share, 1.0)
 }
 
 impl fmt::Display for Summary {

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use super::biped::Biped;
 use super::footprint::Footprint;
-use super::humanoid::Humanoid;
 use super::plan::{Gait, Walk};
 use super::schedule::Action;
 use super::summary::Summary;
@@ -44,8 +44,8 @@ impl Walk {
     /// The walk as CSV, a row a sample: `time` \[s\], the joints by name \[rad\], the pose of the torso with its quaternion xyzw, for each
     /// foot its sole's position and heading and whether it stands (1 or 0), the centre of mass, the zero moment points of the multibody
     /// and of the pendulum, the static and the dynamic margin \[m\]. Nine decimals.
-    pub fn to_csv(&self, humanoid: &Humanoid) -> String {
-        let joints = humanoid.joints.iter().map(|joint| joint.name.as_str());
+    pub fn to_csv(&self, biped: &Biped) -> String {
+        let joints = biped.joints.iter().map(|joint| joint.name.as_str());
         let mut text = ["time"].into_iter().chain(joints).chain(COLUMNS).collect::<Vec<_>>().join(",");
         text.push('\n');
         for sample in 0..self.balances.len() {
@@ -76,8 +76,8 @@ impl Walk {
     }
 
     /// The walk as JSON: robot, joints with limits and speeds, footsteps, phases, summary, and the samples as in [`Walk::to_csv`].
-    pub fn to_json(&self, humanoid: &Humanoid) -> String {
-        let joints = humanoid.joints.iter().map(
+    pub fn to_json(&self, biped: &Biped) -> String {
+        let joints = biped.joints.iter().map(
             |joint| json!({ "name": joint.name, "low": joint.limits.0, "high": joint.limits.1, "speed": joint.speed }),
         );
         let route = &self.schedule.route;
@@ -87,13 +87,13 @@ impl Walk {
             value
         });
         let value = json!({
-            "robot": humanoid.name,
+            "robot": biped.name,
             "tick": self.schedule.tick,
             "joints": joints.collect::<Vec<_>>(),
             "start": { "left": print(&route.start[0]), "right": print(&route.start[1]) },
             "steps": steps.collect::<Vec<_>>(),
             "phases": self.phases(),
-            "summary": summary(&Summary::of(humanoid, self)),
+            "summary": summary(&Summary::of(biped, self)),
             "samples": (0..self.balances.len()).map(|sample| self.sample(sample)).collect::<Vec<_>>(),
         });
         value.to_string() + "\n"

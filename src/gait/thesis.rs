@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use nalgebra::Point3;
 
+use super::biped::Biped;
 use super::footprint::Side;
-use super::humanoid::Humanoid;
 use super::plan::Walk;
 use super::table::decimal;
 use crate::{Error, ErrorKind, Result};
@@ -34,14 +34,14 @@ impl Walk {
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] when the robot's joints have not the thesis' numbers.
-    pub fn to_thesis_csv(&self, humanoid: &Humanoid) -> Result<String> {
+    pub fn to_thesis_csv(&self, biped: &Biped) -> Result<String> {
         let joint = |symbol: &&str| {
             let missing = || {
-                let text = format!("{} has no joint {symbol} of the thesis; its tables are for rh0", humanoid.name);
+                let text = format!("{} has no joint {symbol} of the thesis; its tables are for rh0", biped.name);
                 Error::new(ErrorKind::UnknownName, text)
             };
-            let named = |joint: &usize| humanoid.joints[*joint].symbol == **symbol;
-            let mut found = (0..humanoid.joints.len()).filter(named);
+            let named = |joint: &usize| biped.joints[*joint].symbol == **symbol;
+            let mut found = (0..biped.joints.len()).filter(named);
             let first = found.next().ok_or_else(missing)?;
             if found.next().is_none() { Ok(first) } else { Err(missing()) }
         };
@@ -54,7 +54,7 @@ impl Walk {
             // Writing to a string cannot fail.
             let _ = write!(text, "{}", self.time(sample));
             let values = joints.iter().map(|joint| self.motion.postures[sample].q[*joint].to_degrees());
-            for value in values.chain(self.places(humanoid, sample)) {
+            for value in values.chain(self.places(biped, sample)) {
                 let _ = write!(text, ",{}", decimal(value));
             }
             text.push('\n');
@@ -63,8 +63,8 @@ impl Walk {
     }
 
     /// The figures of [`PLACES`].
-    fn places(&self, humanoid: &Humanoid, sample: usize) -> Vec<f64> {
-        let height = humanoid.feet[0].ankle_height;
+    fn places(&self, biped: &Biped, sample: usize) -> Vec<f64> {
+        let height = biped.feet[0].ankle_height;
         let turned = |point: Point3<f64>| [point.y, point.z - height, point.x];
         let ankle = |side: Side| {
             let sole = self.references[sample].world_from_soles[side as usize];

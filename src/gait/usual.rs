@@ -1,18 +1,17 @@
 //! The figures that a robot's gait has unless others are given. Main type: [`Usual`].
 
+use std::borrow::Cow;
+
+use super::biped::Biped;
 use super::footprint::Route;
-use super::humanoid::{Humanoid, Outline};
 use super::legs::Legs;
-use super::nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SEED, nao};
 use super::plan::{Gait, Request, Walk, plan};
 use super::reference::Style;
-use super::rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0};
 use super::schedule::Durations;
-use super::teo::{TEO_ONE_STEP, teo};
 use crate::{ErrorKind, Result, Watch};
 
 /// The usual figures of a gait. Metres, seconds, radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Usual {
     /// How the centre of mass is moved.
     pub gait: Gait,
@@ -27,7 +26,7 @@ pub struct Usual {
     /// How far ahead of the ankles the centre of mass is held.
     pub ahead: f64,
     /// Heights of the axes of the hip over the floor; the first at which the walk can be walked is taken.
-    pub hip_heights: &'static [f64],
+    pub hip_heights: Cow<'static, [f64]>,
     /// The height of the axes of the hip before the trunk is lowered and when it has risen, for one step goal.
     pub upright_hip: f64,
     /// The time of a step.
@@ -46,38 +45,15 @@ pub struct Usual {
     pub tick: f64,
 }
 
-/// A robot that can walk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Walker {
-    /// NAO V5.
-    Nao,
-    /// RH0.
-    Rh0,
-    /// TEO.
-    Teo,
-}
-
-impl Walker {
-    /// The robot and the solver of its legs.
-    ///
-    /// # Errors
-    /// None with the crate's own data.
-    pub fn build(self, outline: Outline) -> Result<(Humanoid, Legs)> {
-        match self {
-            Walker::Nao => nao(outline),
-            Walker::Rh0 => rh0(outline),
-            Walker::Teo => teo(outline),
-        }
-    }
-
-    /// The gaits that the robot walks, by name, its own first, each with its usual figures.
-    pub fn gaits(self) -> &'static [(&'static str, Usual)] {
-        match self {
-            Walker::Nao => &[("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)],
-            Walker::Rh0 => &[("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)],
-            Walker::Teo => &[("osg", TEO_ONE_STEP)],
-        }
-    }
+/// A robot that can walk, with the gaits that it walks by name, its own first, each with its usual figures.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    /// The robot.
+    pub biped: Biped,
+    /// The solvers of its legs.
+    pub legs: Legs,
+    /// Its gaits.
+    pub gaits: Vec<(&'static str, Usual)>,
 }
 
 /// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height.
@@ -85,13 +61,13 @@ impl Walker {
 /// # Errors
 /// As [`plan`]; that of the first height when it can be walked at none.
 pub fn plan_at(
-    (humanoid, legs): (&Humanoid, &Legs),
+    (biped, legs): (&Biped, &Legs),
     hip_height: Option<f64>,
     heights: &[f64],
     request: impl Fn(f64) -> Result<Request>,
     watch: &Watch,
 ) -> Result<Walk> {
-    let walk = |height: f64| plan(humanoid, legs, &request(height)?, watch);
+    let walk = |height: f64| plan(biped, legs, &request(height)?, watch);
     let Some(height) = hip_height.or(heights.first().copied()) else {
         return Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip"));
     };
@@ -105,18 +81,18 @@ pub fn plan_at(
 
 impl Usual {
     /// Half of the way from foot to foot, sideways \[m\].
-    pub fn half_width(&self, humanoid: &Humanoid) -> f64 {
-        self.half_width.unwrap_or(humanoid.half_width())
+    pub fn half_width(&self, biped: &Biped) -> f64 {
+        self.half_width.unwrap_or(biped.half_width())
     }
 
     /// The request to walk `route` with the hips at `hip_height` \[m\].
-    pub fn request(&self, humanoid: &Humanoid, route: Route, hip_height: f64) -> Request {
+    pub fn request(&self, biped: &Biped, route: Route, hip_height: f64) -> Request {
         let style = Style {
             lift: self.lift,
             amplitude: self.amplitude,
-            half_width: self.half_width(humanoid),
+            half_width: self.half_width(biped),
             ahead: self.ahead,
-            torso_height: hip_height + humanoid.hip_to_torso(),
+            torso_height: hip_height + biped.hip_to_torso(),
         };
         Request {
             route,
@@ -131,9 +107,9 @@ impl Usual {
 
     /// The figures with a lowering before the first step and a rise behind the last one, for one step goal.
     #[must_use]
-    pub fn from_upright(mut self, humanoid: &Humanoid) -> Self {
+    pub fn from_upright(mut self, biped: &Biped) -> Self {
         if let Gait::OneStep(one_step) = &mut self.gait {
-            one_step.upright = Some(self.upright_hip + humanoid.hip_to_torso());
+            one_step.upright = Some(self.upright_hip + biped.hip_to_torso());
         }
         self
     }

@@ -7,7 +7,7 @@
 use nalgebra::{Point2, Point3, Vector3};
 
 use crate::Result;
-use crate::dynamics::{Momentum, Multibody};
+use crate::dynamics::{Model, Momentum};
 use crate::spatial::{Pose, pose};
 
 /// Standard gravity \[m/s^2\].
@@ -26,12 +26,7 @@ pub struct Configuration<'q> {
 ///
 /// # Errors
 /// [`crate::ErrorKind::BadValue`] when a configuration has not one finite value per joint.
-pub fn momentum_between(
-    body: &Multibody,
-    from: Configuration<'_>,
-    to: Configuration<'_>,
-    time: f64,
-) -> Result<Momentum> {
+pub fn momentum_between(body: &Model, from: Configuration<'_>, to: Configuration<'_>, time: f64) -> Result<Momentum> {
     let motion = to.world_from_base * from.world_from_base.inverse();
     let twist = pose::log(&motion) * (1.0 / time);
     let middle = twist.exp(time / 2.0) * from.world_from_base;

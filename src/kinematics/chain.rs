@@ -8,48 +8,12 @@ use std::fmt;
 use num_traits::{One, ToPrimitive, Zero};
 use serde::{Deserialize, Serialize};
 
-use super::exact_serde;
 use super::fk::Numeric;
-use super::mimic::Mimic;
 use super::task::Task;
 use super::validate::{self, Fault, Part};
+use super::{ExactMatrix, ExactVector, LengthUnit, Mimic, exact_serde};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
-
-/// Three exact coordinates.
-pub type ExactVector = [BigRational; 3];
-/// An exact 3x3 matrix, by rows.
-pub type ExactMatrix = [[BigRational; 3]; 3];
-
-/// The unit of all lengths of a chain.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LengthUnit {
-    /// 1 m.
-    #[default]
-    #[serde(rename = "m")]
-    Metre,
-    /// 0.001 m.
-    #[serde(rename = "mm")]
-    Millimetre,
-}
-
-impl LengthUnit {
-    /// `m` or `mm`.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            LengthUnit::Metre => "m",
-            LengthUnit::Millimetre => "mm",
-        }
-    }
-
-    /// The length of one unit in metres.
-    pub fn metres(self) -> f64 {
-        match self {
-            LengthUnit::Metre => 1.0,
-            LengthUnit::Millimetre => 0.001,
-        }
-    }
-}
 
 /// How a joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,14 +6,10 @@ use std::path::Path;
 
 use super::chain::{along_z, show};
 use super::validate::{Fault, Part, check_count};
-use super::{
-    Chain, ChainParts, Choice, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Plane, Root, Task, Tip,
-    Turn,
-};
+use super::{Chain, ChainParts, Choice, ExactVector, Joint, JointKind, Placement, Plane, Root, Task, Tip, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
-use crate::number::BigRational;
+use crate::model::toml::{Units, read_mimic, read_units};
 use crate::{Error, ErrorKind, Result};
-use num_traits::One;
 
 const ROOT_KEYS: [&str; 11] =
     ["name", "description", "source", "length_unit", "angle_unit", "order", "given", "choice", "task", "joint", "tip"];
@@ -55,13 +51,6 @@ impl Chain {
     }
 }
 
-/// The units of a file.
-#[derive(Clone, Copy)]
-pub(super) struct Units {
-    pub(super) length: LengthUnit,
-    pub(super) degrees: bool,
-}
-
 /// How a file places its joints.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
@@ -101,15 +90,6 @@ fn read_parts(root: Table<'_>, joints: &[Table<'_>], tip: Table<'_>) -> Result<C
         order: root.optional("order").map(read_names).transpose()?,
         choice: root.optional("choice").map(|node| read_choice(node.table()?)).transpose()?,
     })
-}
-
-pub(super) fn read_units(root: Table<'_>) -> Result<Units> {
-    let length = root.optional("length_unit").map(|node| {
-        let known = [("m", LengthUnit::Metre), ("mm", LengthUnit::Millimetre)];
-        node.one_of(&known)
-    });
-    let degrees = root.optional("angle_unit").map(|node| node.one_of(&[("rad", false), ("deg", true)]));
-    Ok(Units { length: length.transpose()?.unwrap_or_default(), degrees: degrees.transpose()?.unwrap_or(false) })
 }
 
 /// The joints, and the frame of the last one.
@@ -157,17 +137,6 @@ fn read_joint(
         mimic: table.optional("mimic").map(|node| read_mimic(node.table()?)).transpose()?,
     };
     Ok((joint, frame))
-}
-
-/// The joint that is followed, by default as it is.
-fn read_mimic(table: Table<'_>) -> Result<Mimic> {
-    table.deny_unknown(&["joint", "multiplier", "offset"])?;
-    let number = |key| table.optional(key).map(|node| node.exact()).transpose();
-    Ok(Mimic {
-        leader: table.required("joint")?.text()?.to_owned(),
-        multiplier: number("multiplier")?.unwrap_or_else(BigRational::one),
-        offset: number("offset")?.unwrap_or_default(),
-    })
 }
 
 fn form_of(table: Table<'_>) -> Result<Form> {

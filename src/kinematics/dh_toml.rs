@@ -5,10 +5,11 @@
 use std::path::Path;
 
 use super::chain::along_z;
-use super::chain_toml::{Units, line_of, read_given, read_limits, read_task, read_units};
+use super::chain_toml::{line_of, read_given, read_limits, read_task};
 use super::validate::Fault;
 use super::{Chain, DhConvention, DhRow, DhTable, ExactVector, JointKind, Placement, Task, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
+use crate::model::toml::{Units, read_units};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 

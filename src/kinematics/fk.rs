@@ -1,10 +1,9 @@
 //! Numeric forward kinematics as a product of exponentials (Brockett 1984; RH0 2.1.4).
 
-use nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
-use num_traits::{Signed, ToPrimitive};
+use nalgebra::{Point3, Translation3, Unit, Vector3};
 
-use super::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind};
-use crate::number::BigRational;
+use super::{Chain, ChainParts, Joint, JointKind};
+use crate::spatial::exact::{normalized, numeric_rotation, point};
 use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
@@ -21,7 +20,7 @@ impl Numeric {
     pub(super) fn of(parts: &ChainParts) -> Result<Self> {
         let screws = parts.joints.iter().map(Joint::screw).collect::<Result<_>>()?;
         let translation = Translation3::from(point(&parts.tip.point).coords);
-        let base_from_tip = Pose::from_parts(translation, rotation(&parts.tip.rotation));
+        let base_from_tip = Pose::from_parts(translation, numeric_rotation(&parts.tip.rotation));
         let points = parts.joints.iter().map(Joint::location).chain([Point3::from(translation.vector)]);
         Ok(Numeric { screws, base_from_tip, aim: normalized(&parts.direction), reach: length(points) })
     }
@@ -93,24 +92,4 @@ impl Chain {
 fn length(points: impl Iterator<Item = Point3<f64>>) -> f64 {
     let points: Vec<Point3<f64>> = points.collect();
     points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
-}
-
-/// The unit vector along a vector that is not zero.
-fn normalized(vector: &ExactVector) -> Unit<Vector3<f64>> {
-    let greatest = vector.iter().map(Signed::abs).max().unwrap_or_default();
-    let [x, y, z] = vector.each_ref().map(|entry| double(&(entry / &greatest)));
-    Unit::new_normalize(Vector3::new(x, y, z))
-}
-
-fn double(exact: &BigRational) -> f64 {
-    exact.to_f64().unwrap_or(0.0)
-}
-
-fn point(exact: &ExactVector) -> Point3<f64> {
-    Point3::from(exact.each_ref().map(double))
-}
-
-fn rotation(exact: &ExactMatrix) -> UnitQuaternion<f64> {
-    let matrix = Matrix3::from_fn(|i, j| double(&exact[i][j]));
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
 }

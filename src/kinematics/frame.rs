@@ -4,10 +4,10 @@
 //! rounded. Where some are not, as in an arm on a base turned by 30 degrees, roots are not rounded number by number, for axes that meet or are
 //! perpendicular would miss it by a hair; but each rotation that leads to them is, to one that is exactly orthogonal and within 1e-17.
 
-use super::exact_rotation::over_common;
-use super::surd::{SurdVector, directed, recognised, surds};
 use super::{ExactRotation, ExactVector, Placement, Tip};
 use crate::number::{BigInt, BigRational};
+use crate::spatial::exact::rotation::over_common;
+use crate::spatial::exact::surd::{SurdVector, directed, recognised, surds};
 use num_integer::Integer;
 use num_traits::Zero;
 

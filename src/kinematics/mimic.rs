@@ -1,73 +1,12 @@
-//! Joints of a chain that follow others of it, as the fingers of a gripper do: [`Mimic`].
+//! Joints of a chain that follow others of it, as the fingers of a gripper do, by a [`Mimic`].
 //!
 //! A joint that follows is given where its leader is: one value is one unknown. What slides with another one is merged into it when a chain
-//! is cut out of a [tree](super::Tree::chain).
+//! is cut out of a [robot](crate::model::Robot::chain).
 
-use std::fmt;
-
-use num_traits::ToPrimitive;
-use serde::{Deserialize, Serialize};
-
-use super::{Chain, JointKind, exact_serde};
+use super::{Chain, JointKind, Mimic};
 use crate::document::shown;
-use crate::number::BigRational;
 use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result};
-
-/// The most turns of a joint for one of its leader, where both are found.
-const MOST_TURNS: i32 = 8;
-
-/// That a joint follows another one: value = multiplier * leader + offset, as `<mimic>` says in a URDF.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mimic {
-    /// The joint that is followed.
-    pub leader: String,
-    /// The factor.
-    #[serde(with = "exact_serde::number")]
-    pub multiplier: BigRational,
-    /// The summand, in radians or the length unit.
-    #[serde(with = "exact_serde::number")]
-    pub offset: BigRational,
-}
-
-impl Mimic {
-    /// The factor and the summand.
-    pub fn law(&self) -> [f64; 2] {
-        [&self.multiplier, &self.offset].map(|number| number.to_f64().unwrap_or(f64::NAN))
-    }
-
-    /// The value of the joint where its leader has the value `leader`.
-    pub fn value(&self, leader: f64) -> f64 {
-        let [factor, summand] = self.law();
-        factor * leader + summand
-    }
-
-    /// The factor, when it is a whole number of a few turns at most.
-    pub fn whole(&self) -> Option<i32> {
-        let factor = self.multiplier.is_integer().then(|| self.multiplier.to_i32()).flatten()?;
-        (factor.abs() <= MOST_TURNS).then_some(factor)
-    }
-
-    /// That of a joint that follows the one that this is about by `outer`.
-    #[must_use]
-    pub fn then(&self, outer: &Mimic) -> Mimic {
-        let offset = &outer.multiplier * &self.offset + &outer.offset;
-        Mimic { leader: self.leader.clone(), multiplier: &outer.multiplier * &self.multiplier, offset }
-    }
-}
-
-/// `leader`, or `2 * leader + 0.1`.
-impl fmt::Display for Mimic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let leader = shown(&self.leader);
-        match self.law() {
-            [1.0, 0.0] => f.write_str(&leader),
-            [factor, 0.0] => write!(f, "{factor} * {leader}"),
-            [factor, summand] => write!(f, "{factor} * {leader} + {summand}"),
-        }
-    }
-}
 
 impl Chain {
     /// The place of the joint that the joint at `place` follows, and by what law.

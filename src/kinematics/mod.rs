@@ -6,34 +6,32 @@ pub mod chain;
 pub mod chain_toml;
 pub mod dh;
 pub mod dh_toml;
-mod exact_rotation;
-pub(crate) mod exact_serde;
-mod exact_vector;
 pub mod fk;
 mod frame;
 pub mod geometry;
 pub mod ideal;
+mod inverse;
 pub mod jacobian;
 mod mimic;
 pub mod numeric;
 pub mod oracle;
-mod placement;
+mod path;
 pub mod screw;
 mod shares;
-mod surd;
+mod target;
 mod task;
-pub mod tree;
+mod telescope;
 pub mod upright;
-pub mod urdf;
 mod validate;
 
-pub use chain::{
-    Chain, ChainParts, Choice, ExactMatrix, ExactVector, Joint, JointKind, LengthUnit, Meant, Root, Tip, along_z,
-};
+pub use chain::{Chain, ChainParts, Choice, Joint, JointKind, Meant, Root, Tip, along_z};
 pub use dh::{DhConvention, DhRow, DhTable};
-pub use exact_rotation::{ExactRotation, Turn};
 pub use geometry::Geometry;
-pub use mimic::Mimic;
-pub use placement::Placement;
+pub use inverse::{InverseKinematics, Solution};
+pub use path::LinkPath;
+pub use target::Target;
 pub use task::{Plane, Task};
-pub use tree::Tree;
+
+pub use crate::model::{LengthUnit, Mimic};
+pub(crate) use crate::spatial::exact::serde as exact_serde;
+pub use crate::spatial::exact::{ExactMatrix, ExactRotation, ExactVector, Placement, Turn};

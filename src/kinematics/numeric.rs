@@ -6,9 +6,7 @@
 use std::cmp::Ordering;
 
 use super::oracle::{Oracle, Unknown};
-use super::screw::{Solution, Target};
-use super::{Chain, JointKind};
-use crate::spatial::{angle, vertical};
+use super::{Chain, InverseKinematics, JointKind, Solution, Target};
 use crate::{Error, ErrorKind, Result};
 
 /// Starting points: three times those of the checks, so that what is seldom reached is found too.
@@ -89,50 +87,19 @@ impl NumericSolver {
     /// What the tip at `q` misses: lengths as shares of the reach, then what turns. Not finite where `q` is not.
     fn misses(&self, target: &Target, q: &[f64]) -> Vec<f64> {
         let Ok(reached) = Target::reached(&self.chain, q) else { return vec![f64::NAN] };
-        let (position, rotation) = difference(&reached, target);
+        let (position, rotation) = reached.difference(target);
         position.into_iter().map(|miss| miss / self.length).chain(rotation).collect()
     }
 
     fn answer(&self, target: &Target, q: Vec<f64>) -> Solution {
-        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
-        let reached = Target::reached(&self.chain, &q);
-        let (position, rotation) = reached.map_or_else(|_| Default::default(), |reached| difference(&reached, target));
-        Solution {
-            q,
-            free: Vec::new(),
-            position_residual: norm(&position),
-            rotation_residual: norm(&rotation),
-            branch: 0,
-        }
+        let [position, rotation] = target.missed(&self.chain, &q);
+        Solution { q, residual: position.max(rotation), ..Solution::default() }
     }
 }
 
-/// What `reached` differs by from `target`, which is of the same kind: lengths, then numbers that for small turns have the angle \[rad\] as
-/// their norm.
-fn difference(reached: &Target, target: &Target) -> (Vec<f64>, Vec<f64>) {
-    let turn = |a: &nalgebra::UnitQuaternion<f64>, b: &nalgebra::UnitQuaternion<f64>| {
-        let difference = a.to_rotation_matrix().matrix() - b.to_rotation_matrix().matrix();
-        difference.iter().map(|entry| entry * std::f64::consts::FRAC_1_SQRT_2).collect::<Vec<f64>>()
-    };
-    let list = |vector: nalgebra::Vector3<f64>| vector.iter().copied().collect::<Vec<f64>>();
-    match (reached, target) {
-        (Target::Pose(a), Target::Pose(b)) => {
-            (list(a.translation.vector - b.translation.vector), turn(&a.rotation, &b.rotation))
-        }
-        (Target::Position(a), Target::Position(b)) => (list(a - b), Vec::new()),
-        (Target::Ray { point, direction }, Target::Ray { point: to, direction: along }) => {
-            (list(point - to), list(direction - along))
-        }
-        (
-            Target::PositionPitchRoll { point, pitch, roll },
-            Target::PositionPitchRoll { point: to, pitch: other, roll: rolled },
-        ) => (list(point - to), list(vertical(*pitch, *roll) - vertical(*other, *rolled))),
-        (Target::Direction(a), Target::Direction(b)) => (Vec::new(), list(a - b)),
-        (Target::Rotation(a), Target::Rotation(b)) => (Vec::new(), turn(a, b)),
-        (Target::PlanarPosition(a), Target::PlanarPosition(b)) => (vec![a[0] - b[0], a[1] - b[1]], Vec::new()),
-        (Target::PlanarPose(a), Target::PlanarPose(b)) => {
-            (vec![a[0] - b[0], a[1] - b[1]], vec![angle::difference(a[2], b[2])])
-        }
-        _ => (Vec::new(), vec![f64::NAN]),
+impl InverseKinematics for NumericSolver {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        *out = self.solve(target, given)?;
+        Ok(())
     }
 }

@@ -7,8 +7,8 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::DVector;
 
-use super::screw::{ScrewSolver, Target};
-use super::{Chain, JointKind};
+use super::screw::ScrewSolver;
+use super::{Chain, JointKind, Target};
 
 /// Random poses that are tried.
 const POSES: usize = 16;

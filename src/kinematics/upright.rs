@@ -9,8 +9,8 @@
 
 use num_traits::Zero;
 
+use super::Target;
 use super::chain::along_z;
-use super::screw::Target;
 use super::{Chain, ChainParts, ExactVector, Joint, JointKind, Task, Tip};
 use crate::number::BigRational;
 use crate::spatial::{Pose, angle};

@@ -3,12 +3,14 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::chain::{ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip, show};
-use super::exact_vector::{cosine, sine};
+use super::chain::{ChainParts, Joint, JointKind, Tip, show};
 use super::ideal::TOLERANCE;
 use super::task::Plane;
+use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
+use crate::model::is_plain;
 use crate::number::{BigInt, BigRational};
+use crate::spatial::exact::vector::{cosine, sine};
 use crate::{Error, ErrorKind};
 
 const MAX_JOINTS: usize = 12;
@@ -69,11 +71,6 @@ fn joint_fault(index: usize, joint: &Joint, key: &'static str, kind: ErrorKind, 
 /// A message about the joint `name`.
 pub fn joint_message(name: &str, message: &str) -> String {
     format!("joint `{}`: {message}", shown(name))
-}
-
-/// Whether `text` has at most `limit` characters and no control characters but line ends and tabs.
-pub fn is_plain(text: &str, limit: usize) -> bool {
-    text.chars().count() <= limit && !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t')
 }
 
 fn is_name(text: &str) -> bool {

@@ -23,6 +23,7 @@ pub use num_rational::BigRational;
 pub use primes::primes_below;
 pub use rational::Rationals;
 pub(crate) use rational::common_divisor;
+pub(crate) use rational::decimal as decimal_text;
 pub use reconstruct::reconstruct;
 pub use zp::Zp;
 

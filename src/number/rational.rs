@@ -126,7 +126,7 @@ pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
 }
 
 /// The finite decimal expansion of `a`, if it has one of at most 30 places.
-fn decimal(a: &BigRational) -> Option<String> {
+pub(crate) fn decimal(a: &BigRational) -> Option<String> {
     let ten = BigInt::from(10);
     let places = (0u32..=30).find(|&k| (ten.clone().pow(k) % a.denom()).is_zero())?;
     let scaled = (a * BigRational::from_integer(ten.pow(places))).to_integer();

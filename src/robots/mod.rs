@@ -1,53 +1,63 @@
-//! Known robots as [`Chain`]s: NAO, RH0, TEO, PUMA, Stanford, a polar robot, UR5, IRB 120. The figures stand in `data/*.toml`
-//! (format: [`crate::kinematics::chain_toml`]) with their source beside them; what is inferred or assumed says so there.
+//! Known robots: the humanoids NAO, RH0 and TEO as [`Robot`]s with the figures of their walks, and arms as [`Chain`]s: PUMA, Stanford, a polar
+//! robot, UR5, IRB 120. The figures stand in `data/*.toml` with their source beside them; what is inferred or assumed says so there.
 //!
-//! All are in metres and radians. Main type: [`Robot`]. [`Whole`] is NAO, RH0 or TEO with all its limbs and masses.
+//! All are in metres and radians. Main type: [`Known`], a chain by its name. [`walker`] is a humanoid that walks.
 
-mod whole;
+mod nao;
+mod printed;
+mod rh0;
+mod skd;
+mod teo;
 
-pub use whole::{Sole, Weight, Whole, WholeLimb, WholeLink, place_of};
+pub use nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SEED, nao_v5, nao_walker};
+pub use rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0, rh0_walker};
+pub use skd::{Manipulator, Real, Virtual, coordinated_arm};
+pub use teo::{TEO_ONE_STEP, teo, teo_walker};
 
-use crate::kinematics::Chain;
+use crate::Result;
+use crate::gait::{Biped, Legs, Side, Walker};
+use crate::kinematics::{Chain, ChainParts};
+use crate::model::Robot;
 
-/// A robot, or one limb of it, that comes with this crate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Robot {
-    name: &'static str,
-    text: &'static str,
+/// Which outline the soles have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outline {
+    /// As it was measured on the robot.
+    #[default]
+    Measured,
+    /// As the source document states it: 160 x 90 mm for NAO.
+    Seed,
 }
 
-impl Robot {
-    /// Its name: that of its chain, its file and its function here.
+/// A chain that comes with this crate: an arm, or a limb of a humanoid.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    name: &'static str,
+    chain: fn() -> Chain,
+}
+
+impl Known {
+    /// Its name: that of its chain and its function here.
     pub fn name(&self) -> &'static str {
         self.name
     }
 
-    /// The text of its `chain.toml`.
-    pub fn text(&self) -> &'static str {
-        self.text
-    }
-
-    /// Its chain.
+    /// The chain.
     pub fn chain(&self) -> Chain {
-        Chain::from_toml(self.text).expect("the crate's own data, which tests/robots reads")
+        (self.chain)()
     }
 }
 
-macro_rules! robots {
+macro_rules! arms {
     ($($(#[$about:meta])* $name:ident;)+) => {
-        /// All robots of this module.
-        pub const ALL: &[Robot] = &[$(Robot {
-            name: stringify!($name),
-            text: include_str!(concat!("data/", stringify!($name), ".toml")),
-        }),+];
-
         $($(#[$about])* pub fn $name() -> Chain {
-            Robot { name: stringify!($name), text: include_str!(concat!("data/", stringify!($name), ".toml")) }.chain()
+            let text = include_str!(concat!("data/", stringify!($name), ".toml"));
+            Chain::from_toml(text).expect("the crate's own data, which tests/robots reads")
         })+
     };
 }
 
-robots! {
+arms! {
     /// The polar robot of RH0 2.7: yaw, pitch, slide. Task: position.
     polar;
     /// The arm of PUMA type of RH0 A.2.
@@ -58,40 +68,92 @@ robots! {
     ur5;
     /// ABB IRB 120 with a tool that points down at zero.
     irb120;
+}
+
+macro_rules! limbs {
+    ($($(#[$about:meta])* $name:ident: $robot:ident, $base:literal to $tip:literal, $words:literal;)+) => {
+        /// All chains of this module.
+        pub const ALL: &[Known] = &[
+            Known { name: "polar", chain: polar },
+            Known { name: "puma", chain: puma },
+            Known { name: "stanford", chain: stanford },
+            Known { name: "ur5", chain: ur5 },
+            Known { name: "irb120", chain: irb120 },
+            $(Known { name: stringify!($name), chain: $name }),+
+        ];
+
+        $($(#[$about])* pub fn $name() -> Chain {
+            limb(&$robot(), stringify!($name), $base, $tip, $words)
+        })+
+    };
+}
+
+limbs! {
     /// RH0's right leg, foot to trunk: RH0 (3-10)-(3-24). Lengths inferred, limits assumed.
-    rh0_right_leg;
+    rh0_right_leg: rh0, "RS" to "Trunk", "ankle axes meet, knee parallel, hip axes meet in one point; x left, y up, z ahead";
     /// RH0's left leg, foot to trunk: RH0 (3-25)-(3-39). Lengths inferred, limits assumed.
-    rh0_left_leg;
+    rh0_left_leg: rh0, "LS" to "Trunk", "ankle axes meet, knee parallel, hip axes meet in one point; x left, y up, z ahead";
     /// The left leg of TEO, RH0's successor, root to sole.
-    teo_leg;
+    teo_leg: teo, "RootWaist" to "l_sole", "three hip axes meet, hip, knee and ankle pitch parallel, ankle axes meet; z up";
     /// NAO's left leg, torso to sole.
-    nao_left_leg;
+    nao_left_leg: nao_v5, "Torso" to "l_sole", "three hip axes meet, hip, knee and ankle pitch parallel, ankle axes meet; z up";
     /// NAO's right leg, torso to sole.
-    nao_right_leg;
+    nao_right_leg: nao_v5, "Torso" to "r_sole", "three hip axes meet, hip, knee and ankle pitch parallel, ankle axes meet; z up";
     /// NAO's left arm, torso to hand: five joints.
-    nao_left_arm;
+    nao_left_arm: nao_v5, "Torso" to "l_hand", "five joints: few poses are reachable, so ask for poses of forward kinematics";
     /// NAO's right arm, torso to hand: five joints.
-    nao_right_arm;
+    nao_right_arm: nao_v5, "Torso" to "r_hand", "five joints: few poses are reachable, so ask for poses of forward kinematics";
     /// NAO's head, torso to HeadPitch: two joints.
-    nao_head;
+    nao_head: nao_v5, "Torso" to "Head", "two joints whose axes meet in the tip: it reaches directions of view only";
 }
 
-/// The chain of the robot called `name`; `None` when no robot of [`ALL`] has that name.
+/// The chain called `name`; `None` when none of [`ALL`] has that name.
 pub fn by_name(name: &str) -> Option<Chain> {
-    ALL.iter().find(|robot| robot.name == name).map(Robot::chain)
+    ALL.iter().find(|known| known.name == name).map(Known::chain)
 }
 
-/// RH0 as a whole: its legs, column and arms; its mass is a point at the trunk's frame, for that of its links is not known.
-pub fn rh0() -> Whole {
-    Whole::from_toml(include_str!("whole/rh0.toml")).expect("the crate's own data, which tests/robots reads")
+/// A humanoid of this crate and the robot that walks, by the name that `groebot walk` knows: `nao`, `rh0`, `teo`.
+pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
+    match name {
+        "nao" => Some(nao_walker(outline)),
+        "rh0" => Some(rh0_walker()),
+        "teo" => Some(teo_walker()),
+        _ => None,
+    }
 }
 
-/// TEO as a whole: its legs, and all that is above them as one body.
-pub fn teo() -> Whole {
-    Whole::from_toml(include_str!("whole/teo.toml")).expect("the crate's own data, which tests/robots reads")
+/// The robot of one of this crate's files.
+fn described(text: &str) -> Robot {
+    Robot::from_toml(text).expect("the crate's own data, which tests/robots reads")
 }
 
-/// NAO V5 as a whole: torso, head, arms and legs, their masses, speeds and soles.
-pub fn nao_v5() -> Whole {
-    Whole::from_toml(include_str!("whole/nao_v5.toml")).expect("the crate's own data, which tests/robots reads")
+/// The chain of a limb under a name of its own.
+fn limb(robot: &Robot, name: &str, base: &str, tip: &str, words: &str) -> Chain {
+    let chain = robot.chain(Some(base), Some(tip)).expect("the crate's own data, which tests/robots reads");
+    let description = Some(format!("{}, {base} to {tip}: {words}", robot.name()));
+    let source = robot.parts().source.clone();
+    Chain::new(ChainParts { name: name.to_owned(), description, source, ..chain.parts().clone() })
+        .expect("the crate's own data, which tests/robots reads")
+}
+
+/// The value of each joint of `biped` \[rad\]: those that `values` names for a side, without the `L` or `R` of their names, zero elsewhere.
+///
+/// # Errors
+/// [`crate::ErrorKind::UnknownName`] when a named joint is missing on one side.
+fn posture<V>(biped: &Biped, values: impl Fn(Side) -> V) -> Result<Vec<f64>>
+where
+    V: IntoIterator<Item = (&'static str, f64)>,
+{
+    let mut posture = vec![0.0; biped.joints.len()];
+    for (side, prefix) in [(Side::Left, 'L'), (Side::Right, 'R')] {
+        for (name, value) in values(side) {
+            posture[biped.joint(&format!("{prefix}{name}"))?] = value;
+        }
+    }
+    Ok(posture)
+}
+
+/// A walker with legs that need nothing else.
+fn walker_of(biped: Biped, legs: Legs, gaits: &[(&'static str, crate::gait::Usual)]) -> Walker {
+    Walker { biped, legs, gaits: gaits.to_vec() }
 }

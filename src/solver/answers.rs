@@ -3,7 +3,7 @@
 use super::angle::angle;
 use super::apart::difference;
 use super::approach::{Approach, approached};
-use super::evaluate::{Nearest, Solution};
+use super::evaluate::Nearest;
 use super::frame::Frame;
 use super::pairs::{Pairs, UsualPairs};
 use super::program::{JointValue, Program};
@@ -12,6 +12,7 @@ use super::walk::Path;
 use super::{
     ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN, TWINS_AT,
 };
+use crate::kinematics::Solution;
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::answers::{Answer, Answers};
-use super::evaluate::Solution;
 use super::program::{JointValue, Program};
 use super::refine::{self, NONE_FREE};
 use super::{ALIKE, BLUR, DISTINCT, MAX_JOINTS, ROUNDING};
+use crate::kinematics::Solution;
 
 impl Answers<'_> {
     /// The farthest that a joint is moved from `a` to `b`: an angle, or a share of a length's size.

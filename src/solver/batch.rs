@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::evaluate::Solution;
 use super::program::Program;
+use crate::kinematics::Solution;
 use crate::{Error, ErrorKind, Result};
 
 /// So many targets are one piece of work.

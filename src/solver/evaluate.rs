@@ -8,22 +8,8 @@ use super::pairs::UsualPairs;
 use super::program::{Program, Rule};
 use super::walk::Walk;
 use super::{MERGE, refine};
+use crate::kinematics::{InverseKinematics, Solution, Target};
 use crate::{Error, ErrorKind, Result};
-
-/// One answer of a program.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Solution {
-    /// Joint values in the program's joint order: radians in (-pi, pi], lengths in the program's unit.
-    pub q: Vec<f64>,
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which charts and which roots gave it, in mixed radix over the blocks: the same number for the same branch at every target.
-    pub branch: usize,
-    /// Joints (indices) that may take any value here: this is one member of a family.
-    pub free: Vec<usize>,
-    /// Whether the source document would choose this one.
-    pub chosen: bool,
-}
 
 /// A candidate that does not solve the equations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -119,5 +105,12 @@ impl Program {
         for answer in answers {
             answer.chosen = value(answer) <= least + MERGE;
         }
+    }
+}
+
+impl InverseKinematics for Program {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        *out = self.solve(&[target.numbers(), given.to_vec()].concat())?;
+        Ok(())
     }
 }

@@ -2,9 +2,9 @@
 
 use super::answers::Answers;
 use super::apart::difference;
-use super::evaluate::Solution;
 use super::refine::{self, Fit, Joints, NONE_FREE};
 use super::{ARRIVED, ASIDE, DOUBLINGS, MAX_JOINTS, NARROWS, REGULAR, ROUNDING, SINGULAR, STAGES};
+use crate::kinematics::Solution;
 
 impl Answers<'_> {
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one

@@ -27,7 +27,7 @@ pub(crate) use crate::roots::quartic;
 pub use about::About;
 pub(crate) use angle::{EIGHTH, REST, SERIES};
 pub use batch::Batch;
-pub use evaluate::{Nearest, Solution};
+pub use evaluate::Nearest;
 pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};
 pub use pairs::Pairs;

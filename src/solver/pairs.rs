@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::evaluate::Solution;
 use super::instruction::{Instruction, Operand, Operation};
 use super::program::{JointValue, Program, Step};
 use super::walk::Path;
 use super::{BLUR, refine};
 use crate::Result;
+use crate::kinematics::Solution;
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
 const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;

@@ -1,9 +1,11 @@
 //! Rigid motions and the conventions of angles, twists and screws. Metres and radians throughout.
 //!
 //! A rigid transform is a [`Pose`]; a joint is a [`Screw`]; its infinitesimal motion is a [`Twist`],
-//! linear part first, as in RH0 (2-5); what acts on it is a [`Wrench`]. [`ScrewCoordinates`] are the geometry of both.
+//! linear part first, as in RH0 (2-5); what acts on it is a [`Wrench`], what weighs an [`Inertia`]. [`ScrewCoordinates`] are the geometry of both.
 
 pub mod angle;
+pub mod exact;
+mod inertia;
 pub mod intersection;
 pub mod line;
 pub mod matrix;
@@ -15,6 +17,7 @@ mod screw_coordinates;
 mod twist;
 mod wrench;
 
+pub use inertia::{ASYMMETRY, Inertia, ROUNDING};
 pub use line::Relation;
 pub use roll_pitch_yaw::RollPitchYaw;
 pub use rotation::{pitch_and_roll, vertical};

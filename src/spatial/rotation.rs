@@ -108,3 +108,14 @@ pub fn pitch_and_roll(rotation: &UnitQuaternion<f64>) -> (f64, f64) {
 pub fn vertical(pitch: f64, roll: f64) -> Vector3<f64> {
     Vector3::new(-pitch.sin(), pitch.cos() * roll.sin(), pitch.cos() * roll.cos())
 }
+
+/// Roll, pitch and yaw of a URDF \[rad\]: `R = Rz(yaw) Ry(pitch) Rx(roll)`, pitch in \[-pi/2, pi/2\]; where roll and yaw turn about one
+/// line, yaw is zero.
+pub fn rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
+    let r = rotation.to_rotation_matrix().into_inner();
+    let level = r[(0, 0)].hypot(r[(1, 0)]);
+    let yaw = if level <= 4.0 * f64::EPSILON { 0.0 } else { r[(1, 0)].atan2(r[(0, 0)]) };
+    let (s, c) = yaw.sin_cos();
+    let roll = (s * r[(0, 2)] - c * r[(1, 2)]).atan2(c * r[(1, 1)] - s * r[(0, 1)]);
+    [roll, (-r[(2, 0)]).atan2(level), yaw]
+}

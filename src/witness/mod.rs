@@ -15,8 +15,9 @@ pub use accuracy::{Accuracy, Class};
 pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 
 use crate::derive::Source;
+use crate::kinematics::Solution;
 use crate::kinematics::oracle::Oracle;
-use crate::solver::{Program, Solution};
+use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
 use model::{EXACT, Model, ORDINARY, RESIDUAL};
 use screws::Screws;

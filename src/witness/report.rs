@@ -1,8 +1,7 @@
 //! What the checks found: [`Report`], its table `6_check.csv` and its summary.
 
+use crate::kinematics::Solution;
 use std::fmt;
-
-use crate::solver::Solution;
 
 /// How a row's target was made.
 #[derive(Clone, Debug, PartialEq, Eq)]

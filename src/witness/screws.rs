@@ -1,13 +1,12 @@
 //! The witnesses that know the chain: forward kinematics, and the screw solver.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Vector3};
 
+use crate::Result;
+use crate::kinematics::screw::ScrewSolver;
 use crate::kinematics::screw::two_link::{Solution as Angles, TwoLink};
-use crate::kinematics::screw::{self, ScrewSolver, Target};
-use crate::kinematics::{Chain, JointKind, Plane, Task};
-use crate::solver::Solution;
-use crate::spatial::{Pose, Screw};
-use crate::{Error, ErrorKind, Result};
+use crate::kinematics::{Chain, JointKind, Plane, Solution, Target, Task};
+use crate::spatial::Screw;
 
 /// By how much forward kinematics at `q` misses `target`, as a share of the lengths at hand; infinite where it fails.
 pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
@@ -55,15 +54,8 @@ impl Screws {
             Screws::Planned(solver) => {
                 let chain = solver.chain();
                 let (target, given) = target.split_at(target.len().saturating_sub(chain.given_inputs().len()));
-                let found = solver.solve_given(&planned(chain.task(), target)?, given)?;
-                let answer = |(branch, answer): (usize, screw::Solution)| Solution {
-                    q: answer.q,
-                    residual: answer.position_residual,
-                    branch,
-                    free: answer.free,
-                    chosen: false,
-                };
-                Ok(found.into_iter().enumerate().map(answer).collect())
+                let found = solver.solve_given(&Target::from_numbers(chain.task(), target)?, given)?;
+                Ok(found.into_iter().enumerate().map(|(branch, answer)| Solution { branch, ..answer }).collect())
             }
         }
     }
@@ -97,32 +89,4 @@ fn bent(branch: usize, answer: &Angles) -> Solution {
         free: (0..2).filter(|&joint| answer.q[joint].is_none()).collect(),
         chosen: false,
     }
-}
-
-/// The rotation with nine entries, by rows.
-fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
-    let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
-    UnitQuaternion::from_rotation_matrix(&matrix)
-}
-
-/// The numbers of a derived solver's target, in the form of the task.
-fn planned(task: Task, target: &[f64]) -> Result<Target> {
-    Ok(match (task, target) {
-        (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
-        (Task::Pose, &[x, y, z, ..]) if target.len() == 12 => {
-            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation(&target[3..])))
-        }
-        (Task::Rotation, _) if target.len() == 9 => Target::Rotation(rotation(target)),
-        (Task::PositionPitchRoll, &[x, y, z, pitch, roll]) => {
-            Target::PositionPitchRoll { point: [x, y, z].into(), pitch, roll }
-        }
-        (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
-        (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
-        (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
-        (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
-        _ => {
-            let text = format!("{} numbers are no target of the task `{}`", target.len(), task.name());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-    })
 }

@@ -7,25 +7,26 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 19] = [
+const TABLE: [(&str, Uses); 20] = [
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
     ("poly", Uses::Only(&["number"])),
     ("groebner", Uses::Only(&["number", "poly"])),
     ("roots", Uses::Only(&["number", "poly"])),
     ("real", Uses::Only(&["number", "poly", "groebner", "roots"])),
-    ("spatial", Uses::Only(&[])),
-    ("kinematics", Uses::Only(&["spatial", "number", "roots"])),
-    ("dynamics", Uses::Only(&["spatial", "kinematics"])),
-    ("solver", Uses::Only(&["number", "poly", "roots"])),
-    ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "kinematics", "solver"])),
+    ("spatial", Uses::Only(&["number"])),
+    ("model", Uses::Only(&["number", "spatial"])),
+    ("kinematics", Uses::Only(&["number", "roots", "spatial", "model"])),
+    ("dynamics", Uses::Only(&["spatial", "model", "kinematics"])),
+    ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
+    ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (
         "witness",
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
     ),
     ("codegen", Uses::Only(&["number", "solver"])),
-    ("robots", Uses::Only(&["spatial", "kinematics", "solver"])),
-    ("gait", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics", "dynamics", "solver", "robots"])),
+    ("gait", Uses::Only(&["spatial", "model", "kinematics", "dynamics"])),
+    ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
     ("sim", Uses::AllAbove),
     ("serve", Uses::Only(&["sim"])),

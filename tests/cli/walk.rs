@@ -66,7 +66,8 @@ fn what_cannot_be_walked_is_refused_and_writes_nothing() {
         assert!(told.contains(word), "{word}: {told}");
         assert!(!out.exists());
     }
-    for wrong in [&["walk"][..], &["walk", "teapot"], &["walk", "nao", "--footsteps", "a.csv", "--steps", "3"]] {
+    assert!(refused(&["walk", "teapot"]).contains("`nao`, `rh0` or `teo`"));
+    for wrong in [&["walk"][..], &["walk", "nao", "--footsteps", "a.csv", "--steps", "3"]] {
         assert_eq!(run(wrong).code, 2, "{wrong:?}");
     }
 }
@@ -120,6 +121,7 @@ fn three_robots_walk_by_one_step_goal() {
         let told = refused(arguments);
         assert!(told.contains(word), "{word}: {told}");
     }
+    assert!(refused(&["walk", "teapot"]).contains("`nao`, `rh0` or `teo`"));
     for wrong in [
         &["walk", "rh0", "--plan", "out left", "--steps", "3"][..],
         &["walk", "teo", "--goal", "1,0", "--plan", "in left"],

@@ -8,7 +8,8 @@ use std::process::{Command, Stdio};
 
 use groebot::ErrorKind;
 use groebot::codegen::{self, c99::Pair};
-use groebot::solver::{Condition, Program, Solution};
+use groebot::kinematics::Solution;
+use groebot::solver::{Condition, Program};
 
 /// Joint values may differ by this, absolutely: the languages' elementary functions need not round alike.
 const TOLERANCE: f64 = 1e-12;

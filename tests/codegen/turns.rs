@@ -7,7 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use groebot::codegen::{c99, rust};
-use groebot::solver::{About, JointValue, Program, Solution};
+use groebot::kinematics::Solution;
+use groebot::solver::{About, JointValue, Program};
 
 use super::harness::{SANITIZERS, compile_c, feed, has_sanitizers, rustc};
 use super::random;

@@ -2,8 +2,8 @@
 //! up or down, anywhere, find what made each target.
 
 use groebot::derive::lift::Derived;
+use groebot::kinematics::Target;
 use groebot::kinematics::ideal::Report;
-use groebot::kinematics::screw::Target;
 use groebot::kinematics::{Chain, ChainParts, Task, along_z};
 use groebot::number::{BigRational, parse_rational};
 use groebot::witness::chain::Check;

@@ -24,12 +24,12 @@ fn close(a: &DMatrix<f64>, b: &DMatrix<f64>, scale: f64) -> bool {
 /// RH0 (2-43) with its adjoints, for joints i, j, k; as printed its first `A_ki` is transposed.
 fn derivative_by_adjoints(case: &Case, [i, j, k]: [usize; 3], as_printed: bool) -> f64 {
     let a = |i, j| case.arm.adjoint(i, j, &case.q).unwrap();
-    let x = |i: usize| case.arm.screws()[i].twist().to_vector();
+    let x = |i: usize| case.parts[i].screw.twist().to_vector();
     let bracket =
-        |carried: Vector6<f64>| Twist::from_vector(&carried).bracket(&case.arm.screws()[k].twist()).to_vector();
+        |carried: Vector6<f64>| Twist::from_vector(&carried).bracket(&case.parts[k].screw.twist()).to_vector();
     let first = if as_printed { a(k, i).transpose() } else { a(k, i) };
     let term = |l: usize| {
-        let mass = case.arm.transformed_inertia(l).unwrap();
+        let mass = case.arm.transformed_inertia(l + 1).unwrap();
         (a(l, k) * bracket(first * x(i))).dot(&(mass * a(l, j) * x(j)))
             + (a(l, i) * x(i)).dot(&(mass * a(l, k) * bracket(a(k, j) * x(j))))
     };

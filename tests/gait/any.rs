@@ -1,9 +1,7 @@
 //! Whatever is asked for: a walk that keeps what it promises, or a refusal that says when and why.
 
-use groebot::gait::{
-    Durations, Gait, Laws, Measures, NAO_ONE_STEP, Outline, RH0_GENERIC, Regular, Route, Side, Style, TEO_ONE_STEP,
-    Usual, Walker, plan,
-};
+use groebot::gait::{Durations, Gait, Laws, Measures, Regular, Route, Side, Style, Usual, plan};
+use groebot::robots::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
 use groebot::{ErrorKind, Watch};
 use nalgebra::Point2;
 use proptest::prelude::*;
@@ -61,15 +59,15 @@ proptest! {
         (x, y, length, lift) in (-0.05..0.1f64, -0.08..0.08f64, 0.04..0.2f64, 0.0..0.1f64),
         (share, lower, period, crouched) in (0.3..1.0f64, 0.0..0.06f64, 2.0..5.0f64, any::<bool>()),
     ) {
-        let (walker, usual) = [(Walker::Nao, NAO_ONE_STEP), (Walker::Rh0, RH0_GENERIC), (Walker::Teo, TEO_ONE_STEP)][robot];
-        let (humanoid, legs) = walker.build(Outline::Measured).unwrap();
+        let (walker, usual) = [("nao", NAO_ONE_STEP), ("rh0", RH0_GENERIC), ("teo", TEO_ONE_STEP)][robot].clone();
+        let (humanoid, legs) = super::built(walker);
         let Gait::OneStep(mut one_step) = usual.gait else { unreachable!("one step goal") };
         one_step.dip = dip;
         if rh0_laws {
             one_step.laws = Laws::Rh0 { power };
         }
         let amplitude = share * usual.amplitude;
-        let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual };
+        let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
         let asked = if crouched { asked } else { asked.from_upright(&humanoid) };
         let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
         let route = Route::towards(&Point2::new(x, y), Side::Right, &measures).unwrap();

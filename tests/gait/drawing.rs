@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use groebot::Watch;
-use groebot::gait::{Gait, Humanoid, Measures, NAO_SEED, Outline, Regular, Route, Side, Walk, Walker, plan};
+use groebot::gait::{Biped, Gait, Measures, Regular, Route, Side, Walk, plan};
+use groebot::robots::{NAO_SEED, Outline};
 use nalgebra::Point2;
 use quick_xml::events::Event;
 
@@ -80,7 +81,7 @@ fn axis(panel: &[Element], along: &str) -> impl Fn(f64) -> f64 {
 }
 
 /// The margins of a walk's table by their times \[m\], \[s\].
-fn margins_of_table(humanoid: &Humanoid, walk: &Walk) -> Vec<(f64, f64)> {
+fn margins_of_table(humanoid: &Biped, walk: &Walk) -> Vec<(f64, f64)> {
     let csv = walk.to_csv(humanoid);
     let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = lines.next().unwrap();
@@ -93,9 +94,9 @@ fn on_the_spot(turn: f64) -> Walk {
     walk(&groebot::gait::Request { route, ..request(&regular()) }).unwrap()
 }
 
-fn by_goal(walker: Walker, goal: (f64, f64)) -> (Humanoid, Walk) {
-    let (humanoid, legs) = walker.build(Outline::Measured).unwrap();
-    let usual = walker.gaits()[0].1;
+fn by_goal(walker: &str, goal: (f64, f64)) -> (Biped, Walk) {
+    let (humanoid, legs) = super::built(walker);
+    let usual = &groebot::robots::walker(walker, Outline::Measured).unwrap().unwrap().gaits[0].1;
     let measures =
         Measures { length: usual.length, half_width: usual.half_width(&humanoid), most_turn: usual.most_turn };
     let route = Route::towards(&Point2::new(goal.0, goal.1), Side::Left, &measures).unwrap();
@@ -106,7 +107,7 @@ fn by_goal(walker: Walker, goal: (f64, f64)) -> (Humanoid, Walk) {
 
 #[test]
 fn the_least_margin_is_marked_with_the_value_of_the_table() {
-    let (teo, far) = by_goal(Walker::Teo, (0.3, 0.1));
+    let (teo, far) = by_goal("teo", (0.3, 0.1));
     let preview = walk(&groebot::gait::Request { gait: Gait::Preview, ..request(&regular()) }).unwrap();
     for (humanoid, walk) in [(&robot().0, &on_the_spot(0.6)), (&robot().0, &preview), (&teo, &far)] {
         let all = elements(&walk.to_svg(humanoid));
@@ -160,7 +161,7 @@ fn the_times_on_one_foot_are_shaded() {
 
 #[test]
 fn the_axes_of_the_view_are_in_metres() {
-    let (teo, far) = by_goal(Walker::Teo, (0.3, 0.1));
+    let (teo, far) = by_goal("teo", (0.3, 0.1));
     let (nao, _) = robot();
     for (humanoid, walk) in [(nao, &walk(&request(&regular())).unwrap()), (nao, &on_the_spot(0.6)), (&teo, &far)] {
         let all = elements(&walk.to_svg(humanoid));
@@ -194,7 +195,7 @@ fn keep_apart(numbers: &[(String, (f64, f64))]) -> bool {
 #[test]
 fn every_sole_has_its_number_and_no_number_covers_another() {
     let (nao, _) = robot();
-    let (teo, far) = by_goal(Walker::Teo, (1.0, 0.5));
+    let (teo, far) = by_goal("teo", (1.0, 0.5));
     for (humanoid, walk) in [(nao, &walk(&request(&regular())).unwrap()), (nao, &on_the_spot(0.6)), (&teo, &far)] {
         let numbers = numbers(&walk.to_svg(humanoid));
         let mut steps: Vec<usize> =

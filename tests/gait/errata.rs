@@ -1,6 +1,7 @@
 //! What of RH0 3.5 cannot be walked as printed: the checks behind docs/errata.md.
 
-use groebot::gait::{Manipulator, Side, Virtual};
+use groebot::gait::Side;
+use groebot::robots::{Manipulator, Virtual};
 use groebot::spatial::Pose;
 use nalgebra::Vector3;
 

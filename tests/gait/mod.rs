@@ -17,14 +17,19 @@ mod zmp;
 use std::sync::OnceLock;
 
 use groebot::Watch;
-use groebot::gait::{
-    Durations, Gait, Humanoid, Legs, Outline, Regular, Request, Route, Side, Style, TICK, Walk, nao, plan,
-};
+use groebot::gait::{Biped, Durations, Gait, Legs, Regular, Request, Route, Side, Style, TICK, Walk, plan};
+use groebot::robots::Outline;
+
+/// A robot on its measured soles, and its legs.
+pub fn built(name: &str) -> (Biped, Legs) {
+    let walker = groebot::robots::walker(name, Outline::Measured).unwrap().unwrap();
+    (walker.biped, walker.legs)
+}
 
 /// NAO on its measured soles.
-fn robot() -> &'static (Humanoid, Legs) {
-    static ROBOT: OnceLock<(Humanoid, Legs)> = OnceLock::new();
-    ROBOT.get_or_init(|| nao(Outline::Measured).unwrap())
+fn robot() -> &'static (Biped, Legs) {
+    static ROBOT: OnceLock<(Biped, Legs)> = OnceLock::new();
+    ROBOT.get_or_init(|| built("nao"))
 }
 
 fn regular() -> Regular {

@@ -1,22 +1,20 @@
 //! One step goal for any humanoid, RH0 3.3; walks in words and towards a goal.
 
-use groebot::gait::{
-    Action, Measures, NAO_ONE_STEP, Outline, RH0_GENERIC, Route, Side, Summary, TEO_ONE_STEP, Usual, Walk, Walker,
-    Word, plan_at, words,
-};
+use groebot::gait::{Action, Measures, Route, Side, Summary, Usual, Walk, Word, plan_at, words};
+use groebot::robots::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
 use groebot::{ErrorKind, Watch};
 use nalgebra::Point2;
 use proptest::prelude::*;
 
 const MEASURES: Measures = Measures { length: 0.16, half_width: 0.112, most_turn: 0.2 };
 
-fn walk(walker: Walker, usual: &Usual, goal: (f64, f64)) -> Walk {
-    let (robot, legs) = walker.build(Outline::Measured).unwrap();
+fn walk(walker: &str, usual: &Usual, goal: (f64, f64)) -> Walk {
+    let (robot, legs) = super::built(walker);
     let measures = Measures { length: usual.length, half_width: robot.half_width(), most_turn: usual.most_turn };
     let route = Route::towards(&Point2::new(goal.0, goal.1), Side::Left, &measures).unwrap();
-    let usual = usual.from_upright(&robot);
+    let usual = usual.clone().from_upright(&robot);
     let request = |height| Ok(usual.request(&robot, route.clone(), height));
-    let walk = plan_at((&robot, &legs), None, usual.hip_heights, request, &Watch::none()).unwrap();
+    let walk = plan_at((&robot, &legs), None, &usual.hip_heights, request, &Watch::none()).unwrap();
     let arrived = walk.schedule.route.rests.last().unwrap().point();
     assert!((arrived - Point2::new(goal.0, goal.1)).norm() < 1e-3, "{arrived}");
     for balance in &walk.balances {
@@ -27,12 +25,12 @@ fn walk(walker: Walker, usual: &Usual, goal: (f64, f64)) -> Walk {
 }
 
 /// By forward kinematics of the whole robot.
-pub fn feet_are_on_their_prints(robot: &groebot::gait::Humanoid, walk: &Walk) {
+pub fn feet_are_on_their_prints(robot: &groebot::gait::Biped, walk: &Walk) {
     for (sample, reference) in walk.references.iter().enumerate() {
         let posture = &walk.motion.postures[sample];
-        let placed = robot.body.place(&posture.world_from_torso, &posture.q).unwrap();
+        let placed = robot.model.place(&posture.world_from_torso, &posture.q).unwrap();
         for (foot, sole) in robot.feet.iter().zip(&reference.world_from_soles) {
-            let reached = placed.motion(foot.link) * foot.torso_from_sole;
+            let reached = placed.motion(foot.body) * foot.torso_from_sole;
             let miss = (reached.to_homogeneous() - sole.to_homogeneous()).amax();
             assert!(miss < 1e-9, "{sample}: {miss}");
         }
@@ -42,15 +40,15 @@ pub fn feet_are_on_their_prints(robot: &groebot::gait::Humanoid, walk: &Walk) {
 #[test]
 fn three_robots_step_towards_a_goal() {
     for (walker, usual, goal) in [
-        (Walker::Nao, NAO_ONE_STEP, (0.2, 0.1)),
-        (Walker::Rh0, RH0_GENERIC, (0.6, -0.3)),
-        (Walker::Teo, TEO_ONE_STEP, (0.5, 0.2)),
-        (Walker::Teo, TEO_ONE_STEP, (0.3, 0.0)),
+        ("nao", NAO_ONE_STEP, (0.2, 0.1)),
+        ("rh0", RH0_GENERIC, (0.6, -0.3)),
+        ("teo", TEO_ONE_STEP, (0.5, 0.2)),
+        ("teo", TEO_ONE_STEP, (0.3, 0.0)),
     ] {
         let walk = walk(walker, &usual, goal);
-        let (robot, _) = walker.build(Outline::Measured).unwrap();
+        let (robot, _) = super::built(walker);
         let summary = Summary::of(&robot, &walk);
-        assert_eq!(summary.is_point_mass, walker == Walker::Rh0, "{summary}");
+        assert_eq!(summary.is_point_mass, walker == "rh0", "{summary}");
         assert!(summary.margin.value >= usual.margin && summary.fastest.1.value <= usual.speed_share);
     }
 }
@@ -59,7 +57,7 @@ fn three_robots_step_towards_a_goal() {
 /// moves; it starts half-way between the feet and ends there. The key points are the ends of the phases.
 #[test]
 fn the_centre_of_mass_keeps_to_the_circle() {
-    let walk = walk(Walker::Rh0, &RH0_GENERIC, (0.6, -0.3));
+    let walk = walk("rh0", &RH0_GENERIC, (0.6, -0.3));
     let radius = walk.request.style.half_width - walk.request.style.amplitude;
     assert!((radius - 0.06).abs() < 1e-15, "RA_AS");
     let mut swings = 0;
@@ -144,7 +142,7 @@ proptest! {
 /// maker's table of masses has unlike.
 #[test]
 fn teo_is_solved_on_both_sides() {
-    let (robot, legs) = Walker::Teo.build(Outline::Measured).unwrap();
+    let (robot, legs) = super::built("teo");
     let sole = |side: Side, y: f64, yaw: f64| {
         let at = robot.feet[side as usize].torso_from_sole.translation.vector;
         let turn = nalgebra::UnitQuaternion::from_axis_angle(&nalgebra::Vector3::z_axis(), yaw);
@@ -157,5 +155,5 @@ fn teo_is_solved_on_both_sides() {
         let mirrored = [-a[0], -a[1], a[2], a[3], a[4], -a[5]];
         assert!(mirrored.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12));
     }
-    assert!((robot.body.mass() - 55.9).abs() < 1e-3, "the sum of the maker's table");
+    assert!((robot.model.mass() - 55.9).abs() < 1e-3, "the sum of the maker's table");
 }

@@ -4,11 +4,10 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use groebot::Watch;
-use groebot::gait::{
-    Action, Humanoid, Legs, Manipulator, Measures, Outline, RH0_EXPERIMENT, RH0_SIMULATION, Request, Route, Side,
-    Summary, Usual, Walk, coordinated_arm, plan, plan_at, rh0, words,
-};
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::gait::{Action, Biped, Legs, Measures, Request, Route, Side, Summary, Usual, Walk, plan, plan_at, words};
+use groebot::kinematics::Target;
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::robots::{Manipulator, RH0_EXPERIMENT, RH0_SIMULATION, coordinated_arm};
 use groebot::spatial::Pose;
 use nalgebra::{Point3, Vector3};
 
@@ -17,23 +16,23 @@ pub const LINE: &str = "out right, stride left, stride right, in left";
 /// 25 rpm \[rad/s\], RH0 5.3.1.
 const MOTOR: f64 = 25.0 * 2.0 * PI / 60.0;
 
-pub fn walker() -> &'static (Humanoid, Legs) {
-    static ROBOT: OnceLock<(Humanoid, Legs)> = OnceLock::new();
-    ROBOT.get_or_init(|| rh0(Outline::Measured).unwrap())
+pub fn walker() -> &'static (Biped, Legs) {
+    static ROBOT: OnceLock<(Biped, Legs)> = OnceLock::new();
+    ROBOT.get_or_init(|| super::built("rh0"))
 }
 
 pub fn request(usual: &Usual, text: &str, hip_height: f64, from_upright: bool) -> Request {
     let (robot, _) = walker();
     let measures = Measures { length: usual.length, half_width: robot.half_width(), most_turn: usual.most_turn };
     let route = Route::of_words(&words(text).unwrap(), &measures).unwrap();
-    let usual = if from_upright { usual.from_upright(robot) } else { *usual };
+    let usual = if from_upright { usual.clone().from_upright(robot) } else { usual.clone() };
     usual.request(robot, route, hip_height)
 }
 
 fn walk(usual: &Usual, text: &str, from_upright: bool) -> Walk {
     let (robot, legs) = walker();
     let at = |height| Ok(request(usual, text, height, from_upright));
-    plan_at((robot, legs), None, usual.hip_heights, at, &Watch::none()).unwrap()
+    plan_at((robot, legs), None, &usual.hip_heights, at, &Watch::none()).unwrap()
 }
 
 /// All joints within their limits and slower than 25 rpm, the zero moment point inside the support polygon, no phase slowed down.
@@ -177,6 +176,7 @@ fn both_halves_are_solved_by_two_witnesses() {
 fn arms_are_coordinated_with_the_other_leg() {
     let (robot, _) = walker();
     let walk = walk(&RH0_SIMULATION, LINE, true);
+    let whole = groebot::robots::rh0();
     let place = |symbol: u32| robot.joints.iter().position(|joint| joint.symbol == symbol.to_string()).unwrap();
     for sample in (0..walk.balances.len()).step_by(31) {
         let posture = &walk.motion.postures[sample];
@@ -188,10 +188,11 @@ fn arms_are_coordinated_with_the_other_leg() {
         assert_eq!([q(13), q(17), q(21)], [0.0; 3]);
         let half = Manipulator::rh0(Side::Right).unwrap();
         let (_, foot) = in_thesis_frames(&walk, sample, Side::Right);
-        let real = groebot::gait::Real { leg: [1, 2, 3, 4, 5, 6].map(q), column: q(13), arm: [14, 15, 16, 17].map(q) };
+        let real =
+            groebot::robots::Real { leg: [1, 2, 3, 4, 5, 6].map(q), column: q(13), arm: [14, 15, 16, 17].map(q) };
         let hand = half.hand(&half.virtual_joints(&foot), &real).translation.vector;
-        let placed = robot.body.place(&posture.world_from_torso, &posture.q).unwrap();
-        let wrist = placed.world_from_link(place(17)).translation.vector;
+        let placed = robot.model.place(&posture.world_from_torso, &posture.q).unwrap();
+        let wrist = placed.world_from_link(whole.link("RHand").unwrap()).translation.vector;
         let ours = Point3::new(hand.z, hand.x, hand.y + robot.feet[0].ankle_height);
         assert!((ours.coords - wrist).norm() < 1e-9, "{sample}");
     }

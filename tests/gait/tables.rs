@@ -3,7 +3,8 @@
 //! What is fitted: the trunk goes down by the same length from sample to sample, so that 1 - cos q2 grows by a rate; the rate comes from two
 //! rows, and where the descent starts from two rows too. All other values follow, through the walk itself.
 
-use groebot::gait::{Durations, RH0_EXPERIMENT, RH0_SIMULATION, Usual, Walk};
+use groebot::gait::{Durations, Usual, Walk};
+use groebot::robots::{RH0_EXPERIMENT, RH0_SIMULATION};
 
 use super::rh0::{LINE, request, walker};
 

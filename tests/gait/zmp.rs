@@ -2,23 +2,23 @@
 
 use std::f64::consts::TAU;
 
-use groebot::dynamics::{Body, Limb, LinkInertia, Momentum, Multibody};
+use groebot::dynamics::{Model, Momentum};
 use groebot::gait::{Configuration, GRAVITY, momentum_between, of_pendulum, zero_moment_point};
-use groebot::spatial::{Pose, Screw};
+use groebot::spatial::{Inertia, Pose, Screw};
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
+use crate::dynamics::{Part, model};
+
 /// A ball on a stick, with a wheel about y at its centre.
-fn wheel() -> Multibody {
-    let body = |mass, moment| Body {
-        base_from_link: Pose::identity(),
-        inertia: LinkInertia::new(mass, Point3::origin(), Matrix3::identity() * moment).unwrap(),
-    };
+fn wheel() -> Model {
+    let inertia = |mass, moment| Inertia::new(mass, Point3::origin(), Matrix3::identity() * moment).unwrap();
     let screw = Screw::revolute(Vector3::y(), Point3::origin()).unwrap();
-    Multibody::new(body(2.0, 0.01), vec![Limb { parent: None, screw, body: body(1.0, 0.02) }]).unwrap()
+    let wheel = Part { parent: None, screw, base_from_link: Pose::identity(), inertia: inertia(1.0, 0.02) };
+    model(Some(&inertia(2.0, 0.01)), &[wheel])
 }
 
 /// The zero moment point at time 0 of poses and joint values as functions of time.
-fn zmp(body: &Multibody, tick: f64, at: impl Fn(f64) -> (Pose, f64)) -> nalgebra::Point2<f64> {
+fn zmp(body: &Model, tick: f64, at: impl Fn(f64) -> (Pose, f64)) -> nalgebra::Point2<f64> {
     let [before, now, after] = [-tick, 0.0, tick].map(&at);
     let between = |a: &(Pose, f64), b: &(Pose, f64)| {
         let [a, b] = [a, b].map(|(pose, q)| (pose, [*q]));

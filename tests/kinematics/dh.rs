@@ -3,7 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use groebot::ErrorKind;
-use groebot::kinematics::{Chain, DhConvention, DhTable, JointKind, LengthUnit, Task, Tree};
+use groebot::kinematics::{Chain, DhConvention, DhTable, JointKind, LengthUnit, Task};
+use groebot::model::Robot;
 use nalgebra::{Matrix4, Rotation3, Translation3, Vector3};
 use proptest::prelude::*;
 
@@ -104,7 +105,7 @@ proptest! {
     fn four_readers_of_one_robot_agree(q in prop::collection::vec(-6.3f64..6.3, 6)) {
         let [standard, modified] = [STANDARD, MODIFIED].map(|text| forward(&Chain::from_dh_toml(text).unwrap(), &q));
         let by_axes = forward(&Chain::from_toml(AXES).unwrap(), &q);
-        let by_urdf = forward(&Tree::from_urdf(URDF).unwrap().chain(None, None).unwrap().ideal().0, &q);
+        let by_urdf = forward(&Robot::from_urdf(URDF).unwrap().chain(None, None).unwrap().ideal().0, &q);
         for other in [modified, by_axes, by_urdf] {
             prop_assert!((standard - other).norm() < 1e-14, "{}", (standard - other).norm());
         }

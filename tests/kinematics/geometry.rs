@@ -1,6 +1,7 @@
 //! How axes lie, against what is known of well-known arms, and in every configuration.
 
-use groebot::kinematics::{Chain, Geometry, Tree};
+use groebot::kinematics::{Chain, Geometry};
+use groebot::model::Robot;
 use groebot::spatial::Relation;
 use nalgebra::Point3;
 
@@ -16,7 +17,7 @@ fn chain(joints: &[(&str, &str, &str)]) -> Chain {
 }
 
 fn nao(tip: &str) -> Geometry {
-    Geometry::of(&Tree::from_urdf(NAO).unwrap().chain(Some("torso"), Some(tip)).unwrap())
+    Geometry::of(&Robot::from_urdf(NAO).unwrap().chain(Some("torso"), Some(tip)).unwrap())
 }
 
 fn near(a: Point3<f64>, b: [f64; 3]) -> bool {

@@ -3,8 +3,9 @@
 
 use groebot::ErrorKind;
 use groebot::kinematics::numeric::NumericSolver;
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, Task, Tree};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, Target, Task};
+use groebot::model::Robot;
 
 const TELESCOPE: &str = include_str!("../corpus/urdf/telescope.urdf");
 const FINGER: &str = include_str!("../corpus/urdf/finger.urdf");
@@ -12,11 +13,11 @@ const FINGER: &str = include_str!("../corpus/urdf/finger.urdf");
 /// The same robot with every joint on its own.
 fn alone(text: &str) -> Chain {
     let lines: Vec<&str> = text.lines().filter(|line| !line.contains("<mimic")).collect();
-    Tree::from_urdf(&lines.join("\n")).unwrap().chain(None, Some("tip")).unwrap()
+    Robot::from_urdf(&lines.join("\n")).unwrap().chain(None, Some("tip")).unwrap()
 }
 
 fn chain(text: &str) -> Chain {
-    Tree::from_urdf(text).unwrap().chain(None, Some("tip")).unwrap()
+    Robot::from_urdf(text).unwrap().chain(None, Some("tip")).unwrap()
 }
 
 fn apart(a: &Chain, p: &[f64], b: &Chain, q: &[f64]) -> f64 {
@@ -37,7 +38,7 @@ fn slides_that_move_together_are_one_joint() {
     // The tightest limits are those of third, 0.15 for its 2 shares of 4.5.
     let (low, high) = whole.joints()[1].limits.unwrap();
     assert!(low.abs() < 1e-15 && (high - 0.15 * 4.5 / 2.0).abs() < 1e-12, "{low}..{high}");
-    let tree = Tree::from_urdf(TELESCOPE).unwrap();
+    let tree = Robot::from_urdf(TELESCOPE).unwrap();
     let notes = tree.notes(&tree.path(None, Some("tip")).unwrap());
     assert!(
         notes
@@ -76,7 +77,7 @@ fn where_the_leader_is_given_the_others_are() {
         let mut q = vec![0.37 * f64::from(at) - 3.0, 0.2 * f64::from(at) - 2.0, 0.1 * f64::from(at), 0.0, 0.0];
         asked.follow(&mut q);
         let target = Target::reached(&asked, &q).unwrap();
-        let found = |answers: Vec<groebot::kinematics::screw::Solution>| {
+        let found = |answers: Vec<groebot::kinematics::Solution>| {
             answers.iter().any(|answer| answer.q.iter().zip(&q).all(|(a, b)| (a - b).sin().abs() < 1e-7))
         };
         assert!(found(numeric.solve(&target, &[q[2]]).unwrap()), "{at}");

@@ -3,7 +3,6 @@
 mod chain;
 mod chain_toml;
 mod dh;
-mod exact_rotation;
 mod fk;
 mod geometry;
 mod ideal;
@@ -12,9 +11,6 @@ mod mimic;
 mod numeric;
 mod oracle;
 mod screw;
-mod tree;
-mod urdf;
-mod urdf_angles;
 
 use groebot::number::{BigRational, parse_rational};
 

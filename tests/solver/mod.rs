@@ -10,7 +10,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::codegen::builder::*;
 use crate::codegen::samples::{arm, pan_tilt, polar, wrist};
 use groebot::ErrorKind;
-use groebot::solver::{Block, Chart, Checks, JointValue, Pivot, Program, Rule, Solution, Step, Unit};
+use groebot::kinematics::Solution;
+use groebot::solver::{Block, Chart, Checks, JointValue, Pivot, Program, Rule, Step, Unit};
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {
     let turn = 2.0 * PI;

@@ -1,6 +1,8 @@
 //! Angles, rotations, screws and twists against matrix definitions that share no code with them.
 
 mod errata;
+mod exact_rotation;
+mod inertia;
 mod intersection;
 mod matrix;
 mod pose;

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use groebot::kinematics::oracle::{Oracle, Unknown};
-use groebot::kinematics::{Chain, JointKind, Task, Tree};
+use groebot::kinematics::{Chain, JointKind, Solution, Task};
+use groebot::model::Robot;
 use groebot::number::BigRational;
 use groebot::robots;
-use groebot::solver::Solution;
 use groebot::witness::chain::{ByScrews, Check, Solver, count_exactly};
 use groebot::witness::{Fault, Kind, Options, Report, Verdict};
 use groebot::{Result, Watch};
@@ -219,7 +219,7 @@ fn exact_counts_are_those_of_screw_theory() {
 #[test]
 fn a_turned_base_and_a_tool_leave_the_counts() {
     let count = |text: &str| {
-        let chain = Tree::from_urdf(text).unwrap().chain(None, None).unwrap();
+        let chain = Robot::from_urdf(text).unwrap().chain(None, None).unwrap();
         let counted = count_exactly(&chain, 8, 7, &Watch::none()).unwrap();
         counted.into_iter().map(|counted| counted.solutions).collect::<Vec<_>>()
     };

@@ -10,8 +10,7 @@ use std::time::Instant;
 
 use groebot::derive::lift::Derived;
 use groebot::derive::{Ends, InputFile, Proved};
-use groebot::kinematics::Chain;
-use groebot::solver::Solution;
+use groebot::kinematics::{Chain, Solution};
 use groebot::witness::chain::{ByScrews, Check, Solver};
 use groebot::witness::{Options, Report};
 use groebot::{Result, Watch};

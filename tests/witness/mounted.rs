@@ -2,7 +2,8 @@
 
 use groebot::Watch;
 use groebot::derive::lift::Derived;
-use groebot::kinematics::{Chain, Geometry, Tree};
+use groebot::kinematics::{Chain, Geometry};
+use groebot::model::Robot;
 use groebot::witness::Options;
 use groebot::witness::chain::Check;
 
@@ -11,7 +12,7 @@ const KR6: &str = include_str!("../corpus/urdf/kr6_r900.urdf");
 /// The arm on a base at this roll, pitch and yaw.
 fn mounted(rpy: &str) -> Chain {
     let (first, rest) = KR6.split_once("rpy=\"0 0 0\"").unwrap();
-    Tree::from_urdf(&format!("{first}rpy=\"{rpy}\"{rest}")).unwrap().chain(None, None).unwrap()
+    Robot::from_urdf(&format!("{first}rpy=\"{rpy}\"{rest}")).unwrap().chain(None, None).unwrap()
 }
 
 #[test]

@@ -5,8 +5,9 @@
 use std::hint::black_box;
 use std::io::Result;
 
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::robots::{self, Robot};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::Target;
+use groebot::robots::{self, Known};
 use groebot_peers::by_batch;
 use groebot_peers::by_ik_geo::IkGeo;
 use groebot_peers::by_opw::Opw;
@@ -18,7 +19,7 @@ fn main() -> Result<()> {
     robots::ALL.iter().try_for_each(contest)
 }
 
-fn contest(robot: &Robot) -> Result<()> {
+fn contest(robot: &Known) -> Result<()> {
     let chain = robot.chain();
     let poses: Vec<_> = poses(&chain).into_iter().map(|(_, pose)| pose).collect();
     let mut contenders = Vec::new();

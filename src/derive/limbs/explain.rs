@@ -4,7 +4,8 @@ use std::fmt;
 
 use super::derived::{DerivedLimbs, LimbStage};
 use crate::derive::lift::Derived;
-use crate::solver::{Nearest, Solution, Unit};
+use crate::kinematics::Solution;
+use crate::solver::{Nearest, Unit};
 use crate::spatial::angle;
 use crate::{Result, Watch};
 

@@ -5,8 +5,8 @@ use nalgebra::{Point2, Vector2};
 use super::frame::Frame;
 use super::svg::{Svg, Swatch};
 use super::{INNER, LEFT, Walk};
+use crate::gait::biped::Biped;
 use crate::gait::footprint::{Footprint, Side};
-use crate::gait::humanoid::Humanoid;
 use crate::spatial::angle;
 
 /// The greatest height of the view \[px\].
@@ -32,9 +32,9 @@ struct Sole {
 }
 
 /// Draws the view with its title at `top` \[px\], and tells where it ends.
-pub(super) fn draw(walk: &Walk, humanoid: &Humanoid, top: f64, svg: &mut Svg) -> f64 {
+pub(super) fn draw(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     let count = walk.schedule.route.steps.len();
-    let title = format!("{}: {count} steps from above, ahead to the right, left up", humanoid.name);
+    let title = format!("{}: {count} steps from above, ahead to the right, left up", biped.name);
     svg.text("title", (LEFT, top + 12.0), &title);
     let legend = [
         (Swatch::Area, "left", "left sole"),
@@ -45,17 +45,17 @@ pub(super) fn draw(walk: &Walk, humanoid: &Humanoid, top: f64, svg: &mut Svg) ->
     ];
     svg.legend((LEFT, top + 32.0), &legend);
     let soles = soles(walk);
-    let frame = around(soles.iter().flat_map(|sole| corners(humanoid, sole)), top + 42.0);
+    let frame = around(soles.iter().flat_map(|sole| corners(biped, sole)), top + 42.0);
     frame.draw(("m", "m"), svg);
     for sole in &soles {
         let share = *sole.steps.last().unwrap_or(&0) as f64 / count.max(1) as f64;
-        let corners = corners(humanoid, sole).into_iter().map(|corner| frame.at((corner.x, corner.y)));
+        let corners = corners(biped, sole).into_iter().map(|corner| frame.at((corner.x, corner.y)));
         svg.polygon(sole.side.name(), PALEST + (1.0 - PALEST) * share, corners);
     }
     let path = |point: &Point2<f64>| frame.at((point.x, point.y));
     svg.line("zmp", walk.balances.iter().map(|balance| path(&balance.zmp)));
     svg.line("com", walk.balances.iter().map(|balance| path(&balance.pressure)));
-    draw_numbers(humanoid, &soles, &frame, svg);
+    draw_numbers(biped, &soles, &frame, svg);
     frame.end()
 }
 
@@ -78,8 +78,8 @@ fn is_same(a: &Footprint, b: &Footprint) -> bool {
     (a.point() - b.point()).norm() < SAME.0 && angle::difference(a.yaw, b.yaw).abs() < SAME.1
 }
 
-fn corners(humanoid: &Humanoid, sole: &Sole) -> Vec<Point2<f64>> {
-    humanoid.sole_at(sole.side, &sole.print).corners().to_vec()
+fn corners(biped: &Biped, sole: &Sole) -> Vec<Point2<f64>> {
+    biped.sole_at(sole.side, &sole.print).corners().to_vec()
 }
 
 /// The frame at `top` that holds all `points`, in one scale for both axes.
@@ -98,7 +98,7 @@ fn around(points: impl Iterator<Item = Point2<f64>>, top: f64) -> Frame {
 
 /// Writes each sole's number where no other one is: on the toes, or elsewhere with a line that leads there. The first and the last soles
 /// come first; a number without room is left out.
-fn draw_numbers(humanoid: &Humanoid, soles: &[Sole], frame: &Frame, svg: &mut Svg) {
+fn draw_numbers(biped: &Biped, soles: &[Sole], frame: &Frame, svg: &mut Svg) {
     let count = soles.len();
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by_key(|place| (2..count.saturating_sub(2).max(2)).contains(place));
@@ -106,7 +106,7 @@ fn draw_numbers(humanoid: &Humanoid, soles: &[Sole], frame: &Frame, svg: &mut Sv
     for sole in order.into_iter().map(|place| &soles[place]) {
         let text = numbers(&sole.steps);
         let half = (DIGIT.0 * text.chars().count() as f64 / 2.0 + 1.5, DIGIT.1 / 2.0 + 1.0);
-        let places = places(humanoid, sole, frame, half);
+        let places = places(biped, sole, frame, half);
         let boxed = |(x, y): (f64, f64)| [x - half.0, x + half.0, y - half.1, y + half.1];
         let free =
             |at: &(f64, f64)| lies_within(boxed(*at), frame) && !taken.iter().any(|other| meet(boxed(*at), *other));
@@ -130,9 +130,9 @@ fn numbers(steps: &[usize]) -> String {
 
 /// The places for a number that is twice `half` wide and high \[px\], the best first: on the toes; beside them and ahead, farther and
 /// farther; on the heel and in the middle.
-fn places(humanoid: &Humanoid, sole: &Sole, frame: &Frame, half: (f64, f64)) -> Vec<(f64, f64)> {
+fn places(biped: &Biped, sole: &Sole, frame: &Frame, half: (f64, f64)) -> Vec<(f64, f64)> {
     let metres = (frame.high.0 - frame.low.0) / frame.size.0;
-    let outline = &humanoid.feet[sole.side as usize].corners;
+    let outline = &biped.feet[sole.side as usize].corners;
     let range = |coordinate: fn(&Point2<f64>) -> f64| {
         let values = outline.iter().map(coordinate);
         (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))

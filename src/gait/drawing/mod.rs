@@ -6,7 +6,7 @@ mod margin;
 mod series;
 mod svg;
 
-use super::humanoid::Humanoid;
+use super::biped::Biped;
 use super::plan::Walk;
 
 /// The width of the picture, what is left of its frames, and the width of those that take all of it \[px\].
@@ -20,12 +20,12 @@ impl Walk {
     /// The walk as SVG: from above (x to the right, y up) with the number of the step on each sole; below it the margin of the zero moment
     /// point in time, with the least one marked and the times shaded in which one foot stands alone; the paths of ankles and trunk; each
     /// joint that moves, against its limits. Metres, millimetres for the margin, seconds, degrees.
-    pub fn to_svg(&self, humanoid: &Humanoid) -> String {
+    pub fn to_svg(&self, biped: &Biped) -> String {
         let mut svg = svg::Svg::default();
-        let above = floor::draw(self, humanoid, GAP, &mut svg);
+        let above = floor::draw(self, biped, GAP, &mut svg);
         let margin = margin::draw(self, above + GAP, &mut svg);
-        let paths = series::draw_paths(self, humanoid, margin + GAP, &mut svg);
-        let joints = series::draw_joints(self, humanoid, paths + GAP, &mut svg);
+        let paths = series::draw_paths(self, biped, margin + GAP, &mut svg);
+        let joints = series::draw_joints(self, biped, paths + GAP, &mut svg);
         svg.finish(WIDTH, joints + GAP)
     }
 }

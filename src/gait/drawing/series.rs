@@ -5,8 +5,8 @@ use nalgebra::{Point2, Point3, Vector3};
 use super::frame::Frame;
 use super::svg::Svg;
 use super::{GAP, INNER, LEFT, Walk};
+use crate::gait::biped::Biped;
 use crate::gait::footprint::Side;
-use crate::gait::humanoid::Humanoid;
 
 /// The width and height of a joint's panel, and what is left free beside it and above it \[px\].
 const PANEL: (f64, f64) = (332.0, 110.0);
@@ -22,10 +22,10 @@ const LEAST_PATH: f64 = 0.01;
 const LEFTWARDS: (f64, f64) = (0.35, 0.3);
 
 /// The paths of ankles and trunk in space, seen aslant from the right: RH0 Fig. 5-14, 5-20. Tells where they end \[px\].
-pub(super) fn draw_paths(walk: &Walk, humanoid: &Humanoid, top: f64, svg: &mut Svg) -> f64 {
+pub(super) fn draw_paths(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     let aslant = |at: Vector3<f64>| Point2::new(at.x + LEFTWARDS.0 * at.y, at.z + LEFTWARDS.1 * at.y);
     let ankle = |side: Side| -> Vec<Point2<f64>> {
-        let up = Point3::new(0.0, 0.0, humanoid.feet[side as usize].ankle_height);
+        let up = Point3::new(0.0, 0.0, biped.feet[side as usize].ankle_height);
         let soles = walk.references.iter().map(|reference| reference.world_from_soles[side as usize]);
         soles.map(|sole| aslant((sole * up).coords)).collect()
     };
@@ -66,14 +66,14 @@ fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64),
 }
 
 /// Each joint that moves, against its limits; where they end \[px\].
-pub(super) fn draw_joints(walk: &Walk, humanoid: &Humanoid, top: f64, svg: &mut Svg) -> f64 {
-    let moving = (0..humanoid.joints.len()).filter(|joint| moves(walk, *joint));
+pub(super) fn draw_joints(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
+    let moving = (0..biped.joints.len()).filter(|joint| moves(walk, *joint));
     let mut end = top;
     for (place, joint) in moving.enumerate() {
         let (column, row) = (place % COLUMNS, place / COLUMNS);
         let height = ABOVE + PANEL.1 + super::frame::BELOW + GAP / 2.0;
         let corner = (LEFT + column as f64 * (PANEL.0 + BESIDE), top + row as f64 * height);
-        end = draw_joint(walk, humanoid, joint, corner, svg);
+        end = draw_joint(walk, biped, joint, corner, svg);
     }
     end
 }
@@ -84,8 +84,8 @@ fn moves(walk: &Walk, joint: usize) -> bool {
 }
 
 /// A joint in time against its limits, in degrees; where its panel ends \[px\].
-fn draw_joint(walk: &Walk, humanoid: &Humanoid, joint: usize, corner: (f64, f64), svg: &mut Svg) -> f64 {
-    let range = &humanoid.joints[joint];
+fn draw_joint(walk: &Walk, biped: &Biped, joint: usize, corner: (f64, f64), svg: &mut Svg) -> f64 {
+    let range = &biped.joints[joint];
     let values: Vec<f64> = walk.motion.postures.iter().map(|posture| posture.q[joint].to_degrees()).collect();
     let limits = [range.limits.0.to_degrees(), range.limits.1.to_degrees()];
     let room = 0.05 * (1.0 + limits[1] - limits[0]);

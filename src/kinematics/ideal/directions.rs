@@ -3,9 +3,9 @@
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::SAME;
-use crate::kinematics::exact_vector::{cosine, cross, dot, is_zero, scale, sine, sub};
 use crate::kinematics::{ExactVector, Joint};
 use crate::number::BigRational;
+use crate::spatial::exact::vector::{cosine, cross, dot, is_zero, scale, sine, sub};
 
 /// From this grain on directions are told in short numbers.
 const COARSE: f64 = 1e-4;

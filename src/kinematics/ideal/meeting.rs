@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::{line, turn};
-use crate::kinematics::exact_vector::sine;
 use crate::kinematics::{ExactVector, Joint};
+use crate::spatial::exact::vector::sine;
 
 /// Directions nearer than this are taken for parallel, so that no meeting point is looked for \[rad\].
 const PARALLEL: f64 = 1e-3;

@@ -15,7 +15,7 @@ use crate::{Error, ErrorKind, Result};
 use report::moved;
 pub use report::{Moved, Relation, RelationKind, Report};
 
-use super::exact_vector::Line;
+use crate::spatial::exact::vector::Line;
 
 /// What holds within this is meant, unless another tolerance is asked for: radians, and shares of the reach.
 pub const TOLERANCE: f64 = 1e-6;

@@ -7,9 +7,9 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::directions::directions;
 use super::{SAME, lengths, line};
 use crate::Result;
-use crate::kinematics::exact_vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub};
 use crate::kinematics::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip};
 use crate::number::BigRational;
+use crate::spatial::exact::vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub};
 
 /// Directions nearer than this have their common normal far away; their offset is taken as that of parallel ones \[rad\].
 const PARALLEL: f64 = 1e-3;

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use super::meeting::gatherings;
 use super::{SAME, line, size, turn};
-use crate::kinematics::exact_vector::{Line, cosine, cross, is_zero, length, sine, sub};
 use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
+use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
 
 /// What joints in a row have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

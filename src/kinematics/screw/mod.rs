@@ -5,6 +5,7 @@
 
 pub mod circles;
 mod feature;
+mod goal;
 mod model;
 pub mod one_joint;
 mod order;
@@ -18,7 +19,6 @@ mod refine;
 mod search;
 mod solver;
 mod step;
-mod target;
 pub mod three_joints;
 mod trigonometric;
 mod turn;
@@ -29,4 +29,25 @@ pub mod values;
 
 pub use plan::{Plan, PlanStep, Subproblem};
 pub use solver::{ACCEPT, ScrewSolver};
-pub use target::{Solution, Target};
+
+use super::Chain;
+use crate::spatial::{Screw, angle};
+
+/// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
+const MERGE: f64 = 1e-9;
+
+impl Chain {
+    /// The reach, in which lengths are measured; one unit where it is zero.
+    fn scale(&self) -> f64 {
+        if self.reach() > 0.0 { self.reach() } else { 1.0 }
+    }
+
+    /// Whether two answers are one.
+    fn are_one(&self, a: &[f64], b: &[f64]) -> bool {
+        let differ = |(screw, (a, b)): (&Screw, (&f64, &f64))| match screw {
+            Screw::Revolute(_) => angle::difference(*a, *b).abs(),
+            Screw::Prismatic(_) => (a - b).abs() / self.scale(),
+        };
+        self.screws().iter().zip(a.iter().zip(b)).map(differ).all(|difference| difference <= MERGE)
+    }
+}

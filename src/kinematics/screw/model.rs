@@ -5,10 +5,10 @@
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
+use super::goal::whole;
 use super::reduced::{Goal, Reduced};
 use super::refine::MOST_JOINTS;
-use super::target::{Target, whole};
-use crate::kinematics::{Chain, Task};
+use crate::kinematics::{Chain, Target, Task};
 use crate::spatial::{Half, Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 

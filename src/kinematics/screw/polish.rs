@@ -3,6 +3,7 @@
 
 use nalgebra::{Cholesky, Point3, SMatrix, SVector, Vector3};
 
+use super::MERGE;
 use super::values::{Answers, Reach};
 use crate::spatial::{Screw, angle};
 
@@ -14,9 +15,6 @@ const ENOUGH: f64 = 64.0 * f64::EPSILON;
 
 /// A miss that rises to more than this, relative to the size, ends the refinement.
 const NEAR: f64 = 1e-3;
-
-/// Two answers are one when their values differ by at most this much \[rad, or sizes\].
-const MERGE: f64 = 1e-9;
 
 /// The longest step of a joint \[rad, or sizes\].
 const LEAP: f64 = 0.02;

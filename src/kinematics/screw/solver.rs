@@ -10,11 +10,10 @@ use super::plan::Plan;
 use super::reduced::{Goal, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
-use super::target::{Solution, Target};
-use super::upright;
+use super::{MERGE, upright};
 use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::upright::Upright;
-use crate::kinematics::{Chain, Geometry, Task};
+use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
@@ -23,9 +22,6 @@ pub const ACCEPT: f64 = 2e-12;
 
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
-
-/// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
-const MERGE: f64 = 1e-9;
 
 /// Inverse kinematics of a serial chain by screw theory. Lengths in the chain's unit, angles in radians.
 ///
@@ -224,23 +220,15 @@ impl ScrewSolver {
                 *q = angle::wrap(*q);
             }
         }
-        let same = |other: &Solution| (0..*joints).all(|i| self.differ(i, q[i], other.q[i]) <= MERGE);
+        let same = |other: &Solution| self.chain.are_one(&q[..*joints], &other.q);
         if !visit.found.iter().any(same) {
-            let is_direction = self.chain.task() == Task::Direction;
             visit.found.push(Solution {
                 q: q[..*joints].to_vec(),
                 free: (0..*joints).filter(|&i| free && trail.free[i]).collect(),
-                position_residual: if is_direction { 0.0 } else { miss.position },
-                rotation_residual: if is_direction { miss.position } else { miss.rotation },
+                residual: miss.position.max(miss.rotation),
                 branch: visit.order.first_branch + trail.branch,
+                chosen: false,
             });
-        }
-    }
-
-    fn differ(&self, joint: usize, a: f64, b: f64) -> f64 {
-        match self.model.screws[joint] {
-            Screw::Revolute(_) => angle::difference(a, b).abs(),
-            Screw::Prismatic(_) => (a - b).abs() / self.reach,
         }
     }
 }
@@ -302,4 +290,11 @@ fn meeting_point(row: &[Screw], tolerance: f64) -> Option<Point3<f64>> {
     let point: Vector3<f64> = (a.coords + b.coords) / 2.0;
     let point = Point3::from(point);
     axes.iter().all(|axis| axis.distance_to(&point) <= tolerance).then_some(point)
+}
+
+impl InverseKinematics for ScrewSolver {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        *out = self.solve_given(target, given)?;
+        Ok(())
+    }
 }

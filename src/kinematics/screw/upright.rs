@@ -3,16 +3,13 @@
 use nalgebra::DVector;
 
 use super::solver::{ACCEPT, ScrewSolver};
-use super::target::{Solution, Target};
 use crate::Result;
-use crate::kinematics::Chain;
 use crate::kinematics::upright::Upright;
+use crate::kinematics::{Chain, Solution, Target};
 use crate::spatial::{Screw, angle, pitch_and_roll, vertical};
 
 /// Newton steps for an answer of the ideal robot's loop on the chain as described.
 const STEPS: usize = 8;
-/// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
-const MERGE: f64 = 1e-9;
 
 /// All answers of `chain`, by `inner`, the solver of the loop `upright` of its ideal robot, each polished and measured on the chain.
 ///
@@ -30,27 +27,15 @@ pub(super) fn solved(
     let mut found: Vec<Solution> = Vec::new();
     for answer in inner.solve_given(&closed, &values)? {
         let q = polished(chain, target, upright.answer(target, &answer.q));
-        let Some((_, position_residual, rotation_residual)) = miss(chain, target, &q) else { continue };
-        let length = length(chain);
-        let same = |other: &Solution| (0..q.len()).all(|i| differ(chain, i, q[i], other.q[i]) <= MERGE);
-        if (position_residual / length).max(rotation_residual) <= ACCEPT && !found.iter().any(same) {
+        let Some((_, position, rotation)) = miss(chain, target, &q) else { continue };
+        let same = |other: &Solution| chain.are_one(&q, &other.q);
+        if (position / chain.scale()).max(rotation) <= ACCEPT && !found.iter().any(same) {
             let mut free: Vec<usize> = answer.free.iter().filter_map(|&joint| upright.place(joint)).collect();
             free.sort_unstable();
-            found.push(Solution { q, free, position_residual, rotation_residual, branch: answer.branch });
+            found.push(Solution { q, free, residual: position.max(rotation), ..answer });
         }
     }
     Ok(found)
-}
-
-fn length(chain: &Chain) -> f64 {
-    if chain.reach() > 0.0 { chain.reach() } else { 1.0 }
-}
-
-fn differ(chain: &Chain, joint: usize, a: f64, b: f64) -> f64 {
-    match chain.screws()[joint] {
-        Screw::Revolute(_) => angle::difference(a, b).abs(),
-        Screw::Prismatic(_) => (a - b).abs() / length(chain),
-    }
 }
 
 /// What the tip at `q` misses, as the rows of [`Chain::task_jacobian`] tell it, the distance, and the angle \[rad\].
@@ -62,7 +47,7 @@ fn miss(chain: &Chain, target: &Target, q: &[f64]) -> Option<(DVector<f64>, f64,
     let off = vertical(reached, rolled) - vertical(pitch, roll);
     // What the tip is turned too far by, w, moves the vertical, seen from the tip, by R^T (z x w).
     let turned = pose.rotation * off;
-    let v = shift / length(chain);
+    let v = shift / chain.scale();
     Some((DVector::from_vec(vec![v.x, v.y, v.z, turned.y, -turned.x]), shift.norm(), off.norm()))
 }
 
@@ -88,6 +73,6 @@ fn polished(chain: &Chain, target: &Target, mut q: Vec<f64>) -> Vec<f64> {
 fn moved(chain: &Chain, joint: usize, q: f64, step: f64) -> f64 {
     match chain.screws()[joint] {
         Screw::Revolute(_) => angle::wrap(q - step),
-        Screw::Prismatic(_) => q - step * length(chain),
+        Screw::Prismatic(_) => q - step * chain.scale(),
     }
 }

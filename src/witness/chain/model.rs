@@ -9,8 +9,8 @@ use super::family::Families;
 use super::singular::smallest_singular_value;
 use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
-use crate::kinematics::{Chain, JointKind, Task};
-use crate::solver::{BLUR, Solution};
+use crate::kinematics::{Chain, JointKind, Solution, Task};
+use crate::solver::BLUR;
 use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].

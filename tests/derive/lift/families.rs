@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use groebot::derive::lift::{Derived, Form};
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, Plane, Task};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, Plane, Target, Task};
 use groebot::number::BigRational;
 use groebot::robots;
 

@@ -10,8 +10,7 @@ use std::f64::consts::TAU;
 
 use groebot::Watch;
 use groebot::derive::lift::Derived;
-use groebot::kinematics::{Chain, JointKind};
-use groebot::solver::Solution;
+use groebot::kinematics::{Chain, JointKind, Solution};
 
 /// The derivation of a chain.
 fn derive(chain: &Chain) -> Derived {

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::kinematics::Target;
+use groebot::kinematics::screw::ScrewSolver;
 use groebot::robots;
 
 use super::{Random, derive, distance, miss};

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use groebot::derive::lift::Derived;
+use groebot::kinematics::Solution;
 use groebot::robots;
-use groebot::solver::Solution;
 
 use super::{Random, derive, distance, miss};
 

@@ -1,13 +1,13 @@
 //! NAO's legs, whose hips one motor turns: eleven motors.
 
 use std::fs;
+use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use groebot::derive::limbs::{DerivedLimbs, Limbs};
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, Task, along_z};
-use groebot::solver::Solution;
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, Solution, Target, Task, along_z};
 use groebot::{ErrorKind, Watch, robots};
 
 use super::{Random, distance};
@@ -28,8 +28,8 @@ chain = "left.toml"
 fn derive(text: &str) -> DerivedLimbs {
     let folder = tempfile::tempdir().unwrap();
     for (file, robot) in [("left.toml", "nao_left_leg"), ("right.toml", "nao_right_leg")] {
-        let robot = robots::ALL.iter().find(|known| known.name() == robot).unwrap();
-        fs::write(folder.path().join(file), robot.text()).unwrap();
+        let described = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(robot).join("0_chain.toml");
+        fs::copy(described, folder.path().join(file)).unwrap();
     }
     fs::write(folder.path().join("0_limbs.toml"), text).unwrap();
     let limbs = Limbs::read(&folder.path().join("0_limbs.toml")).unwrap();

@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use groebot::derive::limbs::{DerivedLimbs, Limbs};
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::kinematics::Target;
+use groebot::kinematics::screw::ScrewSolver;
 use groebot::spatial::{Pose, angle};
 use groebot::{ErrorKind, Watch, robots};
 use nalgebra::{Translation3, UnitQuaternion};

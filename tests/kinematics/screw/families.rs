@@ -1,7 +1,9 @@
 //! The screw solver on random chains of each family that it is to solve, not only on known robots.
 
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Plane, Task, Tip, along_z};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{
+    Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Plane, Target, Task, Tip, along_z,
+};
 use groebot::number::BigRational;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};

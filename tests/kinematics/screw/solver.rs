@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use groebot::kinematics::Chain;
 use groebot::kinematics::oracle::{Oracle, Unknown};
-use groebot::kinematics::screw::{ScrewSolver, Solution, Subproblem, Target};
+use groebot::kinematics::screw::{ScrewSolver, Subproblem};
+use groebot::kinematics::{Chain, Solution, Target};
 use groebot::robots;
 use groebot::spatial::{Pose, Screw, angle};
 use nalgebra::{DMatrix, Quaternion, Translation3, UnitQuaternion, Vector3};

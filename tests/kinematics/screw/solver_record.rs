@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use groebot::kinematics::Chain;
-use groebot::kinematics::screw::{ScrewSolver, Target};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, Target};
 use groebot::robots;
 
 use super::solver::{distance, has_rotation, matching, oracle, reach, sigma, worst_residual};

@@ -3,8 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, Task};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, Target, Task};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 

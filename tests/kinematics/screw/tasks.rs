@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use groebot::ErrorKind;
-use groebot::kinematics::screw::{ScrewSolver, Target};
-use groebot::kinematics::{Chain, JointKind, Task};
+use groebot::kinematics::screw::ScrewSolver;
+use groebot::kinematics::{Chain, JointKind, Target, Task};
 use groebot::robots;
 use nalgebra::Vector3;
 use proptest::prelude::*;

@@ -1,0 +1,187 @@
+//! A robot as mechanics sees it: bodies, each behind a joint of one freedom, in doubles. Main type: [`Model`].
+//!
+//! The motion of a body is the product of exponentials along its path, as in RH0 (2-20), behind the pose of the base.
+
+use crate::kinematics::jacobian::{self, Jacobian};
+use crate::model::{self, JointType, Robot};
+use crate::spatial::exact::normalized;
+use crate::spatial::{Inertia, Pose, Screw};
+use crate::{Error, ErrorKind, Result};
+
+/// A joint of a model: what moves one body against another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelJoint {
+    /// Its name in the robot.
+    pub name: String,
+    /// The body that carries it; 0 is the base, `k + 1` the body behind joint `k`.
+    pub parent: usize,
+    /// How it moves, in the base frame at the zero configuration.
+    pub screw: Screw,
+}
+
+/// A robot's mechanics: the base, which is its root link with all that is fixed to it, and a body behind each joint that turns or slides.
+/// Body `k + 1` is moved by joint `k`; joints stand in the order of [`Robot::moving`]. Metres, kilograms, radians. It never changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    joints: Vec<ModelJoint>,
+    /// The joints, each behind those that carry it.
+    pub(super) order: Vec<usize>,
+    /// What the bodies weigh, in the base frame at the zero configuration.
+    pub(super) bodies: Vec<Inertia>,
+    /// The body of each link of the robot, and the link's frame in the base frame at the zero configuration.
+    links: Vec<(usize, Pose)>,
+    mass: f64,
+}
+
+impl Model {
+    /// The mechanics of `robot`. Floating and planar joints stand still.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when a frame or mass is beyond doubles.
+    pub fn new(robot: &Robot) -> Result<Self> {
+        let mut model = Model::still(robot);
+        for &place in robot.order() {
+            model.append(robot, place)?;
+        }
+        for (link, (body, base_from_link)) in robot.links().iter().zip(&model.links) {
+            let inertia = link.inertia().placed(base_from_link);
+            model.bodies[*body] = model.bodies[*body].with(&inertia);
+        }
+        model.mass = model.bodies.iter().map(Inertia::mass).sum();
+        let is_finite = |inertia: &Inertia| inertia.generalised().iter().all(|x| x.is_finite());
+        if model.bodies.iter().all(is_finite) {
+            return Ok(model);
+        }
+        Err(Error::new(ErrorKind::BadValue, "a mass or a frame is beyond the range of doubles; give smaller numbers"))
+    }
+
+    /// All links on the base, no joint placed.
+    fn still(robot: &Robot) -> Self {
+        let moving = robot.moving();
+        Model {
+            joints: Vec::with_capacity(moving.len()),
+            order: Vec::with_capacity(moving.len()),
+            bodies: vec![Inertia::none(); moving.len() + 1],
+            links: vec![(0, Pose::identity()); robot.links().len()],
+            mass: 0.0,
+        }
+        .with_joints(robot, &moving)
+    }
+
+    fn with_joints(mut self, robot: &Robot, moving: &[usize]) -> Self {
+        let still = Screw::Prismatic(nalgebra::Vector3::x_axis());
+        let joint = |place: &usize| ModelJoint { name: robot.joints()[*place].name.clone(), parent: 0, screw: still };
+        self.joints = moving.iter().map(joint).collect();
+        self
+    }
+
+    /// Places the link below the joint at `place` of the robot, whose parent stands already.
+    fn append(&mut self, robot: &Robot, place: usize) -> Result<()> {
+        let joint = &robot.joints()[place];
+        let (parent, child) = robot.ends(place);
+        let (mut body, base_from_parent) = self.links[parent];
+        let base_from_joint = base_from_parent * joint.origin.pose();
+        if joint.kind.is_single() {
+            let number = self.joints.iter().position(|own| own.name == joint.name).unwrap_or_default();
+            self.joints[number].screw = screw(joint, &base_from_joint)?;
+            self.joints[number].parent = body;
+            self.order.push(number);
+            body = number + 1;
+        }
+        self.links[child] = (body, base_from_joint);
+        Ok(())
+    }
+
+    /// The joints, in the order of a configuration `q`.
+    pub fn joints(&self) -> &[ModelJoint] {
+        &self.joints
+    }
+
+    /// The place of the joint `name` in a configuration `q`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] when no joint that turns or slides has that name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        let unknown = || Error::new(ErrorKind::UnknownName, format!("no joint `{name}` turns or slides"));
+        self.joints.iter().position(|joint| joint.name == name).ok_or_else(unknown)
+    }
+
+    /// What the body weighs, in the base frame at the zero configuration: 0 is the base, `k + 1` is moved by joint `k`.
+    ///
+    /// # Panics
+    /// When there is no such body.
+    pub fn inertia_of(&self, body: usize) -> &Inertia {
+        &self.bodies[body]
+    }
+
+    /// The body that a link of the robot belongs to, and the link's frame in the base frame at the zero configuration.
+    ///
+    /// # Panics
+    /// When there is no such link.
+    pub fn link(&self, link: usize) -> (usize, Pose) {
+        self.links[link]
+    }
+
+    /// The mass of all bodies \[kg\].
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The joints from the base to a body, in that order.
+    ///
+    /// # Panics
+    /// When there is no such body.
+    pub fn path(&self, body: usize) -> Vec<usize> {
+        let up = |body: usize| body.checked_sub(1);
+        let mut path: Vec<usize> = std::iter::successors(up(body), |joint| up(self.joints[*joint].parent)).collect();
+        path.reverse();
+        path
+    }
+
+    /// The body Jacobian of a frame of `body` that stands at `base_from_frame` at the zero configuration, at `q`, RH0 (2-24): 6xn, zero in the
+    /// columns of the joints that do not move it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when there is no such body, or `q` has not one finite value per joint.
+    pub fn body_jacobian(&self, body: usize, base_from_frame: &Pose, q: &[f64]) -> Result<Jacobian> {
+        self.check(q)?;
+        self.check_body(body)?;
+        let path = self.path(body);
+        let screws: Vec<Screw> = path.iter().map(|joint| self.joints[*joint].screw).collect();
+        let values: Vec<f64> = path.iter().map(|joint| q[*joint]).collect();
+        let moving = jacobian::body(&screws, base_from_frame, &values)?;
+        let mut jacobian = Jacobian::zeros(q.len());
+        for (joint, column) in path.iter().zip(moving.column_iter()) {
+            jacobian.set_column(*joint, &column);
+        }
+        Ok(jacobian)
+    }
+
+    pub(super) fn check_body(&self, body: usize) -> Result<()> {
+        let most = self.bodies.len() - 1;
+        let text = || format!("there is no body {body}; the base is 0, the others are counted from 1 to {most}");
+        if body <= most { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
+    }
+
+    /// Fails unless `q` has one finite value for each joint.
+    pub(super) fn check(&self, q: &[f64]) -> Result<()> {
+        let text = if q.len() != self.joints.len() {
+            format!("{} joint values are given; the robot has {} joints", q.len(), self.joints.len())
+        } else if let Some(joint) = q.iter().position(|value| !value.is_finite()) {
+            format!("joint `{}`: the value {} is not finite", self.joints[joint].name, q[joint])
+        } else {
+            return Ok(());
+        };
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+}
+
+/// The screw of a joint that turns or slides, whose frame stands at `base_from_joint`.
+fn screw(joint: &model::Joint, base_from_joint: &Pose) -> Result<Screw> {
+    let direction = base_from_joint.rotation * normalized(&joint.axis).into_inner();
+    let screw = match joint.kind {
+        JointType::Prismatic => Screw::prismatic(direction),
+        _ => Screw::revolute(direction, base_from_joint.translation.vector.into()),
+    };
+    screw.map_err(|error| joint.error(error.kind(), error.message()))
+}

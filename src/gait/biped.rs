@@ -1,0 +1,248 @@
+//! What a gait needs to know of a robot on two legs. Main type: [`Biped`].
+
+use nalgebra::{Point2, Point3};
+
+use super::footprint::{Footprint, Side};
+use super::polygon::Polygon;
+use crate::dynamics::Model;
+use crate::model::{Robot, Solid};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+/// What is this far above a sole's lowest point still touches a floor that gives a little \[m\].
+const FLAT: f64 = 2e-3;
+/// How many points stand for a circle.
+const ROUND: usize = 16;
+
+/// A joint as a gait sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointRange {
+    /// Its name in the robot's own documents.
+    pub name: String,
+    /// Its symbol in the source's formulas: `q3` there is `3` here; its name where it has none.
+    pub symbol: String,
+    /// Least and greatest value \[rad\].
+    pub limits: (f64, f64),
+    /// The greatest rate \[rad/s\].
+    pub speed: f64,
+}
+
+/// A foot: where its sole is and what of it touches the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Foot {
+    /// The link that the sole is fixed to, by its place in the robot.
+    pub link: usize,
+    /// The body of the model that it belongs to.
+    pub body: usize,
+    /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up; its origin is in the plane of the sole.
+    pub torso_from_sole: Pose,
+    /// The height of the ankle's last axis over the sole \[m\].
+    pub ankle_height: f64,
+    /// The corners of what touches the floor, in the frame of the sole \[m\].
+    pub corners: Vec<Point2<f64>>,
+    /// The joints from the torso to the sole, as places in a configuration.
+    pub joints: Vec<usize>,
+}
+
+/// A robot on two legs: its joints, masses and soles. The torso is the root link, with x ahead, y left, z up; the feet are level at the zero
+/// configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Biped {
+    /// Its name.
+    pub name: String,
+    /// The joints in the order of a configuration and of the output.
+    pub joints: Vec<JointRange>,
+    /// Pairs of joints of the left and the right leg that one motor turns by the same angle.
+    pub shared: Vec<(usize, usize)>,
+    /// Masses and joints; its base is the torso.
+    pub model: Model,
+    /// The feet, left and right.
+    pub feet: [Foot; 2],
+    /// Where the third joints of the legs are, left and right, in the torso frame \[m\].
+    pub hips: [Point3<f64>; 2],
+    /// Whether the torso carries the whole mass as a point at its centre of mass, for want of the links' own masses.
+    pub is_point_mass: bool,
+}
+
+impl Biped {
+    /// The biped that stands on the links `soles` of `robot`, left and right. What touches the floor are the lowest points of all that collides
+    /// with it and is fixed to these links.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for links that are not there; [`ErrorKind::BadValue`] for legs that share a joint or have fewer than three, a sole
+    /// without shape, a robot without mass, a joint without limits or speed.
+    pub fn new(robot: &Robot, soles: [&str; 2]) -> Result<Self> {
+        let links = [robot.link(soles[0])?, robot.link(soles[1])?];
+        let outlines = links.map(|link| touching(robot, link));
+        Biped::with_outlines(robot, links, outlines)
+    }
+
+    /// The same on soles that cover the given points, in their frames.
+    ///
+    /// # Errors
+    /// As [`Biped::new`].
+    pub fn on_outlines(robot: &Robot, soles: [&str; 2], outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
+        let links = [robot.link(soles[0])?, robot.link(soles[1])?];
+        let [left, right] = outlines;
+        let outlines = [(touching(robot, links[0]).0, left), (touching(robot, links[1]).0, right)];
+        Biped::with_outlines(robot, links, outlines)
+    }
+
+    /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
+    fn with_outlines(robot: &Robot, links: [usize; 2], outlines: [(f64, Vec<Point2<f64>>); 2]) -> Result<Self> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, format!("{}: {text}", robot.name())));
+        let model = Model::new(robot)?;
+        if model.mass().is_nan() || model.mass() <= 0.0 {
+            return bad("it has no mass; a walk needs the masses of its links".to_owned());
+        }
+        let [left, right] = [0, 1].map(|side| foot(&model, links[side], &outlines[side]));
+        for (foot, link) in [&left, &right].into_iter().zip(links) {
+            let name = &robot.links()[link].name;
+            if foot.joints.len() < 3 {
+                return bad(format!("{} joints lead to `{name}`; a leg has more", foot.joints.len()));
+            }
+            if foot.corners.len() < 3 {
+                return bad(format!("`{name}` has no shape that could touch the floor; give the outline of the soles"));
+            }
+        }
+        if let Some(joint) = left.joints.iter().find(|joint| right.joints.contains(joint)) {
+            let name = &model.joints()[*joint].name;
+            return bad(format!(
+                "joint `{name}` moves both feet; the root link must be the torso that both legs hang on"
+            ));
+        }
+        let hip =
+            |foot: &Foot| model.joints()[foot.joints[2]].screw.axis().map_or(Point3::origin(), |axis| axis.point());
+        let shared = |actuator: &crate::model::Actuator| {
+            let places: Vec<usize> = actuator.joints.iter().filter_map(|(name, _)| model.joint(name).ok()).collect();
+            let of = |foot: &Foot| places.iter().copied().find(|joint| foot.joints.contains(joint));
+            Some((of(&left)?, of(&right)?))
+        };
+        let mimics = left.joints.iter().flat_map(|&one| right.joints.iter().map(move |&other| (one, other)));
+        let follows = |(one, other): &(usize, usize)| {
+            let [one, other] = [one, other].map(|joint| robot.joint(&model.joints()[*joint].name));
+            let laws = one.and_then(|one| Ok([one, other?].map(|joint| robot.law(&robot.joints()[joint]))));
+            laws.is_ok_and(|[one, other]| one == other)
+        };
+        Ok(Biped {
+            name: robot.name().to_owned(),
+            joints: ranges(robot, &model)?,
+            shared: robot.actuators().iter().filter_map(shared).chain(mimics.filter(follows)).collect(),
+            hips: [hip(&left), hip(&right)],
+            is_point_mass: (1..=model.joints().len()).all(|body| model.inertia_of(body).mass() == 0.0),
+            feet: [left, right],
+            model,
+        })
+    }
+
+    /// The place of the joint `name`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::UnknownName`] when no joint has that name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        self.model.joint(name)
+    }
+
+    /// Half of the way from foot to foot, sideways, when the legs hang straight \[m\]: `W_p` of RH0, HipOffsetY of NAO Table 6.1.
+    pub fn half_width(&self) -> f64 {
+        self.feet[0].torso_from_sole.translation.y
+    }
+
+    /// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
+    pub fn hip_to_torso(&self) -> f64 {
+        -self.hips[0].z
+    }
+
+    /// What the foot of `side` covers when its sole stands flat on `print`.
+    pub fn sole_at(&self, side: Side, print: &Footprint) -> Polygon {
+        let corners = &self.feet[side as usize].corners;
+        Polygon::hull(&corners.iter().map(|corner| print.carry(corner)).collect::<Vec<_>>())
+    }
+
+    /// The support polygon: the hull of the contact points of the feet that stand, each at the pose world_from_sole \[m\]; the floor is
+    /// flat, and a sole at any pose touches it with those of its corners that are lowest, within `depth` \[m\].
+    pub fn support(&self, soles: &[(Side, Pose)], depth: f64) -> Polygon {
+        let points = |(side, pose): &(Side, Pose)| {
+            let at = |corner: &Point2<f64>| pose * Point3::new(corner.x, corner.y, 0.0);
+            self.feet[*side as usize].corners.iter().map(at).collect::<Vec<_>>()
+        };
+        let points: Vec<Point3<f64>> = soles.iter().flat_map(points).collect();
+        let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+        let touching = points.iter().filter(|point| point.z <= lowest + depth);
+        Polygon::hull(&touching.map(Point3::xy).collect::<Vec<_>>())
+    }
+}
+
+/// Limits and speeds of all joints that turn or slide.
+fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
+    let range = |(place, name): (usize, &String)| {
+        let joint = &robot.joints()[place];
+        let missing =
+            |what: &str| Error::new(ErrorKind::BadValue, format!("joint `{name}` has no {what}; a walk needs it"));
+        let turns_freely =
+            (joint.kind == crate::model::JointType::Continuous).then_some((f64::NEG_INFINITY, f64::INFINITY));
+        Ok(JointRange {
+            name: name.clone(),
+            symbol: joint.symbol.clone().unwrap_or_else(|| name.clone()),
+            limits: joint.limits.or(turns_freely).ok_or_else(|| missing("limits"))?,
+            speed: joint.speed.filter(|speed| *speed > 0.0).ok_or_else(|| missing("greatest speed"))?,
+        })
+    };
+    robot.moving().into_iter().zip(model.joints().iter().map(|joint| &joint.name)).map(range).collect()
+}
+
+fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>)) -> Foot {
+    let (body, torso_from_link) = model.link(link);
+    let joints = model.path(body);
+    let at = torso_from_link.translation.vector;
+    let torso_from_sole = Pose::translation(at.x, at.y, at.z + height);
+    let ankle = joints.last().and_then(|joint| model.joints()[*joint].screw.axis()).map_or(at.z, |axis| axis.point().z);
+    let ankle_height = ankle - torso_from_sole.translation.z;
+    Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
+}
+
+/// The height of the lowest points of what is fixed to a link over the link's origin, and these points from above, with the torso's axes.
+fn touching(robot: &Robot, link: usize) -> (f64, Vec<Point2<f64>>) {
+    let Ok(model) = Model::new(robot) else { return (0.0, Vec::new()) };
+    let (body, torso_from_sole) = model.link(link);
+    let at = torso_from_sole.translation.vector;
+    let mut points: Vec<Point3<f64>> = Vec::new();
+    for (place, other) in robot.links().iter().enumerate() {
+        let (own, torso_from_link) = model.link(place);
+        if own == body {
+            let shapes = other.collisions.iter();
+            points.extend(shapes.flat_map(|shape| {
+                let torso_from_shape = torso_from_link * shape.pose();
+                corners(&shape.solid).into_iter().map(move |point| torso_from_shape * point - at)
+            }));
+        }
+    }
+    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    let touching: Vec<Point2<f64>> = points.iter().filter(|point| point.z <= lowest + FLAT).map(Point3::xy).collect();
+    let height = if lowest.is_finite() { lowest } else { 0.0 };
+    (height, Polygon::hull(&touching).corners().to_vec())
+}
+
+/// Points whose hull is the solid, or nearly so; none of a mesh.
+fn corners(solid: &Solid) -> Vec<Point3<f64>> {
+    let signs = [-0.5, 0.5];
+    let circle = |radius: f64, z: f64| {
+        let angle = |step: usize| std::f64::consts::TAU * step as f64 / ROUND as f64;
+        (0..ROUND).map(move |step| Point3::new(radius * angle(step).cos(), radius * angle(step).sin(), z))
+    };
+    match *solid {
+        Solid::Box { size: [x, y, z] } => {
+            let xy = signs.into_iter().flat_map(|a| signs.map(|b| (a, b)));
+            xy.flat_map(|(a, b)| signs.map(|c| Point3::new(a * x, b * y, c * z))).collect()
+        }
+        Solid::Cylinder { radius, length } => signs.into_iter().flat_map(|end| circle(radius, end * length)).collect(),
+        Solid::Sphere { radius } | Solid::Capsule { radius, .. } => {
+            let half = if let Solid::Capsule { length, .. } = *solid { length / 2.0 } else { 0.0 };
+            let rings = (0..=ROUND / 2).map(|ring| std::f64::consts::PI * (ring as f64 / (ROUND / 2) as f64 - 0.5));
+            let ring =
+                |latitude: f64| circle(radius * latitude.cos(), radius * latitude.sin() + half * latitude.signum());
+            rings.flat_map(ring).collect()
+        }
+        Solid::Mesh { .. } => Vec::new(),
+    }
+}

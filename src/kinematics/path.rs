@@ -1,0 +1,237 @@
+//! Chains between two links of a robot, down from the base and, where the tip is on another branch, first up.
+
+use std::collections::{HashMap, HashSet};
+
+use super::chain::{Meant, along_z};
+use super::frame::{Frame, Rationality, Reading};
+use super::telescope::{Telescope, joined};
+use super::{Chain, ChainParts, Joint, JointKind, LengthUnit, Mimic, Task, Tip};
+use crate::document::shown;
+use crate::model::{self, JointType, Robot, listing, some_among};
+use crate::{Error, ErrorKind, Result};
+
+/// The longest path, fixed joints included.
+const MAX_PATH: usize = 64;
+/// The most characters of a chain's name.
+const MAX_NAME: usize = 64;
+
+/// The way through a robot from one link to another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinkPath {
+    /// The name of the link where it starts.
+    pub base: String,
+    /// The name of the link where it ends.
+    pub tip: String,
+    /// The joints on the way, as places in [`Robot::joints`], each with whether it is passed upwards, from child to parent.
+    pub joints: Vec<(usize, bool)>,
+}
+
+impl Robot {
+    /// The way from the link `base` (by default the root) to the link `tip` (by default the only leaf).
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for names of no link; [`ErrorKind::MissingKey`] without `tip` when there are several leaves;
+    /// [`ErrorKind::BadValue`] for more than 64 joints on the way.
+    pub fn path(&self, base: Option<&str>, tip: Option<&str>) -> Result<LinkPath> {
+        let base = self.find("base", base.unwrap_or(self.root()))?;
+        let tip = match (tip, self.leaves().as_slice()) {
+            (Some(tip), _) => self.find("tip", tip)?,
+            (None, [only]) => self.find("tip", only)?,
+            (None, leaves) => {
+                let tips = if self.tips().is_empty() { leaves.to_vec() } else { self.tips() };
+                let message =
+                    format!("the robot has several ends; choose a tip link, such as {}", listing(tips.into_iter()));
+                return Err(Error::new(ErrorKind::MissingKey, message));
+            }
+        };
+        let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
+        while up.last().is_some() && up.last() == down.last() {
+            up.pop();
+            down.pop();
+        }
+        let up = up.into_iter().map(|joint| (joint, true));
+        let joints: Vec<_> = up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect();
+        let [base, tip] = [base, tip].map(|link| self.links()[link].name.clone());
+        if joints.len() > MAX_PATH {
+            let text = format!(
+                "{} joints are between `{}` and `{}`; at most {MAX_PATH} are allowed, fixed ones included",
+                joints.len(),
+                shown(&base),
+                shown(&tip)
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(LinkPath { base, tip, joints })
+    }
+
+    /// The chain from the link `base` to the link `tip` (defaults as in [`Robot::path`]), in the frame of `base`, with the task
+    /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
+    /// reversed, so that its values and limits stay its own. Joints that move together by `mimic` are one unknown: slides along one direction, as
+    /// of a telescope, become one joint whose value is their sum; any other follows its leader, or, where that is not on the way, the first that
+    /// moves with it. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
+    ///
+    /// # Errors
+    /// As [`Robot::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way; [`ErrorKind::BadValue`] when nothing moves on the
+    /// way, and as [`Chain::new`].
+    pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
+        self.chain_along(&self.path(base, tip)?)
+    }
+
+    fn chain_along(&self, path: &LinkPath) -> Result<Chain> {
+        let (joints, tip) = self.walk(path, Reading::AsDescribed)?;
+        let telescopes = Telescope::among(&joints);
+        let joints = joined(joints, &telescopes);
+        if joints.is_empty() {
+            let text = format!(
+                "nothing moves between `{}` and `{}`; choose links with moving joints between them",
+                shown(&path.base),
+                shown(&path.tip)
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let name: String = format!("{}_{}", self.name(), path.tip).chars().take(MAX_NAME).collect();
+        let (meant, tip_meant) = self.walk(path, Reading::AsMeant)?;
+        let meant = joined(meant, &telescopes);
+        Chain::new(ChainParts {
+            name: name.trim().to_owned(),
+            description: Some(format!("from link {} to link {}", path.base, path.tip)),
+            source: None,
+            length_unit: LengthUnit::Metre,
+            meant: Meant::unless_told(meant, tip_meant, (&joints, &tip)),
+            joints,
+            tip,
+            task: Task::Pose,
+            direction: along_z(),
+            given: Vec::new(),
+            order: None,
+            choice: None,
+        })
+    }
+
+    /// What a user of the chain along `path` should know: numbers that were taken for others, joints that follow or lead, joints
+    /// that are passed upwards.
+    pub fn notes(&self, path: &LinkPath) -> Vec<String> {
+        let mut notes = Vec::new();
+        let mimics = self.mimics(path);
+        let alone =
+            |joint: &model::Joint| mimics.iter().all(|(name, mimic)| *name != joint.name && mimic.leader != joint.name);
+        for (index, _) in &path.joints {
+            let joint = &self.joints()[*index];
+            let name = shown(&joint.name);
+            notes.extend(joint.notes.iter().map(|note| format!("{name}: {note}")));
+            if let Some(mimic) = joint.mimic.as_ref().filter(|_| alone(joint)) {
+                notes
+                    .push(format!("{name}: in the robot it follows {mimic}, outside this chain; here it moves freely"));
+            }
+        }
+        let walked = self.walk(path, Reading::AsDescribed).map(|(joints, _)| joints).unwrap_or_default();
+        notes.extend(Telescope::among(&walked).iter().flat_map(|telescope| telescope.notes(&walked)));
+        let up = path.joints.iter().filter(|(index, is_up)| *is_up && self.joints()[*index].kind != JointType::Fixed);
+        let up: Vec<String> = up.map(|(index, _)| shown(&self.joints()[*index].name)).collect();
+        if !up.is_empty() {
+            notes.push(format!(
+                "passed from child to parent, axes reversed, values and limits their own: {}",
+                up.join(", ")
+            ));
+        }
+        notes
+    }
+
+    fn find(&self, what: &str, name: &str) -> Result<usize> {
+        self.links().iter().position(|link| link.name == name).ok_or_else(|| {
+            let names = some_among(name, self.links().iter().map(|link| link.name.as_str()));
+            let text = format!("the {what} `{}` is no link of the robot{names}", shown(name));
+            Error::new(ErrorKind::UnknownName, text)
+        })
+    }
+
+    /// The joints on the way that move with others of it, and how they follow: the one that leads them all, or where that is not on the way the
+    /// first of them.
+    fn mimics(&self, path: &LinkPath) -> Vec<(&str, Mimic)> {
+        let moving = path.joints.iter().map(|(index, _)| &self.joints()[*index]);
+        let laws = moving.filter(|joint| joint.kind != JointType::Fixed).map(|joint| (joint, self.law(joint)));
+        let mut heads: HashMap<String, (&str, Mimic)> = HashMap::new();
+        let laws: Vec<(&model::Joint, Mimic)> = laws.collect();
+        for (joint, law) in &laws {
+            let leads = joint.mimic.is_none();
+            if leads || !heads.contains_key(&law.leader) {
+                heads.insert(law.leader.clone(), (&joint.name, law.clone()));
+            }
+        }
+        let followers = laws.into_iter().filter_map(|(joint, law)| {
+            let (head, first) = heads.get(&law.leader).filter(|(head, _)| *head != joint.name)?;
+            // x = (head - b) / m is the leader's value.
+            let back = Mimic {
+                leader: (*head).to_owned(),
+                multiplier: first.multiplier.recip(),
+                offset: -&first.offset / &first.multiplier,
+            };
+            Some((joint.name.as_str(), back.then(&law)))
+        });
+        followers.collect()
+    }
+
+    /// The symbols of the moving joints on the way: those of the source, where each has its own, else 1, 2, 3.
+    fn symbols(&self, path: &LinkPath) -> Vec<String> {
+        let moving: Vec<&model::Joint> = path
+            .joints
+            .iter()
+            .map(|(index, _)| &self.joints()[*index])
+            .filter(|joint| joint.kind != JointType::Fixed)
+            .collect();
+        let told: Vec<String> = moving.iter().filter_map(|joint| joint.symbol.clone()).collect();
+        let distinct: HashSet<&String> = told.iter().collect();
+        if distinct.len() == moving.len() { told } else { (1..=moving.len()).map(|place| place.to_string()).collect() }
+    }
+
+    /// The moving joints in the base frame, and the tip.
+    fn walk(&self, path: &LinkPath, reading: Reading) -> Result<(Vec<Joint>, Tip)> {
+        Frame::walked(reading, |base| self.walk_from(base, path)).map(|(joints, frame)| (joints, frame.tip()))
+    }
+
+    /// The same from a base frame, and whether the joints' axes are rational.
+    fn walk_from(&self, base: Frame, path: &LinkPath) -> Result<((Vec<Joint>, Frame), Rationality)> {
+        let (mut joints, mut frame, mut told) = (Vec::new(), base, Rationality::default());
+        let (mimics, symbols) = (self.mimics(path), self.symbols(path));
+        for (index, is_up) in &path.joints {
+            let joint = &self.joints()[*index];
+            if !is_up {
+                frame = frame.then(&joint.origin.placement);
+            }
+            if let Some(kind) = kind_of(joint)? {
+                let axis = frame.direction(&joint.axis);
+                told.add(frame.rationality(&joint.axis));
+                joints.push(Joint {
+                    name: joint.name.clone(),
+                    symbol: symbols[joints.len()].clone(),
+                    kind,
+                    axis: if *is_up { axis.map(|x| -x) } else { axis },
+                    point: frame.point(),
+                    limits: joint.limits.filter(|_| joint.kind != JointType::Continuous),
+                    mimic: mimics.iter().find(|(name, _)| *name == joint.name).map(|(_, mimic)| mimic.clone()),
+                });
+            }
+            if *is_up {
+                frame = frame.before(&joint.origin.placement);
+            }
+        }
+        Ok(((joints, frame), told))
+    }
+}
+
+/// How a joint moves in a chain; none when it is fixed.
+fn kind_of(joint: &model::Joint) -> Result<Option<JointKind>> {
+    match joint.kind {
+        JointType::Fixed => Ok(None),
+        JointType::Revolute | JointType::Continuous => Ok(Some(JointKind::Revolute)),
+        JointType::Prismatic => Ok(Some(JointKind::Prismatic)),
+        JointType::Floating | JointType::Planar => {
+            let message = format!(
+                "the type `{}` is not supported in a chain; allowed between base and tip: `revolute`, `continuous`, `prismatic`, \
+                 `fixed`",
+                joint.kind.name()
+            );
+            Err(joint.error(ErrorKind::Unsupported, &message))
+        }
+    }
+}

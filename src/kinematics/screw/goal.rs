@@ -1,0 +1,59 @@
+//! What the loop of all joints of a chain must become for its tip to reach a target.
+
+use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use super::model::ray_goal;
+use super::reduced::{Goal, Member, Reduced};
+use crate::Result;
+use crate::kinematics::{Chain, Plane, Target, Task};
+use crate::spatial::Pose;
+
+impl Target {
+    /// The goal of the loop of all joints of `chain`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when the target is not the chain's task's kind, or not finite.
+    pub(super) fn goal(&self, chain: &Chain) -> Result<Goal> {
+        self.check(chain)?;
+        let tip = chain.base_from_tip();
+        let from = Point3::from(tip.translation.vector);
+        let goal = match (self, chain.task()) {
+            (Target::Pose(pose), _) => Goal::Pose(pose * tip.inverse()),
+            (Target::Position(to), _) => Goal::Point { from, to: *to },
+            (Target::Ray { point, direction }, _) => ray_goal(chain, point, direction),
+            (Target::Direction(direction), _) => {
+                Goal::Point { from: (tip.rotation * chain.aim().into_inner()).into(), to: (*direction).into() }
+            }
+            (Target::Rotation(rotation), _) => {
+                Goal::Pose(Pose::from_parts(Translation3::identity(), rotation * tip.rotation.inverse()))
+            }
+            (Target::PlanarPosition(at), Task::PlanarPosition { plane }) => {
+                Goal::Point { from, to: in_plane(&from, plane, at) }
+            }
+            (Target::PlanarPose([x, y, phi]), Task::PlanarPose { plane }) => {
+                let normal = Unit::new_unchecked(Vector3::ith(plane.normal(), 1.0));
+                let rotation = UnitQuaternion::from_axis_angle(&normal, *phi) * tip.rotation;
+                let at = Translation3::from(in_plane(&from, plane, &[*x, *y]).coords);
+                Goal::Pose(Pose::from_parts(at, rotation) * tip.inverse())
+            }
+            // A position with pitch and roll is asked of the loop that stands for it; a planar target has a plane.
+            (Target::PositionPitchRoll { point, .. }, _) => Goal::Point { from, to: *point },
+            (Target::PlanarPosition(_) | Target::PlanarPose(_), _) => Goal::Point { from, to: from },
+        };
+        Ok(goal)
+    }
+}
+
+fn in_plane(tip: &Point3<f64>, plane: Plane, at: &[f64; 2]) -> Point3<f64> {
+    let mut point = *tip;
+    for (axis, value) in plane.coordinates().into_iter().zip(at) {
+        point[axis] = *value;
+    }
+    point
+}
+
+/// The loop of all joints.
+pub(super) fn whole(screws: &[crate::spatial::Screw], goal: Goal) -> Reduced {
+    let row = screws.iter().enumerate().map(|(joint, &screw)| Member { joint, screw }).collect();
+    Reduced { row, goal }
+}

@@ -1,0 +1,211 @@
+//! What a solver is asked for: [`Target`].
+
+use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+use super::{Chain, Task};
+use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
+use crate::{Error, ErrorKind, Result};
+
+/// How far from one the length of a quaternion or a direction may be.
+const UNIT: f64 = 1e-9;
+
+/// Where the tip is to be, in the base frame; lengths in the chain's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The pose base_from_tip.
+    Pose(Pose),
+    /// The position of the tip.
+    Position(Point3<f64>),
+    /// The position in the task's plane, its two coordinates in the order of the plane's name.
+    PlanarPosition([f64; 2]),
+    /// The position in the task's plane and the angle \[rad\] about its normal, right-handed, from the zero configuration.
+    PlanarPose([f64; 3]),
+    /// The position of the tip, and where the task's direction points.
+    Ray {
+        /// The position.
+        point: Point3<f64>,
+        /// The direction, of length one.
+        direction: Vector3<f64>,
+    },
+    /// Where the task's direction points: a vector of length one.
+    Direction(Vector3<f64>),
+    /// The rotation base_from_tip.
+    Rotation(UnitQuaternion<f64>),
+    /// The position of the tip, and pitch and roll of R = Rz(yaw) Ry(pitch) Rx(roll) \[rad\].
+    PositionPitchRoll {
+        /// The position.
+        point: Point3<f64>,
+        /// The pitch.
+        pitch: f64,
+        /// The roll.
+        roll: f64,
+    },
+}
+
+impl Target {
+    /// What the tip of `chain` reaches at `q`, in the form of its task.
+    ///
+    /// # Errors
+    /// As [`Chain::forward`].
+    pub fn reached(chain: &Chain, q: &[f64]) -> Result<Target> {
+        let pose = chain.forward(q)?;
+        let tip = pose.translation.vector;
+        let aimed = || pose.rotation * chain.aim().into_inner();
+        Ok(match chain.task() {
+            Task::Pose => Target::Pose(pose),
+            Task::Position => Target::Position(tip.into()),
+            Task::Ray => Target::Ray { point: tip.into(), direction: aimed() },
+            Task::Direction => Target::Direction(aimed()),
+            Task::Rotation => Target::Rotation(pose.rotation),
+            Task::PositionPitchRoll => {
+                let (pitch, roll) = pitch_and_roll(&pose.rotation);
+                Target::PositionPitchRoll { point: tip.into(), pitch, roll }
+            }
+            Task::PlanarPosition { plane } => Target::PlanarPosition(plane.coordinates().map(|i| tip[i])),
+            Task::PlanarPose { plane } => {
+                let [x, y] = plane.coordinates().map(|i| tip[i]);
+                let turn = pose.rotation * chain.base_from_tip().rotation.inverse();
+                let phi = 2.0 * turn.imag()[plane.normal()].atan2(turn.scalar());
+                Target::PlanarPose([x, y, crate::spatial::angle::wrap(phi)])
+            }
+        })
+    }
+
+    /// The target of `task` with these numbers, in the order of a derived solver: a position, then a rotation by rows, a direction, or angles.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another count of numbers than the task has.
+    pub fn from_numbers(task: Task, target: &[f64]) -> Result<Target> {
+        Ok(match (task, target) {
+            (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
+            (Task::Pose, &[x, y, z, ..]) if target.len() == 12 => {
+                Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation(&target[3..])))
+            }
+            (Task::Rotation, _) if target.len() == 9 => Target::Rotation(rotation(target)),
+            (Task::PositionPitchRoll, &[x, y, z, pitch, roll]) => {
+                Target::PositionPitchRoll { point: [x, y, z].into(), pitch, roll }
+            }
+            (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
+            (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
+            (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
+            (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
+            _ => {
+                let text = format!("{} numbers are no target of the task `{}`", target.len(), task.name());
+                return Err(Error::new(ErrorKind::BadValue, text));
+            }
+        })
+    }
+
+    /// The numbers of this target, in the order of a derived solver: see [`Target::from_numbers`].
+    pub fn numbers(&self) -> Vec<f64> {
+        let rows = |rotation: &UnitQuaternion<f64>| {
+            let matrix = rotation.to_rotation_matrix().into_inner();
+            matrix.transpose().as_slice().to_vec()
+        };
+        let list = |vector: &Vector3<f64>| vector.as_slice().to_vec();
+        match self {
+            Target::Pose(pose) => [list(&pose.translation.vector), rows(&pose.rotation)].concat(),
+            Target::Position(point) => list(&point.coords),
+            Target::Ray { point, direction } => [list(&point.coords), list(direction)].concat(),
+            Target::Direction(direction) => list(direction),
+            Target::Rotation(rotation) => rows(rotation),
+            Target::PositionPitchRoll { point, pitch, roll } => [list(&point.coords), vec![*pitch, *roll]].concat(),
+            Target::PlanarPosition(at) => at.to_vec(),
+            Target::PlanarPose(at) => at.to_vec(),
+        }
+    }
+
+    /// Fails unless the target is of the kind of `chain`'s task and finite.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] then, and for a quaternion or a direction that is not of norm one.
+    pub fn check(&self, chain: &Chain) -> Result<()> {
+        let task = chain.task();
+        let is_of_task = matches!(
+            (self, task),
+            (Target::Pose(_), Task::Pose)
+                | (Target::Position(_), Task::Position)
+                | (Target::Ray { .. }, Task::Ray)
+                | (Target::Direction(_), Task::Direction)
+                | (Target::Rotation(_), Task::Rotation)
+                | (Target::PositionPitchRoll { .. }, Task::PositionPitchRoll)
+                | (Target::PlanarPosition(_), Task::PlanarPosition { .. })
+                | (Target::PlanarPose(_), Task::PlanarPose { .. })
+        );
+        let text = if !is_of_task {
+            format!("the chain's task is `{}`; give a target of that kind", task.name())
+        } else if let Some((what, norm, whole)) = self.not_of_length_one() {
+            format!("the {what} {norm}; give a {whole}")
+        } else if !self.numbers().iter().map(|x| x * x).sum::<f64>().is_finite() {
+            "a target has a value that is not finite, or whose square is not; give finite numbers below 1e150"
+                .to_owned()
+        } else {
+            return Ok(());
+        };
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// What is not of length one though it should be, its length, and what it should be.
+    fn not_of_length_one(&self) -> Option<(&'static str, f64, &'static str)> {
+        let (what, norm, whole) = match self {
+            Target::Pose(Pose { rotation, .. }) | Target::Rotation(rotation) => {
+                ("rotation's quaternion has the norm", rotation.as_ref().norm(), "unit quaternion")
+            }
+            Target::Ray { direction, .. } | Target::Direction(direction) => {
+                ("direction has the length", direction.norm(), "vector of length one")
+            }
+            _ => return None,
+        };
+        // A norm that is no number is not near one.
+        (norm.is_nan() || (norm - 1.0).abs() > UNIT).then_some((what, norm, whole))
+    }
+
+    /// How far the tip of `chain` at `q` is from this target: the distance, in the chain's unit, and the angle \[rad\]; zero for what is not
+    /// asked. Not finite where `q` is not, or the target is of another task.
+    pub fn missed(&self, chain: &Chain, q: &[f64]) -> [f64; 2] {
+        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
+        match Target::reached(chain, q) {
+            Ok(reached) => {
+                let (position, rotation) = reached.difference(self);
+                [norm(&position), norm(&rotation)]
+            }
+            Err(_) => [f64::NAN; 2],
+        }
+    }
+
+    /// What this target differs by from `target`, which is of the same kind: lengths, then numbers that for small turns have the angle \[rad\] as
+    /// their norm.
+    pub(super) fn difference(&self, target: &Target) -> (Vec<f64>, Vec<f64>) {
+        let turn = |a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>| {
+            let difference = a.to_rotation_matrix().matrix() - b.to_rotation_matrix().matrix();
+            difference.iter().map(|entry| entry * std::f64::consts::FRAC_1_SQRT_2).collect::<Vec<f64>>()
+        };
+        let list = |vector: Vector3<f64>| vector.iter().copied().collect::<Vec<f64>>();
+        match (self, target) {
+            (Target::Pose(a), Target::Pose(b)) => {
+                (list(a.translation.vector - b.translation.vector), turn(&a.rotation, &b.rotation))
+            }
+            (Target::Position(a), Target::Position(b)) => (list(a - b), Vec::new()),
+            (Target::Ray { point, direction }, Target::Ray { point: to, direction: along }) => {
+                (list(point - to), list(direction - along))
+            }
+            (
+                Target::PositionPitchRoll { point, pitch, roll },
+                Target::PositionPitchRoll { point: to, pitch: other, roll: rolled },
+            ) => (list(point - to), list(vertical(*pitch, *roll) - vertical(*other, *rolled))),
+            (Target::Direction(a), Target::Direction(b)) => (Vec::new(), list(a - b)),
+            (Target::Rotation(a), Target::Rotation(b)) => (Vec::new(), turn(a, b)),
+            (Target::PlanarPosition(a), Target::PlanarPosition(b)) => (vec![a[0] - b[0], a[1] - b[1]], Vec::new()),
+            (Target::PlanarPose(a), Target::PlanarPose(b)) => {
+                (vec![a[0] - b[0], a[1] - b[1]], vec![angle::difference(a[2], b[2])])
+            }
+            _ => (Vec::new(), vec![f64::NAN]),
+        }
+    }
+}
+
+/// The rotation with nine entries, by rows.
+fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
+    let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
+    UnitQuaternion::from_rotation_matrix(&matrix)
+}

@@ -1,0 +1,150 @@
+//! Links of a robot: what they weigh and what shape they have. Main type: [`Link`].
+
+use std::fmt;
+
+use nalgebra::{Matrix3, Point3, Translation3, UnitQuaternion};
+use num_traits::ToPrimitive;
+
+use super::Origin;
+use crate::number::BigRational;
+use crate::spatial::{Inertia, Pose};
+
+/// One rigid body. Its frame is the frame of the joint above it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Link {
+    /// Its name, unique in the robot.
+    pub name: String,
+    /// What it weighs; a link without mass is a frame.
+    pub mass: Option<Mass>,
+    /// What it looks like.
+    pub visuals: Vec<Shape>,
+    /// What it collides with.
+    pub collisions: Vec<Shape>,
+    /// What the reader left out, and why.
+    pub notes: Vec<String>,
+    /// The line of the file where it stands.
+    pub line: Option<usize>,
+}
+
+impl Link {
+    /// A link without mass and shape.
+    pub fn new(name: &str) -> Self {
+        Link { name: name.to_owned(), ..Link::default() }
+    }
+
+    /// What it weighs, in doubles and its own frame.
+    pub fn inertia(&self) -> Inertia {
+        self.mass.as_ref().map_or(Inertia::none(), Mass::inertia)
+    }
+}
+
+/// Mass, centre of mass and inertia of a link, exactly as they are told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mass {
+    /// The mass \[kg\].
+    pub mass: BigRational,
+    /// The frame at the centre of mass, in the link's frame \[m\].
+    pub origin: Origin,
+    /// The inertia tensor about the centre of mass, along the axes of that frame: xx, xy, xz, yy, yz, zz \[kg m^2\].
+    pub moments: [BigRational; 6],
+}
+
+impl Mass {
+    /// The same in doubles, in the link's frame. No check is made whether a body can have it: [`Inertia::new`] tells.
+    pub fn inertia(&self) -> Inertia {
+        let double = |exact: &BigRational| exact.to_f64().unwrap_or(f64::NAN);
+        let [xx, xy, xz, yy, yz, zz] = self.moments.each_ref().map(double);
+        let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        Inertia::told(double(&self.mass), Point3::origin(), tensor).placed(&self.origin.pose())
+    }
+}
+
+/// A body that is seen, or that collides. Metres and radians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// The origin of its frame in the link's frame.
+    pub xyz: [f64; 3],
+    /// Roll, pitch and yaw of its frame in the link's frame, as in a URDF.
+    pub rpy: [f64; 3],
+    /// The body, in its frame.
+    pub solid: Solid,
+    /// Red, green, blue and opacity, from 0 to 1.
+    pub colour: Option<[f64; 4]>,
+}
+
+impl Shape {
+    /// A shape without a name and a colour, at the link's frame.
+    pub fn new(solid: Solid) -> Self {
+        Shape { name: None, xyz: [0.0; 3], rpy: [0.0; 3], solid, colour: None }
+    }
+
+    /// Its frame in the link's frame.
+    pub fn pose(&self) -> Pose {
+        let [roll, pitch, yaw] = self.rpy;
+        Pose::from_parts(Translation3::from(self.xyz), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
+    }
+}
+
+/// A solid body. Metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// A box about the origin.
+    Box {
+        /// Its whole sides along x, y and z.
+        size: [f64; 3],
+    },
+    /// A cylinder about the z axis, its middle at the origin.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// Its height.
+        length: f64,
+    },
+    /// A ball about the origin.
+    Sphere {
+        /// Its radius.
+        radius: f64,
+    },
+    /// A cylinder about the z axis with half balls at both ends, its middle at the origin.
+    Capsule {
+        /// Its radius.
+        radius: f64,
+        /// The height of the cylinder, without the half balls.
+        length: f64,
+    },
+    /// What a file of triangles holds.
+    Mesh {
+        /// The file, as the description names it: a path, or `package://name/path`.
+        path: String,
+        /// Factors along x, y and z.
+        scale: [f64; 3],
+    },
+}
+
+impl Solid {
+    /// The name of the kind: `box`, `cylinder`, `sphere`, `capsule` or `mesh`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Solid::Box { .. } => "box",
+            Solid::Cylinder { .. } => "cylinder",
+            Solid::Sphere { .. } => "sphere",
+            Solid::Capsule { .. } => "capsule",
+            Solid::Mesh { .. } => "mesh",
+        }
+    }
+}
+
+/// `box 0.1 x 0.2 x 0.3 m`, `mesh package://nao/foot.stl`.
+impl fmt::Display for Solid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Solid::Box { size: [x, y, z] } => write!(f, "box {x} x {y} x {z} m"),
+            Solid::Cylinder { radius, length } => write!(f, "cylinder of radius {radius} m, {length} m long"),
+            Solid::Sphere { radius } => write!(f, "sphere of radius {radius} m"),
+            Solid::Capsule { radius, length } => write!(f, "capsule of radius {radius} m, {length} m long"),
+            Solid::Mesh { path, .. } => write!(f, "mesh {path}"),
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! A robot as a tree of links and joints, checked. Main type: [`Robot`].
+
+use num_traits::{One, Zero};
+
+use super::check;
+use super::{Actuator, Joint, JointType, Link, Mimic};
+use crate::document::shown;
+use crate::number::BigRational;
+use crate::spatial::Inertia;
+use crate::{ErrorKind, Result};
+
+/// The plain data of a [`Robot`], not yet checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RobotParts {
+    /// Its name.
+    pub name: String,
+    /// Where its figures come from.
+    pub source: Option<String>,
+    /// The links.
+    pub links: Vec<Link>,
+    /// The joints.
+    pub joints: Vec<Joint>,
+    /// The motors; a joint that none of them names has its own.
+    pub actuators: Vec<Actuator>,
+}
+
+/// A checked tree of links and joints, with masses and shapes. It never changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    parts: RobotParts,
+    /// The joint above each link.
+    above: Vec<Option<usize>>,
+    /// The parent and child link of each joint.
+    ends: Vec<(usize, usize)>,
+    root: usize,
+    /// The joints, each behind those above it.
+    order: Vec<usize>,
+}
+
+impl Robot {
+    /// Checks links and joints and makes them a tree.
+    ///
+    /// # Errors
+    /// [`ErrorKind::DuplicateName`] for two links, joints or actuators of one name; [`ErrorKind::UnknownName`] for a joint between links
+    /// that do not exist, that follows no joint, or that an actuator names and the robot does not have; [`ErrorKind::BadValue`] for no or
+    /// several roots, a loop, an axis of zero, missing, inverted or infinite limits, a joint that follows itself in the end, an empty name. All with
+    /// name and line.
+    pub fn new(parts: RobotParts) -> Result<Self> {
+        let ends = check::parts(&parts)?;
+        let above = check::parents(&parts, &ends)?;
+        let root = check::root(&parts.links, &above)?;
+        let mut robot = Robot { parts, above, ends, root, order: Vec::new() };
+        robot.order = robot.descent();
+        let mut reached = vec![false; robot.ends.len()];
+        robot.order.iter().for_each(|joint| reached[*joint] = true);
+        match reached.iter().position(|reached| !reached) {
+            None => Ok(robot),
+            Some(joint) => {
+                let message = "it is part of a loop of links; a robot must be a tree";
+                Err(robot.parts.joints[joint].error(ErrorKind::BadValue, message))
+            }
+        }
+    }
+
+    /// The plain data of this robot.
+    pub fn parts(&self) -> &RobotParts {
+        &self.parts
+    }
+
+    /// The name of the robot.
+    pub fn name(&self) -> &str {
+        &self.parts.name
+    }
+
+    /// All links, in the order of the file.
+    pub fn links(&self) -> &[Link] {
+        &self.parts.links
+    }
+
+    /// All joints, in the order of the file.
+    pub fn joints(&self) -> &[Joint] {
+        &self.parts.joints
+    }
+
+    /// The link that hangs on none.
+    pub fn root(&self) -> &str {
+        &self.parts.links[self.root].name
+    }
+
+    /// The place of the link that hangs on none.
+    pub fn root_place(&self) -> usize {
+        self.root
+    }
+
+    /// The links that carry none, in the order of the file.
+    pub fn leaves(&self) -> Vec<&str> {
+        let children = self.children();
+        let leaves = self.parts.links.iter().zip(&children).filter(|(_, joints)| joints.is_empty());
+        leaves.map(|(link, _)| link.name.as_str()).collect()
+    }
+
+    /// The links that end a limb: moved by the joint above them, with no moving joint below.
+    pub fn tips(&self) -> Vec<&str> {
+        let mut moves_below = vec![false; self.parts.links.len()];
+        for (index, joint) in self.parts.joints.iter().enumerate() {
+            let mut link = (joint.kind != JointType::Fixed).then_some(self.ends[index].0);
+            while let Some(place) = link.filter(|place| !moves_below[*place]) {
+                moves_below[place] = true;
+                link = self.above[place].map(|joint| self.ends[joint].0);
+            }
+        }
+        let is_tip = |link: usize| {
+            let moved = self.above[link].is_some_and(|joint| self.parts.joints[joint].kind != JointType::Fixed);
+            moved && !moves_below[link]
+        };
+        (0..self.parts.links.len())
+            .filter(|link| is_tip(*link))
+            .map(|link| self.parts.links[link].name.as_str())
+            .collect()
+    }
+
+    /// The joints that hang on each link.
+    pub(super) fn children(&self) -> Vec<Vec<usize>> {
+        let mut children = vec![Vec::new(); self.parts.links.len()];
+        for (joint, (parent, _)) in self.ends.iter().enumerate() {
+            children[*parent].push(joint);
+        }
+        children
+    }
+
+    /// The joints below the root, each behind those above it, in the order of the file where that leaves a choice.
+    fn descent(&self) -> Vec<usize> {
+        let children = self.children();
+        let (mut order, mut open) = (Vec::new(), vec![self.root]);
+        while let Some(link) = open.pop() {
+            order.extend(&children[link]);
+            open.extend(children[link].iter().rev().map(|joint| self.ends[*joint].1));
+        }
+        order
+    }
+
+    /// The motors that move several joints, or that are named.
+    pub fn actuators(&self) -> &[Actuator] {
+        &self.parts.actuators
+    }
+
+    /// The places of the joints that one number moves, which turn or slide, in the order of the file: those of a configuration `q`. A joint
+    /// that follows another has its own place; [`Robot::follow`] fills it.
+    pub fn moving(&self) -> Vec<usize> {
+        (0..self.joints().len()).filter(|joint| self.joints()[*joint].kind.is_single()).collect()
+    }
+
+    /// The places of all joints, each behind those above it.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// The places of the parent and the child link of a joint.
+    ///
+    /// # Panics
+    /// When there is no such joint.
+    pub fn ends(&self, joint: usize) -> (usize, usize) {
+        self.ends[joint]
+    }
+
+    /// The place of the joint that moves a link; none for the root.
+    ///
+    /// # Panics
+    /// When there is no such link.
+    pub fn above(&self, link: usize) -> Option<usize> {
+        self.above[link]
+    }
+
+    /// The places of the joints from a link up to the root.
+    ///
+    /// # Panics
+    /// When there is no such link.
+    pub fn ancestry(&self, link: usize) -> Vec<usize> {
+        std::iter::successors(self.above[link], |joint| self.above[self.ends[*joint].0]).collect()
+    }
+
+    /// The place of the link `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] with the nearest name.
+    pub fn link(&self, name: &str) -> Result<usize> {
+        check::place("link", name, self.links().iter().map(|link| link.name.as_str()))
+    }
+
+    /// The place of the joint `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] with the nearest name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        check::place("joint", name, self.joints().iter().map(|joint| joint.name.as_str()))
+    }
+
+    /// How `joint` follows the one that leads it in the end; itself when it follows none.
+    pub fn law(&self, joint: &Joint) -> Mimic {
+        let own = Mimic { leader: joint.name.clone(), multiplier: BigRational::one(), offset: BigRational::zero() };
+        let leader = |mimic: &Mimic| self.joints().iter().find(|joint| joint.name == mimic.leader);
+        match joint.mimic.as_ref().and_then(|mimic| Some((mimic, leader(mimic)?))) {
+            Some((mimic, leader)) if !mimic.multiplier.is_zero() => self.law(leader).then(mimic),
+            _ => own,
+        }
+    }
+
+    /// The mass of all links \[kg\].
+    pub fn mass(&self) -> f64 {
+        self.links().iter().map(|link| link.inertia().mass()).sum()
+    }
+
+    /// What is to be said about links: masses that no body has, and shapes that the reader left out.
+    pub fn doubts(&self) -> Vec<String> {
+        let fault = |link: &Link| {
+            let inertia = link.mass.as_ref()?.inertia();
+            Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational()).err()
+        };
+        let of = |link: &Link| {
+            let faults = fault(link).map(|fault| fault.message().to_owned()).into_iter();
+            let named = |text: String| format!("link `{}`: {text}", shown(&link.name));
+            faults.chain(link.notes.iter().cloned()).map(named).collect::<Vec<_>>()
+        };
+        self.links().iter().flat_map(of).collect()
+    }
+}

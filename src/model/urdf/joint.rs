@@ -1,0 +1,163 @@
+//! Joints of a URDF.
+
+use num_traits::ToPrimitive;
+
+use super::refuse_slips;
+use super::xml::Element;
+use crate::document::{one_among, shown};
+use crate::model::{Joint, JointType, Mimic, Origin};
+use crate::number::BigRational;
+use crate::spatial::exact::surd::recognised;
+use crate::spatial::exact::{ExactRotation, ExactVector, Placement, Turn};
+use crate::{Error, ErrorKind, Result};
+
+/// The elements of a joint.
+const PARTS: [&str; 9] =
+    ["parent", "child", "origin", "axis", "limit", "calibration", "dynamics", "mimic", "safety_controller"];
+
+/// The joint that a `<joint>` describes.
+pub fn read_joint(element: &Element, is_recent: bool) -> Result<Joint> {
+    let name = element.required("name")?;
+    read_named_joint(element, name, is_recent)
+        .map_err(|error| error.with_context(format_args!("joint `{}`", shown(name))).at_line(element.line))
+}
+
+fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Joint> {
+    refuse_slips(element, &PARTS)?;
+    let kind = read_kind(element)?;
+    let link = |part: &str| -> Result<String> {
+        let missing =
+            || element.error(ErrorKind::MissingKey, &format!("has no <{part} link=\"...\"/>; it is required"));
+        Ok(element.child(part)?.ok_or_else(missing)?.required("link")?.to_owned())
+    };
+    let (origin, mut notes) =
+        element.child("origin")?.map_or_else(|| Ok((Origin::identity(), Vec::new())), read_origin)?;
+    let axis = read_axis(element.child("axis")?)?;
+    if recognised(&axis).is_some() {
+        notes.push(
+            "its axis is taken as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that it is the decimal of, where solvers are derived"
+                .to_owned(),
+        );
+    }
+    let limit = |key: &str| element.child("limit")?.map_or(Ok(None), |limit| limit.float(key));
+    let dynamics = |key: &str| {
+        Ok::<_, Error>(element.child("dynamics")?.map_or(Ok(None), |child| child.float(key))?.unwrap_or(0.0))
+    };
+    Ok(Joint {
+        origin,
+        axis,
+        limits: read_limits(element, kind, is_recent)?,
+        speed: limit("velocity")?,
+        effort: limit("effort")?,
+        damping: dynamics("damping")?,
+        friction: dynamics("friction")?,
+        armature: dynamics("armature")? + reflected_rotor(element)?,
+        mimic: element.child("mimic")?.map(read_mimic).transpose()?,
+        notes,
+        line: Some(element.line),
+        ..Joint::new(name, kind, &link("parent")?, &link("child")?)
+    })
+}
+
+/// The rotor's inertia as Drake's extension tells it, times the gear ratio squared \[kg m^2 or kg\].
+fn reflected_rotor(element: &Element) -> Result<f64> {
+    let value = |name: &str| element.child(name)?.map_or(Ok(None), |child| child.float("value"));
+    let ratio = value("drake:gear_ratio")?.unwrap_or(1.0);
+    Ok(value("drake:rotor_inertia")?.unwrap_or(0.0) * ratio * ratio)
+}
+
+fn read_kind(element: &Element) -> Result<JointType> {
+    let text = element.required("type")?;
+    JointType::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
+        let names = JointType::ALL.map(JointType::name);
+        element.error(ErrorKind::BadValue, &format!("has the type `{}`{}", shown(text), one_among(text, &names)))
+    })
+}
+
+/// A frame, and what is to be said about its rotation.
+pub fn read_origin(element: &Element) -> Result<(Origin, Vec<String>)> {
+    let xyz = element.numbers("xyz")?.unwrap_or_default();
+    let (rpy, quaternion) = (element.numbers::<3>("rpy")?, element.numbers::<4>("quat_xyzw")?);
+    let (turned, notes) = match (&rpy, quaternion) {
+        (Some(_), Some(_)) => {
+            return Err(element.error(ErrorKind::BadValue, "has both `rpy` and `quat_xyzw`; give one of them"));
+        }
+        (Some(rpy), None) => read_rpy(element, rpy)?,
+        (None, Some(xyzw)) => {
+            let zero =
+                || element.error(ErrorKind::BadValue, "has `quat_xyzw` = 0 0 0 0; give a quaternion that is not zero");
+            let rotation = ExactRotation::from_quaternion(&xyzw).ok_or_else(zero)?;
+            (Placement { rotation, ..Placement::identity() }, Vec::new())
+        }
+        (None, None) => (Placement::identity(), Vec::new()),
+    };
+    Ok((Origin { placement: Placement { origin: xyz, ..turned }, rpy }, notes))
+}
+
+fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(Placement, Vec<String>)> {
+    let turns: Vec<Turn> = rpy
+        .iter()
+        .map(|angle| Turn::from_radians(angle).map_err(|error| element.error(error.kind(), error.message())))
+        .collect::<Result<_>>()?;
+    let mut notes = Vec::new();
+    for ((name, angle), turn) in ["roll", "pitch", "yaw"].into_iter().zip(rpy).zip(&turns) {
+        let angle = angle.to_f64().unwrap_or(f64::NAN);
+        match turn.meant().degrees() {
+            Some(_) if angle == 0.0 => {}
+            Some(degrees) => {
+                let whole = (angle / std::f64::consts::TAU - f64::from(degrees) / 360.0).round();
+                let degrees = f64::from(degrees) + 360.0 * whole;
+                let told = if turn.is_exact() {
+                    "exactly"
+                } else {
+                    "where solvers are derived; poses are those of the number"
+                };
+                notes.push(format!("{name} {angle} rad is taken as {degrees} deg {told}"));
+            }
+            None => {
+                let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
+                notes.push(format!("{name} {angle} rad {note}"));
+            }
+        }
+    }
+    Ok((Placement::turned(std::array::from_fn(|i| turns[i])), notes))
+}
+
+/// The direction; (1, 0, 0) when there is none.
+fn read_axis(element: Option<&Element>) -> Result<ExactVector> {
+    let default = || [1, 0, 0].map(|x| BigRational::from_integer(x.into()));
+    let Some(element) = element else { return Ok(default()) };
+    element.required("xyz")?;
+    Ok(element.numbers("xyz")?.unwrap_or_else(default))
+}
+
+/// Limits; before version 1.2 one that is left out is zero, since then there is none.
+fn read_limits(joint: &Element, kind: JointType, is_recent: bool) -> Result<Option<(f64, f64)>> {
+    if !matches!(kind, JointType::Revolute | JointType::Prismatic) {
+        return Ok(None);
+    }
+    let Some(element) = joint.child("limit")? else { return Ok(None) };
+    let read = |name: &str| -> Result<Option<f64>> {
+        let value = element.number(name)?;
+        Ok(value.map(|value| value.to_f64().unwrap_or(f64::INFINITY)))
+    };
+    match (read("lower")?, read("upper")?) {
+        (None, None) if is_recent => Err(Error::new(
+            ErrorKind::BadValue,
+            "<limit> has no `lower` and no `upper`; give both, or the type `continuous`",
+        )),
+        (None, Some(_)) | (Some(_), None) if is_recent => {
+            Err(element.error(ErrorKind::BadValue, "has only one of `lower` and `upper`; give both"))
+        }
+        (lower, upper) => Ok(Some((lower.unwrap_or(0.0), upper.unwrap_or(0.0)))),
+    }
+}
+
+fn read_mimic(element: &Element) -> Result<Mimic> {
+    let whole = |n: i64| BigRational::from_integer(n.into());
+    Ok(Mimic {
+        leader: element.required("joint")?.to_owned(),
+        multiplier: element.number("multiplier")?.unwrap_or_else(|| whole(1)),
+        offset: element.number("offset")?.unwrap_or_else(|| whole(0)),
+    })
+}

@@ -1,0 +1,9 @@
+//! Robots: read from URDF and TOML, written, and cut into chains.
+
+mod robot;
+mod round_trip;
+mod toml;
+mod urdf;
+mod urdf_angles;
+
+use crate::kinematics::exact;
