@@ -76,6 +76,8 @@ pub mod dynamics;
 
 pub mod solver;
 
+pub mod motion;
+
 pub mod gait;
 
 pub mod robots;

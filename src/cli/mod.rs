@@ -16,6 +16,7 @@ mod console;
 mod derive;
 mod ends;
 mod explain;
+mod export;
 mod files;
 mod fk;
 mod forms;
@@ -75,6 +76,7 @@ enum Command {
     Fk(fk::Arguments),
     Basis(basis::Arguments),
     Walk(walk::Arguments),
+    Export(export::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -120,6 +122,7 @@ pub fn run() -> ExitCode {
         Command::Fk(arguments) => fk::run(arguments),
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

@@ -1,12 +1,14 @@
 //! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
 
+mod described;
+
 use std::path::{Path, PathBuf};
 
 use nalgebra::Point2;
 
 use super::progress::{Limits, Session};
 use super::{Outcome, console};
-use crate::document::{read_text, shown};
+use crate::document::read_text;
 use crate::files::write_atomically;
 use crate::gait::{
     Biped, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at, words,
@@ -27,11 +29,15 @@ const EXAMPLES: &str = "Examples:
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv
+  groebot walk talos.urdf --left left_sole_link --right right_sole_link --goal 1,0 -o walk.csv
 
 Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The last of --steps closes the feet: 8 steps of
 0.04 m lead 0.28 m ahead. A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres, radians; it starts
-at the origin. A phase that would be unstable or too fast is slowed down; a walk that no slower phase makes stable is refused.
-Gaits: nao seed, preview, osg; rh0 rh0, rh0-real, osg; teo osg; the first is taken unless one is named.";
+at the origin. A phase that would be unstable or too fast is slowed down, and where that does not help turns and steps are shortened; a walk
+that nothing makes stable is refused.
+Gaits: nao seed, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview; the first is taken unless one is named.
+Of a description the legs are derived on the spot: six joints each, from the root link to the links of the soles. The root has x ahead, y left,
+z up, and the feet are level at zero. What touches the floor are the lowest points of what collides there; meshes must be STL.";
 
 /// Which soles.
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -71,8 +77,11 @@ enum GaitName {
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("way").args(["footsteps", "plan", "goal"]))]
 pub struct Arguments {
-    /// The robot: nao, rh0 or teo
+    /// The robot: nao, rh0, teo, or a description in URDF or TOML
+    #[arg(value_name = "ROBOT-or-FILE")]
     robot: String,
+    #[command(flatten)]
+    soles: described::SoleArguments,
     /// The number of steps; the last one closes the feet
     #[arg(long, default_value_t = 8, conflicts_with = "way")]
     steps: usize,
@@ -97,8 +106,8 @@ pub struct Arguments {
     /// The walk in words: out, stride, in with left or right; turn left or right with degrees; parted by commas
     #[arg(long, value_name = "WORDS")]
     plan: Option<String>,
-    /// Step by step towards a place, seen from the middle of the feet at first: ahead, to the left [m]
-    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    /// Step by step towards a place, seen from the middle of the feet at first: ahead, to the left [m], and where to look there [degrees]
+    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     goal: Option<Vec<f64>>,
     /// How the centre of mass is moved
     #[arg(long, value_enum)]
@@ -171,15 +180,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Measured => Outline::Measured,
         SoleName::Seed => Outline::Seed,
     };
-    let unknown = || {
-        let text = format!("`{}` is no robot that walks; give `nao`, `rh0` or `teo`", shown(&arguments.robot));
-        Error::new(ErrorKind::UnknownName, text)
+    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
+    let walker = match robots::walker(&arguments.robot, outline) {
+        Some(known) => known?,
+        None => described::walker(Path::new(&arguments.robot), &arguments.soles, &session.watch)?,
     };
-    let walker = robots::walker(&arguments.robot, outline).ok_or_else(unknown)??;
     let usual = arguments.usual(&walker)?;
     let biped = &walker.biped;
-    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let request = |height| arguments.request(&usual, biped, height);
+    let request = |height, ease| arguments.request(&usual.clone().eased(ease), biped, height);
     let walk = plan_at((biped, &walker.legs), arguments.hip_height, &usual.hip_heights, request, &session.watch)?;
     drop(session);
     arguments.write(biped, &walk)?;
@@ -269,8 +277,11 @@ impl Arguments {
             return Route::of_words(&words(text)?, &measures);
         }
         match self.goal.as_deref() {
-            Some(&[x, y]) => return Route::towards(&Point2::new(x, y), first, &measures),
-            Some(_) => return Err(bad("--goal takes two numbers: --goal 1,0.5".into())),
+            Some(&[x, y]) => return Route::towards(&Point2::new(x, y), None, first, &measures),
+            Some(&[x, y, heading]) => {
+                return Route::towards(&Point2::new(x, y), Some(heading.to_radians()), first, &measures);
+            }
+            Some(_) => return Err(bad("--goal takes two or three numbers: --goal 1,0.5 or --goal 1,0.5,90".into())),
             None => {}
         }
         let turn = self.turn.to_radians();

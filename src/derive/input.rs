@@ -14,7 +14,7 @@ use crate::model::urdf::URDF_LIMIT;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, limbs that share motors.
-pub const INPUT_NAMES: [&str; 4] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", LIMBS_NAME];
+pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", LIMBS_NAME, "0_robot.toml"];
 /// The name of the description of limbs that share motors, in a mechanism's folder.
 pub const LIMBS_NAME: &str = "0_limbs.toml";
 
@@ -25,7 +25,7 @@ pub enum Description {
     Chain(Box<Chain>),
     /// Equations.
     System(System),
-    /// A robot with any number of limbs: URDF.
+    /// A robot with any number of limbs: URDF, or TOML.
     Robot(Robot),
     /// Limbs that share motors.
     Limbs(Box<Limbs>),
@@ -47,8 +47,8 @@ pub struct InputFile {
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot; one with
-    /// `[[limb]]` limbs, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
+    /// a `[[link]]`; one with `[[limb]]` are limbs, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
@@ -65,7 +65,7 @@ impl InputFile {
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
-            Description::Robot(_) => INPUT_NAMES[2],
+            Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
             Description::Limbs(_) => LIMBS_NAME,
         };
         let ends = read_ends(&file)?;
@@ -111,14 +111,15 @@ fn read_ends(file: &Path) -> Result<Ends> {
 fn from_toml(text: &str, file: &Path) -> Result<Description> {
     let has = {
         let document = Document::parse(text)?;
-        ["limb", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
+        ["link", "limb", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
     };
     let boxed = |chain| Description::Chain(Box::new(chain));
     let folder = file.parent().unwrap_or(Path::new(""));
     match has {
-        [true, ..] => Limbs::from_toml(text, folder).map(|limbs| Description::Limbs(Box::new(limbs))),
-        [_, true, ..] => Chain::from_dh_toml(text).map(boxed),
-        [_, _, false, false] => System::from_toml(text).map(Description::System),
+        [true, ..] => Robot::from_toml(text).map(Description::Robot),
+        [_, true, ..] => Limbs::from_toml(text, folder).map(|limbs| Description::Limbs(Box::new(limbs))),
+        [_, _, true, ..] => Chain::from_dh_toml(text).map(boxed),
+        [_, _, _, false, false] => System::from_toml(text).map(Description::System),
         _ => Chain::from_toml(text).map(boxed),
     }
 }

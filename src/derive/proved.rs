@@ -5,6 +5,7 @@ use super::limbs::DerivedLimbs;
 use super::template::{DerivedSixAxes, fits};
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
+use crate::kinematics::ideal::Report;
 use crate::solver::{About, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -28,7 +29,7 @@ impl Proved {
     /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
         match (source.chain_by_steps(), &source.limbs) {
-            (Some(chain), _) => Proved::of_chain(source, chain, watch),
+            (Some(chain), _) => Proved::of_ideal(chain, &ideal(source, chain)?, watch),
             (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
             (None, None) => Ok(Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?))),
         }
@@ -41,24 +42,32 @@ impl Proved {
     pub fn again(source: &Source, text: &str) -> Result<Self> {
         match (source.chain_by_steps(), &source.limbs) {
             (Some(chain), _) if DerivedSixAxes::is_certificate(text) => {
-                Ok(Proved::SixAxes(Box::new(Proved::six_axes(source, chain, |chain| {
-                    DerivedSixAxes::prove(chain, text)
-                })?)))
+                Proved::six_axes(chain, &ideal(source, chain)?, |chain| DerivedSixAxes::prove(chain, text))
             }
-            (Some(chain), _) => Proved::chain(source, chain, |chain| lift::certificate::prove(chain, text)),
+            (Some(chain), _) => {
+                Proved::chain(chain, &ideal(source, chain)?, |chain| lift::certificate::prove(chain, text))
+            }
             (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
             (None, None) => Ok(Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?))),
         }
     }
 
-    /// The derivation of `chain` by steps; where it has none, by one eigenvalue problem, if that is for it.
-    fn of_chain(source: &Source, chain: &Chain, watch: &Watch) -> Result<Self> {
-        let by_steps = Proved::chain(source, chain, |chain| Derived::of_chain(chain, watch));
+    /// Derives and proves the solver of `chain` for its task: that of the ideal robot which it means, with answers polished on `chain` itself where
+    /// that is another. It is one joint at a time, or where that is impossible by one eigenvalue problem of six joints.
+    ///
+    /// # Errors
+    /// As [`Derived::of_chain`].
+    pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
+        Proved::of_ideal(chain, &chain.ideal(), watch)
+    }
+
+    fn of_ideal(chain: &Chain, ideal: &(Chain, Report), watch: &Watch) -> Result<Self> {
+        let by_steps = Proved::chain(chain, ideal, |chain| Derived::of_chain(chain, watch));
         match by_steps {
             Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
-                match Proved::six_axes(source, chain, |chain| DerivedSixAxes::of_chain(chain, watch)) {
+                match Proved::six_axes(chain, ideal, |chain| DerivedSixAxes::of_chain(chain, watch)) {
                     Err(error) if error.kind() == ErrorKind::Unsupported => Err(refusal),
-                    together => together.map(|derived| Proved::SixAxes(Box::new(derived))),
+                    together => together,
                 }
             }
             other => other,
@@ -66,22 +75,22 @@ impl Proved {
     }
 
     /// The derivation of the ideal robot that `chain` means, its answers polished on `chain` where that is another.
-    fn chain(source: &Source, chain: &Chain, derive: impl Fn(&Chain) -> Result<Derived>) -> Result<Self> {
-        let (ideal, report) = source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)?;
-        let derived = derive(&ideal)?;
-        let derived = if report.is_same() { derived } else { derived.polished_on(chain, report)? };
+    fn chain(chain: &Chain, ideal: &(Chain, Report), derive: impl Fn(&Chain) -> Result<Derived>) -> Result<Self> {
+        let (ideal, report) = ideal;
+        let derived = derive(ideal)?;
+        let derived = if report.is_same() { derived } else { derived.polished_on(chain, report.clone())? };
         Ok(Proved::Chain(Box::new(derived)))
     }
 
     /// The same of an eigenvalue problem.
     fn six_axes(
-        source: &Source,
         chain: &Chain,
+        (ideal, report): &(Chain, Report),
         derive: impl Fn(&Chain) -> Result<DerivedSixAxes>,
-    ) -> Result<DerivedSixAxes> {
-        let (ideal, report) = source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)?;
-        let derived = derive(&ideal)?;
-        if report.is_same() { Ok(derived) } else { derived.polished_on(chain, report) }
+    ) -> Result<Self> {
+        let derived = derive(ideal)?;
+        let derived = if report.is_same() { derived } else { derived.polished_on(chain, report.clone())? };
+        Ok(Proved::SixAxes(Box::new(derived)))
     }
 
     /// The solver.
@@ -130,6 +139,11 @@ impl Proved {
             Proved::Limbs(derived) => Some(derived.dimension()),
         }
     }
+}
+
+/// The ideal robot that the chain of `source` means.
+fn ideal(source: &Source, chain: &Chain) -> Result<(Chain, Report)> {
+    source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)
 }
 
 fn equations(source: &Source) -> Result<&super::System> {

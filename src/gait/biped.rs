@@ -5,14 +5,12 @@ use nalgebra::{Point2, Point3};
 use super::footprint::{Footprint, Side};
 use super::polygon::Polygon;
 use crate::dynamics::Model;
-use crate::model::{Robot, Solid};
+use crate::model::{Meshes, Robot};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
 /// What is this far above a sole's lowest point still touches a floor that gives a little \[m\].
 const FLAT: f64 = 2e-3;
-/// How many points stand for a circle.
-const ROUND: usize = 16;
 
 /// A joint as a gait sees it.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +21,7 @@ pub struct JointRange {
     pub symbol: String,
     /// Least and greatest value \[rad\].
     pub limits: (f64, f64),
-    /// The greatest rate \[rad/s\].
+    /// The greatest rate \[rad/s\]; infinite where it is not told.
     pub speed: f64,
 }
 
@@ -66,26 +64,24 @@ pub struct Biped {
 
 impl Biped {
     /// The biped that stands on the links `soles` of `robot`, left and right. What touches the floor are the lowest points of all that collides
-    /// with it and is fixed to these links.
+    /// with it and is fixed to these links; triangles are looked for in `meshes`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for links that are not there; [`ErrorKind::BadValue`] for legs that share a joint or have fewer than three, a sole
-    /// without shape, a robot without mass, a joint without limits or speed.
-    pub fn new(robot: &Robot, soles: [&str; 2]) -> Result<Self> {
+    /// without shape, a robot without mass, a joint without limits; those of [`Meshes::points`].
+    pub fn new(robot: &Robot, soles: [&str; 2], meshes: &Meshes) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        let outlines = links.map(|link| touching(robot, link));
+        let outlines = [touching(robot, links[0], meshes)?, touching(robot, links[1], meshes)?];
         Biped::with_outlines(robot, links, outlines)
     }
 
-    /// The same on soles that cover the given points, in their frames.
+    /// The same on soles that cover the given points, in the planes through their links' origins.
     ///
     /// # Errors
-    /// As [`Biped::new`].
+    /// As [`Biped::new`], but for shapes.
     pub fn on_outlines(robot: &Robot, soles: [&str; 2], outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        let [left, right] = outlines;
-        let outlines = [(touching(robot, links[0]).0, left), (touching(robot, links[1]).0, right)];
-        Biped::with_outlines(robot, links, outlines)
+        Biped::with_outlines(robot, links, outlines.map(|outline| (0.0, outline)))
     }
 
     /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
@@ -185,7 +181,7 @@ fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
             name: name.clone(),
             symbol: joint.symbol.clone().unwrap_or_else(|| name.clone()),
             limits: joint.limits.or(turns_freely).ok_or_else(|| missing("limits"))?,
-            speed: joint.speed.filter(|speed| *speed > 0.0).ok_or_else(|| missing("greatest speed"))?,
+            speed: joint.speed.filter(|speed| *speed > 0.0).unwrap_or(f64::INFINITY),
         })
     };
     robot.moving().into_iter().zip(model.joints().iter().map(|joint| &joint.name)).map(range).collect()
@@ -202,47 +198,20 @@ fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>))
 }
 
 /// The height of the lowest points of what is fixed to a link over the link's origin, and these points from above, with the torso's axes.
-fn touching(robot: &Robot, link: usize) -> (f64, Vec<Point2<f64>>) {
-    let Ok(model) = Model::new(robot) else { return (0.0, Vec::new()) };
+fn touching(robot: &Robot, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
+    let model = Model::new(robot)?;
     let (body, torso_from_sole) = model.link(link);
     let at = torso_from_sole.translation.vector;
     let mut points: Vec<Point3<f64>> = Vec::new();
     for (place, other) in robot.links().iter().enumerate() {
         let (own, torso_from_link) = model.link(place);
-        if own == body {
-            let shapes = other.collisions.iter();
-            points.extend(shapes.flat_map(|shape| {
-                let torso_from_shape = torso_from_link * shape.pose();
-                corners(&shape.solid).into_iter().map(move |point| torso_from_shape * point - at)
-            }));
+        for shape in other.collisions.iter().filter(|_| own == body) {
+            let torso_from_shape = torso_from_link * shape.pose();
+            points.extend(meshes.points(&shape.solid)?.into_iter().map(|point| torso_from_shape * point - at));
         }
     }
     let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
     let touching: Vec<Point2<f64>> = points.iter().filter(|point| point.z <= lowest + FLAT).map(Point3::xy).collect();
     let height = if lowest.is_finite() { lowest } else { 0.0 };
-    (height, Polygon::hull(&touching).corners().to_vec())
-}
-
-/// Points whose hull is the solid, or nearly so; none of a mesh.
-fn corners(solid: &Solid) -> Vec<Point3<f64>> {
-    let signs = [-0.5, 0.5];
-    let circle = |radius: f64, z: f64| {
-        let angle = |step: usize| std::f64::consts::TAU * step as f64 / ROUND as f64;
-        (0..ROUND).map(move |step| Point3::new(radius * angle(step).cos(), radius * angle(step).sin(), z))
-    };
-    match *solid {
-        Solid::Box { size: [x, y, z] } => {
-            let xy = signs.into_iter().flat_map(|a| signs.map(|b| (a, b)));
-            xy.flat_map(|(a, b)| signs.map(|c| Point3::new(a * x, b * y, c * z))).collect()
-        }
-        Solid::Cylinder { radius, length } => signs.into_iter().flat_map(|end| circle(radius, end * length)).collect(),
-        Solid::Sphere { radius } | Solid::Capsule { radius, .. } => {
-            let half = if let Solid::Capsule { length, .. } = *solid { length / 2.0 } else { 0.0 };
-            let rings = (0..=ROUND / 2).map(|ring| std::f64::consts::PI * (ring as f64 / (ROUND / 2) as f64 - 0.5));
-            let ring =
-                |latitude: f64| circle(radius * latitude.cos(), radius * latitude.sin() + half * latitude.signum());
-            rings.flat_map(ring).collect()
-        }
-        Solid::Mesh { .. } => Vec::new(),
-    }
+    Ok((height, Polygon::hull(&touching).corners().to_vec()))
 }

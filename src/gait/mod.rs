@@ -24,6 +24,7 @@ mod summary;
 mod table;
 mod thesis;
 mod usual;
+mod walker;
 mod words;
 mod zmp;
 
@@ -40,6 +41,7 @@ pub use preview::{Preview, zmp_reference};
 pub use reference::{Reference, Style, arch, seed_centre, smooth, soles};
 pub use schedule::{Action, Durations, Phase, Schedule};
 pub use summary::{Extreme, Summary};
-pub use usual::{Usual, Walker, plan_at};
+pub use usual::{Usual, plan_at};
+pub use walker::Walker;
 pub use words::{Measures, Word, words};
 pub use zmp::{Configuration, GRAVITY, momentum_between, of_pendulum, zero_moment_point};

@@ -45,18 +45,11 @@ pub struct Usual {
     pub tick: f64,
 }
 
-/// A robot that can walk, with the gaits that it walks by name, its own first, each with its usual figures.
-#[derive(Clone, Debug)]
-pub struct Walker {
-    /// The robot.
-    pub biped: Biped,
-    /// The solvers of its legs.
-    pub legs: Legs,
-    /// Its gaits.
-    pub gaits: Vec<(&'static str, Usual)>,
-}
+/// How far turns and steps are shortened in turn, where a walk is refused as it was asked for.
+const EASED: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
 
-/// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height.
+/// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height, with
+/// turns that are shortened to a share where no height helps: 1 at first.
 ///
 /// # Errors
 /// As [`plan`]; that of the first height when it can be walked at none.
@@ -64,19 +57,22 @@ pub fn plan_at(
     (biped, legs): (&Biped, &Legs),
     hip_height: Option<f64>,
     heights: &[f64],
-    request: impl Fn(f64) -> Result<Request>,
+    request: impl Fn(f64, f64) -> Result<Request>,
     watch: &Watch,
 ) -> Result<Walk> {
-    let walk = |height: f64| plan(biped, legs, &request(height)?, watch);
-    let Some(height) = hip_height.or(heights.first().copied()) else {
-        return Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip"));
-    };
-    let first = walk(height);
+    let heights = hip_height.map_or(heights.to_vec(), |height| vec![height]);
     let is_refused = |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
-    if hip_height.is_some() || !is_refused(&first) {
-        return first;
+    let mut first = None;
+    for ease in EASED {
+        for height in &heights {
+            let walk = plan(biped, legs, &request(*height, ease)?, watch);
+            if !is_refused(&walk) {
+                return walk;
+            }
+            first = first.or(Some(walk));
+        }
     }
-    heights[1..].iter().map(|height| walk(*height)).find(|walk| !is_refused(walk)).unwrap_or(first)
+    first.unwrap_or_else(|| Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip")))
 }
 
 impl Usual {
@@ -103,6 +99,12 @@ impl Usual {
             speed_share: self.speed_share,
             tick: self.tick,
         }
+    }
+
+    /// The same figures with turns shortened to the share `ease`, and steps to a share between it and 1.
+    #[must_use]
+    pub fn eased(self, ease: f64) -> Self {
+        Usual { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
     }
 
     /// The figures with a lowering before the first step and a rise behind the last one, for one step goal.

@@ -92,13 +92,14 @@ impl Route {
     }
 
     /// One step after the other towards `goal` \[m\], seen from level feet about the origin: each turns the robot to it as far as
-    /// `most_turn` lets it and leads up to a length ahead, and the last one closes the feet, RH0 3.3.
+    /// `most_turn` lets it and leads up to a length ahead, and the last one closes the feet, RH0 3.3. With a `heading` \[rad\] the robot turns to it
+    /// on the spot before.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a measure is not finite and positive.
-    pub fn towards(goal: &Point2<f64>, first: Side, measures: &Measures) -> Result<Self> {
+    pub fn towards(goal: &Point2<f64>, heading: Option<f64>, first: Side, measures: &Measures) -> Result<Self> {
         let mut traveller = Traveller::new(measures)?;
-        if !goal.iter().all(|x| x.is_finite()) {
+        if !goal.iter().chain(&heading).all(|x| x.is_finite()) {
             return Err(bad("the goal is not finite; give --goal two numbers, in metres: ahead, to the left"));
         }
         let start = traveller.level();
@@ -121,6 +122,14 @@ impl Route {
             traveller.middle = turned.then(&Footprint { x: advance, ..Footprint::default() });
             traveller.land(side)?;
             side = side.other();
+        }
+        let mut left = heading.map_or(0.0, |heading| angle::difference(heading, traveller.middle.yaw));
+        while left != 0.0 {
+            let yaw = left.clamp(-measures.most_turn, measures.most_turn);
+            traveller.middle = traveller.middle.then(&Footprint { yaw, ..Footprint::default() });
+            traveller.land(side)?;
+            side = side.other();
+            left -= yaw;
         }
         traveller.land(side)?;
         let mut route = traveller.route(start)?;

@@ -9,6 +9,9 @@ use super::Origin;
 use crate::number::BigRational;
 use crate::spatial::{Inertia, Pose};
 
+/// How many points stand for a circle.
+const ROUND: usize = 16;
+
 /// One rigid body. Its frame is the frame of the joint above it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Link {
@@ -132,6 +135,32 @@ impl Solid {
             Solid::Sphere { .. } => "sphere",
             Solid::Capsule { .. } => "capsule",
             Solid::Mesh { .. } => "mesh",
+        }
+    }
+
+    /// Points whose hull is the solid, or nearly so, in its frame \[m\]; none of a mesh, whose points stand in a file: see [`Meshes::points`](super::Meshes::points).
+    pub fn points(&self) -> Vec<Point3<f64>> {
+        let signs = [-0.5, 0.5];
+        let circle = |radius: f64, z: f64| {
+            let angle = |step: usize| std::f64::consts::TAU * step as f64 / ROUND as f64;
+            (0..ROUND).map(move |step| Point3::new(radius * angle(step).cos(), radius * angle(step).sin(), z))
+        };
+        match *self {
+            Solid::Box { size: [x, y, z] } => {
+                let xy = signs.into_iter().flat_map(|a| signs.map(|b| (a, b)));
+                xy.flat_map(|(a, b)| signs.map(|c| Point3::new(a * x, b * y, c * z))).collect()
+            }
+            Solid::Cylinder { radius, length } => {
+                signs.into_iter().flat_map(|end| circle(radius, end * length)).collect()
+            }
+            Solid::Sphere { radius } | Solid::Capsule { radius, .. } => {
+                let half = if let Solid::Capsule { length, .. } = *self { length / 2.0 } else { 0.0 };
+                let rings = (0..=ROUND / 2).map(|ring| std::f64::consts::PI * (ring as f64 / (ROUND / 2) as f64 - 0.5));
+                let ring =
+                    |latitude: f64| circle(radius * latitude.cos(), radius * latitude.sin() + half * latitude.signum());
+                rings.flat_map(ring).collect()
+            }
+            Solid::Mesh { .. } => Vec::new(),
         }
     }
 }

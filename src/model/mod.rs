@@ -1,12 +1,15 @@
 //! One description of a robot: a tree of links and joints with its masses, shapes and limits. Main type: [`Robot`].
 //!
-//! Read from URDF ([`urdf`]) or TOML ([`toml`]), written as URDF. Numbers that place axes and masses are exact, 0.1029 as
+//! Read from URDF ([`urdf`]) or TOML ([`toml`]), written as URDF
+//! and MJCF ([`mjcf`]). Numbers that place axes and masses are exact, 0.1029 as
 //! 1029/10000, with doubles beside them. A named frame, such as a sole or a hand, is a link without mass behind a fixed joint, as in a
 //! URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 
 mod check;
 mod joint;
 mod link;
+mod mesh;
+pub mod mjcf;
 mod outline;
 mod robot;
 pub mod toml;
@@ -16,5 +19,6 @@ pub mod urdf;
 pub(crate) use check::{is_plain, listing, some_among};
 pub use joint::{Actuator, Joint, JointType, Mimic, Origin};
 pub use link::{Link, Mass, Shape, Solid};
+pub use mesh::{MESH_LIMIT, Meshes};
 pub use robot::{Robot, RobotParts};
 pub use unit::LengthUnit;

@@ -112,6 +112,16 @@ pub fn by_name(name: &str) -> Option<Chain> {
     ALL.iter().find(|known| known.name == name).map(Known::chain)
 }
 
+/// The humanoid called `name`: `nao_v5`, `rh0` or `teo`.
+pub fn robot(name: &str) -> Option<Robot> {
+    match name {
+        "nao_v5" => Some(nao_v5()),
+        "rh0" => Some(rh0()),
+        "teo" => Some(teo()),
+        _ => None,
+    }
+}
+
 /// A humanoid of this crate and the robot that walks, by the name that `groebot walk` knows: `nao`, `rh0`, `teo`.
 pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
     match name {

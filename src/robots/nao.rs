@@ -9,7 +9,7 @@ use super::printed::{NAO_LEFT_LEG, NAO_RIGHT_LEG};
 use super::{Outline, described, posture, walker_of};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Side, TICK, Usual, Walker};
-use crate::model::Robot;
+use crate::model::{Meshes, Robot};
 
 /// Bent knees, soles below the hips \[rad\].
 const CROUCH: [(&str, f64); 3] = [("HipPitch", -0.5), ("KneePitch", 1.0), ("AnklePitch", -0.5)];
@@ -32,7 +32,7 @@ pub fn nao_v5() -> Robot {
 pub fn nao_walker(outline: Outline) -> Result<Walker> {
     let robot = nao_v5();
     let soles = ["l_sole", "r_sole"];
-    let mut biped = Biped::new(&robot, soles)?;
+    let mut biped = Biped::new(&robot, soles, &Meshes::default())?;
     if outline == Outline::Seed {
         let outlines = biped.feet.each_ref().map(|foot| {
             let middle =

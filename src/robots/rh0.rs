@@ -9,7 +9,7 @@ use super::printed::{FromTheFoot, Printed, RH0_LEFT_LEG, RH0_RIGHT_LEG};
 use super::{described, posture, walker_of};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
-use crate::model::Robot;
+use crate::model::{Meshes, Robot};
 
 /// Bent knees \[rad\]: the thesis' joints 2, 3 and 4 of the right leg, 11, 10 and 9 of the left one.
 const CROUCH: [(&str, f64); 3] = [("AnklePitch", 0.2), ("KneePitch", -0.4), ("HipPitch", 0.2)];
@@ -35,7 +35,7 @@ pub fn rh0() -> Robot {
 /// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
 pub fn rh0_walker() -> Result<Walker> {
     let robot = rh0();
-    let biped = Biped::new(&robot, ["l_sole", "r_sole"])?;
+    let biped = Biped::new(&robot, ["l_sole", "r_sole"], &Meshes::default())?;
     let frame = |name: &str| robot.link(name).map(|link| biped.model.link(link).1);
     let leg = |upwards: Printed, sole: &str, base: &str| -> Result<FromTheFoot> {
         let sole_from_base = frame(sole)?.inv_mul(&frame(base)?);

@@ -7,7 +7,7 @@ use super::printed::{Mirrored, TEO_LEFT_LEG};
 use super::{described, posture, walker_of};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
-use crate::model::Robot;
+use crate::model::{Meshes, Robot};
 
 /// Bent knees \[rad\].
 const CROUCH: [(&str, f64); 3] = [("HipPitch", -0.3), ("KneePitch", 0.6), ("AnklePitch", -0.3)];
@@ -25,7 +25,7 @@ pub fn teo() -> Robot {
 /// # Errors
 /// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
 pub fn teo_walker() -> Result<Walker> {
-    let biped = Biped::new(&teo(), ["l_sole", "r_sole"])?;
+    let biped = Biped::new(&teo(), ["l_sole", "r_sole"], &Meshes::default())?;
     let crouch = posture(&biped, |_| CROUCH)?;
     let right = Mirrored { image: TEO_LEFT_LEG, senses: SENSES };
     let legs = Legs::new(&biped, [Arc::new(TEO_LEFT_LEG), Arc::new(right)], crouch)?;

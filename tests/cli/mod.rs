@@ -6,6 +6,7 @@ mod check;
 mod codegen;
 mod derive;
 mod explain;
+mod export;
 mod fk;
 mod ik;
 mod info;

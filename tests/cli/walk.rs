@@ -116,7 +116,7 @@ fn three_robots_walk_by_one_step_goal() {
         (&["walk", "teo", "--power", "2"], "--power is for RH0's laws"),
         (&["walk", "nao", "--steps", "1", "--thesis", "/nowhere/t.csv"], "its tables are for rh0"),
         (&["walk", "rh0", "--plan", "out left", "--length", "0.5"], "out of reach"),
-        (&["walk", "teo", "--goal", "1"], "two numbers"),
+        (&["walk", "teo", "--goal", "1"], "two or three numbers"),
     ] {
         let told = refused(arguments);
         assert!(told.contains(word), "{word}: {told}");
@@ -179,7 +179,7 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
     for (arguments, cause, option) in [
         (&["--goal", "2,0", "--max-turn", "0"][..], "error: the greatest turn of a step is 0", "--max-turn"),
         (&["--goal", "2,0", "--length", "0"], "error: the length of a step is 0", "--length"),
-        (&["--goal", "0,1", "--max-turn", "15"], "error: the feet come within", "--max-turn"),
+        (&["--goal", "0,1", "--half-width", "0.03"], "error: the feet come within", "--max-turn"),
         (&["--goal", "2,0", "--length", "0.15"], "error: the ", "--length"),
         (&["--goal", "100,0"], "error: the walk would last", "--goal"),
         (&["--goal", "nan,0"], "error: the goal is not finite", "--goal"),
@@ -190,4 +190,6 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
         let told = refused(&all);
         assert!(told.starts_with(cause) && told.contains(option), "{arguments:?}: {told}");
     }
+    // A turn at which the feet meet is narrowed.
+    assert!(succeed(&["walk", "nao", "--goal", "0,1", "--max-turn", "15"]).contains("1.000 m, turn 97.7 deg"));
 }

@@ -70,7 +70,7 @@ proptest! {
         let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
         let asked = if crouched { asked } else { asked.from_upright(&humanoid) };
         let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
-        let route = Route::towards(&Point2::new(x, y), Side::Right, &measures).unwrap();
+        let route = Route::towards(&Point2::new(x, y), None, Side::Right, &measures).unwrap();
         let request = asked.request(&humanoid, route, usual.hip_heights[0] - lower);
         match plan(&humanoid, &legs, &request, &Watch::none()) {
             Err(error) => {

@@ -99,7 +99,7 @@ fn by_goal(walker: &str, goal: (f64, f64)) -> (Biped, Walk) {
     let usual = &groebot::robots::walker(walker, Outline::Measured).unwrap().unwrap().gaits[0].1;
     let measures =
         Measures { length: usual.length, half_width: usual.half_width(&humanoid), most_turn: usual.most_turn };
-    let route = Route::towards(&Point2::new(goal.0, goal.1), Side::Left, &measures).unwrap();
+    let route = Route::towards(&Point2::new(goal.0, goal.1), None, Side::Left, &measures).unwrap();
     let request = usual.request(&humanoid, route, usual.hip_heights[0]);
     let walk = plan(&humanoid, &legs, &request, &Watch::none()).unwrap();
     (humanoid, walk)
@@ -222,7 +222,7 @@ fn soles_on_one_place_are_one_with_all_its_steps() {
 #[test]
 fn a_walk_of_many_steps_leaves_out_what_has_no_room() {
     let measures = Measures { length: NAO_SEED.length, half_width: 0.05, most_turn: NAO_SEED.most_turn };
-    let route = Route::towards(&Point2::new(8.0, 0.0), Side::Left, &measures).unwrap();
+    let route = Route::towards(&Point2::new(8.0, 0.0), None, Side::Left, &measures).unwrap();
     let count = route.steps.len();
     let far = walk(&groebot::gait::Request { route, ..request(&regular()) }).unwrap();
     let numbers = numbers(&far.to_svg(&robot().0));

@@ -11,9 +11,9 @@ const MEASURES: Measures = Measures { length: 0.16, half_width: 0.112, most_turn
 fn walk(walker: &str, usual: &Usual, goal: (f64, f64)) -> Walk {
     let (robot, legs) = super::built(walker);
     let measures = Measures { length: usual.length, half_width: robot.half_width(), most_turn: usual.most_turn };
-    let route = Route::towards(&Point2::new(goal.0, goal.1), Side::Left, &measures).unwrap();
+    let route = Route::towards(&Point2::new(goal.0, goal.1), None, Side::Left, &measures).unwrap();
     let usual = usual.clone().from_upright(&robot);
-    let request = |height| Ok(usual.request(&robot, route.clone(), height));
+    let request = |height, _| Ok(usual.request(&robot, route.clone(), height));
     let walk = plan_at((&robot, &legs), None, &usual.hip_heights, request, &Watch::none()).unwrap();
     let arrived = walk.schedule.route.rests.last().unwrap().point();
     assert!((arrived - Point2::new(goal.0, goal.1)).norm() < 1e-3, "{arrived}");
@@ -103,8 +103,8 @@ fn words_are_read_and_refused() {
         assert!(error.to_string().contains(word), "{error}");
     }
     assert!(Route::of_words(&words("out left").unwrap(), &Measures { length: 0.0, ..MEASURES }).is_err());
-    assert!(Route::towards(&Point2::new(f64::NAN, 0.0), Side::Left, &MEASURES).is_err());
-    assert!(Route::towards(&Point2::new(1e5, 0.0), Side::Left, &MEASURES).is_err());
+    assert!(Route::towards(&Point2::new(f64::NAN, 0.0), None, Side::Left, &MEASURES).is_err());
+    assert!(Route::towards(&Point2::new(1e5, 0.0), None, Side::Left, &MEASURES).is_err());
 }
 
 #[test]
@@ -121,7 +121,7 @@ proptest! {
     fn ways_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {
         let goal = Point2::new(x, y);
         let first = if right { Side::Right } else { Side::Left };
-        let route = Route::towards(&goal, first, &MEASURES).unwrap();
+        let route = Route::towards(&goal, None, first, &MEASURES).unwrap();
         let [left, right] = route.stands().pop().unwrap();
         let between = left.middle(&right);
         prop_assert!((between.point() - goal).norm() < 1e-3);

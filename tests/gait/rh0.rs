@@ -31,7 +31,7 @@ pub fn request(usual: &Usual, text: &str, hip_height: f64, from_upright: bool) -
 
 fn walk(usual: &Usual, text: &str, from_upright: bool) -> Walk {
     let (robot, legs) = walker();
-    let at = |height| Ok(request(usual, text, height, from_upright));
+    let at = |height, _| Ok(request(usual, text, height, from_upright));
     plan_at((robot, legs), None, &usual.hip_heights, at, &Watch::none()).unwrap()
 }
 

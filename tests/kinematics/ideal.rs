@@ -147,7 +147,8 @@ proptest! {
                 let (ideal, report) = given.ideal_within(tolerance).unwrap();
                 same_structure(&ideal, &exact);
                 prop_assert!(apart(&ideal, &given, 0.7) < 4e-4, "{}: {report}", exact.name());
-                prop_assert!(ideal.ideal_within(tolerance).unwrap().0 == ideal, "{}", exact.name());
+                let again = ideal.ideal_within(tolerance).unwrap().0;
+                prop_assert!(again == ideal, "{}: {again}\nis not\n{ideal}", exact.name());
             }
         }
     }

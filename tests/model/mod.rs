@@ -1,5 +1,7 @@
 //! Robots: read from URDF and TOML, written, and cut into chains.
 
+mod mesh;
+mod mjcf;
 mod robot;
 mod round_trip;
 mod toml;

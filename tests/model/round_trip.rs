@@ -8,7 +8,7 @@ use num_traits::ToPrimitive;
 use super::robot::NAO;
 
 /// Everything that a link, a joint and a robot may have.
-const RICH: &str = r#"<robot name="rich">
+pub const RICH: &str = r#"<robot name="rich">
   <material name="blue"><color rgba="0 0 1 0.5"/></material>
   <link name="a">
     <inertial>

@@ -19,7 +19,10 @@ pub(super) fn directions(joints: &[Joint], tolerance: f64, grain: f64) -> Vec<Ex
     for joint in joints {
         let own = &joint.axis;
         let short = if grain < COARSE { own.clone() } else { shortened(own, grain * tolerance) };
-        let straight = straightened(&short, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
+        // What is perpendicular to the one before already is so in the numbers that it has.
+        let is_lost = |before: &ExactVector| dot(own, before).is_zero() && !dot(&short, before).is_zero();
+        let told = if ideal.last().is_some_and(is_lost) { own } else { &short };
+        let straight = straightened(told, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
         ideal.push(straight.unwrap_or_else(|| own.clone()));
     }
     ideal
@@ -47,7 +50,12 @@ fn straightened(own: &ExactVector, earlier: &[ExactVector], tolerance: f64) -> O
     let normals = before.into_iter().flat_map(|before| earlier.iter().map(move |other| cross(before, other)));
     let normals = normals.filter(|normal| !is_zero(normal)).map(|normal| along(&normal, own));
     let mut candidates = like.chain(simple(own)).chain(normals.filter(|_| upright_to.is_some()));
-    candidates.find(suits).or_else(|| Some(upright_to.map_or_else(|| flat.clone(), |before| without(&flat, before))))
+    let upright = |before: &ExactVector| {
+        // What is perpendicular already, and would not be without its small entries, keeps them.
+        let keeps = dot(own, before).is_zero() && !dot(&flat, before).is_zero();
+        if keeps { own.clone() } else { without(&flat, before) }
+    };
+    candidates.find(suits).or_else(|| Some(upright_to.map_or_else(|| flat.clone(), upright)))
 }
 
 /// `direction`, or its opposite, so that it points like `own`.

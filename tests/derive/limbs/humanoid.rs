@@ -85,7 +85,7 @@ fn counted(left: &ScrewSolver, right: &ScrewSolver, q: [&[f64]; 2]) -> usize {
 #[test]
 fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
     let left = robots::nao_left_leg();
-    let given = vec!["HipYawPitch".to_owned()];
+    let given = vec!["RHipYawPitch".to_owned()];
     let right = robots::nao_right_leg().with_task(Task::Ray, along_z(), given).unwrap();
     let screws = [&left, &right].map(|chain| ScrewSolver::new(chain).unwrap());
     let mut random = Random(11);

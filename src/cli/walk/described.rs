@@ -1,0 +1,89 @@
+//! A walker from a description: its legs derived on the spot.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use nalgebra::Point2;
+
+use crate::derive::{Description, InputFile, Proved};
+use crate::document::shown;
+use crate::gait::{Biped, LegSolver, Walker};
+use crate::model::{Meshes, Robot};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The soles of a robot that is described in a file.
+#[derive(clap::Args)]
+pub struct SoleArguments {
+    /// The link of the left sole; for a description
+    #[arg(long, value_name = "LINK")]
+    left: Option<String>,
+    /// The link of the right sole; for a description
+    #[arg(long, value_name = "LINK")]
+    right: Option<String>,
+    /// What of the left sole touches the floor, from its link: behind, ahead, to the right, to the left [m]; mirrored on the right
+    #[arg(long, value_name = "X0,X1,Y0,Y1", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    outline: Option<Vec<f64>>,
+}
+
+/// The walker of the robot that `file` describes.
+///
+/// # Errors
+/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
+/// the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
+pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walker> {
+    let name = file.to_string_lossy();
+    if !file.exists() {
+        let text =
+            format!("`{}` is neither a file nor a robot that walks; give a file, `nao`, `rh0` or `teo`", shown(&name));
+        return Err(Error::new(ErrorKind::UnknownName, text));
+    }
+    let Description::Robot(robot) = InputFile::read(file)?.description else {
+        let text = "this describes no robot with links; a walk needs one, in URDF or TOML";
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+    };
+    let at_file = |error: Error| error.in_file(file);
+    let names = soles.links(&robot).map_err(at_file)?;
+    let biped = match &soles.outline {
+        Some(outline) => Biped::on_outlines(&robot, names, outlines(outline)?),
+        None => Biped::new(&robot, names, &Meshes::beside(file)),
+    };
+    let biped = biped.map_err(at_file)?;
+    let leg = |name: &str| -> Result<LegSolver> {
+        let chain = robot.chain(None, Some(name)).map_err(at_file)?;
+        Ok(Arc::new(Proved::of_chain(&chain, watch)?.program().clone()))
+    };
+    let solvers = [leg(names[0])?, leg(names[1])?];
+    Walker::new(&robot, biped, solvers).map_err(at_file)
+}
+
+impl SoleArguments {
+    /// The links of the soles, left and right.
+    fn links(&self, robot: &Robot) -> Result<[&str; 2]> {
+        match (&self.left, &self.right) {
+            (Some(left), Some(right)) => Ok([left, right]),
+            _ => {
+                let ends: Vec<String> =
+                    robot.leaves().into_iter().take(20).map(|link| format!("`{}`", shown(link))).collect();
+                let text =
+                    format!("which links are the soles? give --left and --right; the limbs end in {}", ends.join(", "));
+                Err(Error::new(ErrorKind::MissingKey, text))
+            }
+        }
+    }
+}
+
+/// The corners of both soles.
+fn outlines(outline: &[f64]) -> Result<[Vec<Point2<f64>>; 2]> {
+    let &[back, front, right, left] = outline else {
+        let text = "--outline takes four numbers: behind, ahead, right, left, such as -0.1,0.12,-0.06,0.06";
+        return Err(Error::new(ErrorKind::BadValue, text));
+    };
+    if !(back < front && right < left) {
+        let text = format!("--outline is {back},{front},{right},{left}; give the lower number of each pair first");
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    let corners = |right: f64, left: f64| {
+        [(back, right), (front, right), (front, left), (back, left)].map(|(x, y)| Point2::new(x, y)).to_vec()
+    };
+    Ok([corners(right, left), corners(-left, -right)])
+}

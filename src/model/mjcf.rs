@@ -1,0 +1,163 @@
+//! Writing of robots as MJCF, the format of MuJoCo: [`Robot::to_mjcf`].
+//!
+//! Every link is a body, every joint that turns or slides a joint with a position servo, and what collides a geom that touches the floor and no other
+//! part of the robot. Joints that follow others are tied to them by equations. The root moves freely over a floor.
+
+use std::fmt::Write;
+
+use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid};
+use crate::spatial::{Inertia, Pose};
+
+impl Robot {
+    /// The robot as MJCF, with the files of its meshes where `meshes` finds them; meshes in other formats than STL and OBJ are left out. Masses that no
+    /// body has are made possible by MuJoCo's compiler.
+    pub fn to_mjcf(&self, meshes: &Meshes) -> String {
+        let mut writer = Writer { robot: self, meshes, assets: Vec::new() };
+        let bodies = writer.body(self.root_place(), None, 2);
+        let assets: String = writer.assets.iter().map(|asset| format!("    {asset}\n")).collect();
+        format!(
+            "<mujoco model=\"{name}\">\n  <compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"true\" boundmass=\"1e-4\" \
+             boundinertia=\"1e-7\"/>\n  <option timestep=\"0.002\" integrator=\"implicitfast\"/>\n  <default>\n    <geom contype=\"1\" \
+             conaffinity=\"2\" mass=\"0\"/>\n    <default class=\"visual\"><geom contype=\"0\" conaffinity=\"0\" group=\"2\"/></default>\n  \
+             </default>\n  <asset>\n{assets}  </asset>\n  <worldbody>\n    <light pos=\"0 -2 4\" dir=\"0 0.4 -1\"/>\n    <geom name=\"floor\" \
+             type=\"plane\" size=\"20 20 0.1\" contype=\"2\" conaffinity=\"1\" rgba=\"0.6 0.65 0.6 1\"/>\n{bodies}  </worldbody>\n  \
+             <equality>\n{equations}  </equality>\n  <actuator>\n{servos}  </actuator>\n</mujoco>\n",
+            name = escaped(self.name()),
+            equations = self.equations(),
+            servos = self.servos(),
+        )
+    }
+
+    /// The joints that lead themselves.
+    fn leaders(&self) -> impl Iterator<Item = &Joint> {
+        self.joints().iter().filter(|joint| joint.kind.is_single() && self.law(joint).leader == joint.name)
+    }
+
+    fn servos(&self) -> String {
+        let servo = |joint: &Joint| {
+            let name = escaped(&joint.name);
+            let force = joint.effort.filter(|effort| *effort > 0.0);
+            let force = force.map(|effort| format!(" forcerange=\"-{effort} {effort}\"")).unwrap_or_default();
+            format!("    <position name=\"{name}\" joint=\"{name}\" kp=\"100\"{force}/>\n")
+        };
+        self.leaders().map(servo).collect()
+    }
+
+    fn equations(&self) -> String {
+        let follows = |joint: &&Joint| joint.kind.is_single() && self.law(joint).leader != joint.name;
+        let equation = |joint: &Joint| {
+            let law = self.law(joint);
+            let [factor, summand] = law.law();
+            let (one, other) = (escaped(&joint.name), escaped(&law.leader));
+            format!("    <joint joint1=\"{one}\" joint2=\"{other}\" polycoef=\"{summand} {factor} 0 0 0\"/>\n")
+        };
+        self.joints().iter().filter(follows).map(equation).collect()
+    }
+}
+
+/// What is written on the way through the tree.
+struct Writer<'r> {
+    robot: &'r Robot,
+    meshes: &'r Meshes,
+    assets: Vec<String>,
+}
+
+impl Writer<'_> {
+    /// The body of a link below `joint`, with all that hangs on it, `depth` levels deep.
+    fn body(&mut self, link: usize, joint: Option<&Joint>, depth: usize) -> String {
+        let robot = self.robot;
+        let (stem, own) = ("  ".repeat(depth), &robot.links()[link]);
+        let at = joint.map(|joint| placed(&joint.origin.pose())).unwrap_or_default();
+        // Writing to a string cannot fail.
+        let mut text = format!("{stem}<body name=\"{}\"{at}>\n", escaped(&own.name));
+        match joint {
+            None => {
+                let _ = writeln!(text, "{stem}  <freejoint name=\"root\"/>");
+            }
+            Some(joint) => text += &moving(joint, &stem),
+        }
+        text += &inertial(own, &stem);
+        let shapes = own
+            .collisions
+            .iter()
+            .map(|shape| (shape, ""))
+            .chain(own.visuals.iter().map(|shape| (shape, " class=\"visual\"")));
+        for (shape, class) in shapes {
+            if let Some(geom) = self.geom(shape) {
+                let _ = writeln!(text, "{stem}  <geom{class} {geom}{}/>", placed(&shape.pose()));
+            }
+        }
+        let below: Vec<usize> = robot.order().iter().copied().filter(|joint| robot.ends(*joint).0 == link).collect();
+        for joint in below {
+            text += &self.body(robot.ends(joint).1, Some(&robot.joints()[joint]), depth + 1);
+        }
+        text + &format!("{stem}</body>\n")
+    }
+
+    /// The solid and the colour of a geom; none for a mesh that MuJoCo cannot read.
+    fn geom(&mut self, shape: &Shape) -> Option<String> {
+        let half = |length: f64| length / 2.0;
+        let solid = match &shape.solid {
+            Solid::Box { size: [x, y, z] } => format!("type=\"box\" size=\"{} {} {}\"", half(*x), half(*y), half(*z)),
+            Solid::Cylinder { radius, length } => format!("type=\"cylinder\" size=\"{radius} {}\"", half(*length)),
+            Solid::Capsule { radius, length } => format!("type=\"capsule\" size=\"{radius} {}\"", half(*length)),
+            Solid::Sphere { radius } => format!("type=\"sphere\" size=\"{radius}\""),
+            Solid::Mesh { path, scale: [x, y, z] } => {
+                let file = self.meshes.find(path)?;
+                let ending = file.extension()?.to_str()?.to_ascii_lowercase();
+                if !["stl", "obj"].contains(&ending.as_str()) {
+                    return None;
+                }
+                let name = format!("mesh{}", self.assets.len());
+                let file = escaped(&file.to_string_lossy());
+                self.assets.push(format!("<mesh name=\"{name}\" file=\"{file}\" scale=\"{x} {y} {z}\"/>"));
+                format!("type=\"mesh\" mesh=\"{name}\"")
+            }
+        };
+        let colour = shape.colour.map(|[r, g, b, a]| format!(" rgba=\"{r} {g} {b} {a}\"")).unwrap_or_default();
+        Some(solid + &colour)
+    }
+}
+
+/// The joint of a body; nothing where it is fixed.
+fn moving(joint: &Joint, stem: &str) -> String {
+    let kind = match joint.kind {
+        JointType::Revolute | JointType::Continuous => "hinge",
+        JointType::Prismatic => "slide",
+        _ => return String::new(),
+    };
+    let [x, y, z] = crate::spatial::exact::normalized(&joint.axis).into_inner().into();
+    let range = joint.limits.filter(|_| joint.kind != JointType::Continuous);
+    let range = range.map(|(low, high)| format!(" limited=\"true\" range=\"{low} {high}\"")).unwrap_or_default();
+    let told = [("damping", joint.damping), ("frictionloss", joint.friction), ("armature", joint.armature)];
+    let told: String =
+        told.iter().filter(|(_, value)| *value != 0.0).map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
+    let name = escaped(&joint.name);
+    format!("{stem}  <joint name=\"{name}\" type=\"{kind}\" axis=\"{x} {y} {z}\"{range}{told}/>\n")
+}
+
+fn inertial(link: &Link, stem: &str) -> String {
+    let Some(mass) = &link.mass else { return String::new() };
+    let inertia: Inertia = mass.inertia();
+    let ([x, y, z], m) = (inertia.centre_of_mass().into(), inertia.rotational());
+    let moments = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| m[at].to_string()).join(" ");
+    let at: [f64; 3] = [x, y, z];
+    format!("{stem}  <inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{moments}\"/>\n", numbers(&at), inertia.mass())
+}
+
+/// Position and rotation as attributes; those that are zero are left out.
+fn placed(pose: &Pose) -> String {
+    let (p, q) = (pose.translation.vector, pose.rotation);
+    let at = if p.norm() == 0.0 { String::new() } else { format!(" pos=\"{}\"", numbers(p.as_slice())) };
+    let turn = [q.w, q.i, q.j, q.k];
+    let turned = if q.angle() == 0.0 { String::new() } else { format!(" quat=\"{}\"", numbers(&turn)) };
+    at + &turned
+}
+
+fn numbers(values: &[f64]) -> String {
+    values.iter().map(|value| (value + 0.0).to_string()).collect::<Vec<_>>().join(" ")
+}
+
+fn escaped(text: &str) -> String {
+    quick_xml::escape::escape(text).into_owned()
+}

@@ -1,0 +1,281 @@
+//! An arm along poses: of all solutions the branch that stays continuous, within limits. Main function: [`follow`].
+
+use super::{JointTrack, Trajectory};
+use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
+use crate::spatial::{Pose, angle};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How far a joint goes from pose to pose without a jump \[rad\], where no time says it.
+const NEAR: f64 = 0.5;
+/// How near to a limit a value may be beyond it by rounding \[rad or m\].
+const ROUNDING: f64 = 1e-9;
+/// The most values of a pose that turns shift by whole ones; more are left out.
+const MOST_STATES: usize = 4096;
+
+/// How fast a path is gone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pace {
+    /// A pose each so many seconds: joints are as fast as they can be.
+    Every(f64),
+    /// At these times \[s\], ascending.
+    At(Vec<f64>),
+}
+
+/// Where a path must jump from one branch to another, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// The pose that is jumped to, from 0.
+    pub sample: usize,
+    /// The joint that goes furthest, by its place.
+    pub joint: usize,
+    /// How far \[rad or the chain's unit\].
+    pub step: f64,
+    /// Why, in words.
+    pub why: String,
+}
+
+/// A path, and where it jumps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// The path.
+    pub trajectory: Trajectory,
+    /// Its jumps, in order.
+    pub jumps: Vec<Jump>,
+}
+
+/// A state of the arm at a pose, and the best way to it.
+struct State {
+    q: Vec<f64>,
+    branch: usize,
+    /// The number of jumps and the way of the joints up to here.
+    cost: (usize, f64),
+    /// The state at the pose before.
+    from: usize,
+}
+
+/// The joint values that bring the tip of `chain` to each of `poses` in turn, by `solver`: with the fewest jumps between branches, and of these
+/// the shortest way, the sum of the squares of all joints' steps. A joint that turns is shifted by whole turns where its limits allow. A step is a
+/// jump where a joint goes further than its speed allows in the time, or, where it has none, than half a radian or a tenth of the reach.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for no pose, times that are not one each, and with the number of the pose for one that is out of reach, or
+/// whose solutions are all beyond limits; [`ErrorKind::Unsupported`] for a task other than the pose, and for given joints;
+/// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+pub fn follow(
+    chain: &Chain,
+    speeds: &[Option<f64>],
+    solver: &dyn InverseKinematics,
+    poses: &[Pose],
+    pace: &Pace,
+    watch: &Watch,
+) -> Result<Followed> {
+    if chain.task() != Task::Pose || !chain.given().is_empty() {
+        let text = format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    let times = times(pace, poses.len())?;
+    let path = Path { chain, speeds, times: &times };
+    let mut layers: Vec<Vec<State>> = Vec::with_capacity(poses.len());
+    let mut found = Vec::new();
+    for (sample, pose) in poses.iter().enumerate() {
+        watch.check()?;
+        watch.report("poses of the path", sample, poses.len() - sample);
+        let named = |error: Error| error.with_context(format_args!("pose {}", sample + 1));
+        solver.solve(&Target::Pose(*pose), &[], &mut found).map_err(named)?;
+        let states = path.states(&found).map_err(named)?;
+        layers.push(path.reached(sample, states, layers.last()));
+    }
+    let ways = path.ways(&layers);
+    let jumps = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways)).collect();
+    let trajectory = path.trajectory(&layers, &ways);
+    trajectory.check()?;
+    Ok(Followed { trajectory, jumps })
+}
+
+/// The times of `count` poses.
+fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
+    let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+    match pace {
+        _ if count == 0 => bad("there is no pose; give one at least".to_owned()),
+        Pace::Every(time) if !(time.is_finite() && *time > 0.0) => {
+            bad(format!("the time between two poses is {time}; give a positive number"))
+        }
+        Pace::Every(time) => Ok((0..count).map(|sample| sample as f64 * time).collect()),
+        Pace::At(times) if times.len() != count => bad(format!("{} times for {count} poses; give one each", times.len())),
+        Pace::At(times) => Ok(times.clone()),
+    }
+}
+
+/// What all steps of a path have in common.
+struct Path<'p> {
+    chain: &'p Chain,
+    speeds: &'p [Option<f64>],
+    times: &'p [f64],
+}
+
+impl Path<'_> {
+    /// All values within the limits that are solutions but for whole turns.
+    fn states(&self, found: &[Solution]) -> Result<Vec<(Vec<f64>, usize)>> {
+        let mut states = Vec::new();
+        for solution in found {
+            let mut shifted = vec![Vec::new()];
+            for (joint, value) in self.chain.joints().iter().zip(&solution.q) {
+                let turns = joint.kind == JointKind::Revolute;
+                let values = within(joint.limits, *value, turns);
+                shifted = shifted.iter().flat_map(|q| values.iter().map(|value| [&q[..], &[*value]].concat())).collect();
+                shifted.truncate(MOST_STATES);
+            }
+            states.extend(shifted.into_iter().map(|q| (q, solution.branch)));
+        }
+        match (states.is_empty(), found.first()) {
+            (false, _) => Ok(states),
+            (true, None) => Err(Error::new(ErrorKind::BadValue, "it is out of reach")),
+            (true, Some(_)) => {
+                let text = format!("all {} solutions are beyond the limits of a joint", found.len());
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+        }
+    }
+
+    /// The states at a pose, each with the best way to it.
+    fn reached(&self, sample: usize, states: Vec<(Vec<f64>, usize)>, before: Option<&Vec<State>>) -> Vec<State> {
+        let best = |(q, branch): (Vec<f64>, usize)| {
+            let ways = before.into_iter().flatten().enumerate().map(|(from, state)| {
+                let (jumps, way) = self.step(sample, &state.q, &q);
+                ((state.cost.0 + usize::from(jumps), state.cost.1 + way), from)
+            });
+            let order = |a: &((usize, f64), usize), b: &((usize, f64), usize)| {
+                a.0.0.cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))
+            };
+            let (cost, from) = ways.min_by(order).unwrap_or(((0, 0.0), 0));
+            State { q, branch, cost, from }
+        };
+        states.into_iter().map(best).collect()
+    }
+
+    /// Whether a step jumps, and the sum of the squares of the joints' ways.
+    fn step(&self, sample: usize, before: &[f64], q: &[f64]) -> (bool, f64) {
+        let steps = (0..q.len()).map(|joint| self.way(joint, before[joint], q[joint]));
+        let far = steps.clone().enumerate().any(|(joint, step)| step.abs() > self.most(sample, joint));
+        (far, steps.map(|step| step * step).sum())
+    }
+
+    /// How far a joint goes from one value to another: one without limits the shorter way round.
+    fn way(&self, joint: usize, from: f64, to: f64) -> f64 {
+        let Joint { kind, limits, .. } = &self.chain.joints()[joint];
+        if *kind == JointKind::Revolute && limits.is_none() { angle::difference(to, from) } else { to - from }
+    }
+
+    /// How far a joint may go to a pose without a jump.
+    fn most(&self, sample: usize, joint: usize) -> f64 {
+        let time = self.times[sample] - self.times[sample - 1];
+        match self.speeds.get(joint).copied().flatten() {
+            Some(speed) => speed * time,
+            None if self.chain.joints()[joint].kind == JointKind::Revolute => NEAR,
+            None => 0.1 * self.chain.reach(),
+        }
+    }
+
+    /// The state of the best path at each pose.
+    fn ways(&self, layers: &[Vec<State>]) -> Vec<usize> {
+        let order = |a: &&State, b: &&State| a.cost.0.cmp(&b.cost.0).then(a.cost.1.total_cmp(&b.cost.1));
+        let last = layers.last().map_or(&[][..], |layer| layer);
+        let end = last.iter().enumerate().min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(place, _)| place);
+        let mut ways = vec![end];
+        for layer in layers[1..].iter().rev() {
+            ways.push(layer[ways[ways.len() - 1]].from);
+        }
+        ways.reverse();
+        ways
+    }
+
+    /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
+    fn jump(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> Option<Jump> {
+        let [before, now] = [sample - 1, sample].map(|at| &layers[at][ways[at]]);
+        let excess = |joint: &usize| self.way(*joint, before.q[*joint], now.q[*joint]).abs() / self.most(sample, *joint);
+        let joint = (0..now.q.len()).max_by(|a, b| excess(a).total_cmp(&excess(b))).filter(|joint| excess(joint) > 1.0)?;
+        let step = self.way(joint, before.q[joint], now.q[joint]);
+        let name = |joint: usize| &self.chain.joints()[joint].name;
+        let goes_on = layers[sample].iter().any(|state| !self.step(sample, &before.q, &state.q).0);
+        let same = layers[sample].iter().find(|state| state.branch == before.branch);
+        let why = if goes_on {
+            let blocked = self.end_of_branch(sample, layers, ways);
+            format!("the branch goes on, but ends {blocked}")
+        } else if let Some(same) = same {
+            let furthest =
+                |joint: &usize| self.way(*joint, before.q[*joint], same.q[*joint]).abs() / self.most(sample, *joint);
+            let fast = (0..same.q.len()).max_by(|a, b| furthest(a).total_cmp(&furthest(b))).unwrap_or(joint);
+            format!("the branch goes on, but `{}` would turn faster than it can", name(fast))
+        } else if let Some(limited) = self.at_limit(&before.q) {
+            format!("`{}` is at its limit", name(limited))
+        } else {
+            "the branch ends: its solutions are no more, or beyond limits".to_owned()
+        };
+        Some(Jump { sample, joint, step, why })
+    }
+
+    /// At which pose all ways end that go on from the state that a jump leaves.
+    fn end_of_branch(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> String {
+        let mut alive = vec![ways[sample - 1]];
+        for at in sample..layers.len() {
+            let next: Vec<usize> = (0..layers[at].len())
+                .filter(|to| alive.iter().any(|from| !self.step(at, &layers[at - 1][*from].q, &layers[at][*to].q).0))
+                .collect();
+            if next.is_empty() {
+                return format!("at pose {}", at + 1);
+            }
+            alive = next;
+        }
+        "behind the path".to_owned()
+    }
+
+    /// The joint that is next to a limit, if one is.
+    fn at_limit(&self, q: &[f64]) -> Option<usize> {
+        let near = |(joint, value): (&Joint, &f64)| {
+            joint.limits.is_some_and(|(low, high)| (value - low).min(high - value) < 0.1 * NEAR)
+        };
+        self.chain.joints().iter().zip(q).position(near)
+    }
+
+    fn trajectory(&self, layers: &[Vec<State>], ways: &[usize]) -> Trajectory {
+        let joint = |(place, joint): (usize, &Joint)| JointTrack {
+            name: joint.name.clone(),
+            slides: joint.kind == JointKind::Prismatic,
+            limits: joint.limits,
+            speed: self.speeds.get(place).copied().flatten(),
+        };
+        Trajectory {
+            robot: self.chain.name().to_owned(),
+            joints: self.chain.joints().iter().enumerate().map(joint).collect(),
+            times: self.times.to_vec(),
+            q: self.unwound(layers.iter().zip(ways).map(|(layer, way)| &layer[*way].q)),
+            ..Trajectory::default()
+        }
+    }
+
+    /// The values with joints without limits turned on from where they were.
+    fn unwound<'q>(&self, values: impl Iterator<Item = &'q Vec<f64>>) -> Vec<Vec<f64>> {
+        let mut unwound: Vec<Vec<f64>> = Vec::new();
+        for q in values {
+            let next = match unwound.last() {
+                Some(last) => (0..q.len()).map(|joint| last[joint] + self.way(joint, last[joint], q[joint])).collect(),
+                None => q.clone(),
+            };
+            unwound.push(next);
+        }
+        unwound
+    }
+}
+
+/// The values that are `value` but for whole turns, within limits; the value itself without limits.
+fn within(limits: Option<(f64, f64)>, value: f64, turns: bool) -> Vec<f64> {
+    let turn = std::f64::consts::TAU;
+    let Some((low, high)) = limits else { return vec![value] };
+    let inside = |value: &f64| *value >= low - ROUNDING && *value <= high + ROUNDING;
+    if !turns {
+        return Some(value).filter(inside).into_iter().collect();
+    }
+    let first = ((low - ROUNDING - value) / turn).ceil() as i64;
+    let shifts = (first..first + 8).map(|count| value + count as f64 * turn);
+    shifts.filter(inside).map(|value| value.clamp(low, high)).collect()
+}

@@ -1,0 +1,125 @@
+//! Trajectories as JSON: [`Trajectory::to_json`], [`Trajectory::from_json`].
+
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+use super::table::{pose_numbers, pose_of};
+use super::{Contact, Figure, JointTrack, Track, Trajectory};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+/// The version of the format.
+const FORMAT: u32 = 1;
+
+/// A trajectory as it is written: poses are position and quaternion xyzw.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    format: u32,
+    robot: String,
+    joints: Vec<JointTrack>,
+    time: Vec<f64>,
+    q: Vec<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    base: Vec<[f64; 7]>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    contacts: Vec<WrittenContact>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    points: Vec<WrittenTrack>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    figures: Vec<WrittenFigure>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenContact {
+    name: String,
+    poses: Vec<[f64; 7]>,
+    stands: Vec<bool>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenTrack {
+    name: String,
+    at: Vec<[f64; 3]>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenFigure {
+    name: String,
+    unit: String,
+    values: Vec<f64>,
+}
+
+impl Trajectory {
+    /// The trajectory as JSON: `format` (1), `robot`, `joints` (name, slides, limits, speed), `time`, `q`, `base`, `contacts`, `points`, `figures`;
+    /// poses are position and quaternion xyzw.
+    pub fn to_json(&self) -> serde_json::Value {
+        let poses = |poses: &[Pose]| poses.iter().map(pose_numbers).collect::<Vec<_>>();
+        let contact = |own: &Contact| WrittenContact {
+            name: own.name.clone(),
+            poses: poses(&own.poses),
+            stands: own.stands.clone(),
+        };
+        let track = |own: &Track| WrittenTrack {
+            name: own.name.clone(),
+            at: own.at.iter().map(|point| point.coords.into()).collect(),
+        };
+        let figure = |own: &Figure| WrittenFigure {
+            name: own.name.clone(),
+            unit: own.unit.clone(),
+            values: own.values.clone(),
+        };
+        let written = Written {
+            format: FORMAT,
+            robot: self.robot.clone(),
+            joints: self.joints.clone(),
+            time: self.times.clone(),
+            q: self.q.clone(),
+            base: poses(&self.base),
+            contacts: self.contacts.iter().map(contact).collect(),
+            points: self.points.iter().map(track).collect(),
+            figures: self.figures.iter().map(figure).collect(),
+        };
+        serde_json::to_value(written).expect("a trajectory holds nothing that JSON cannot say")
+    }
+
+    /// The trajectory that `text` holds as [`Trajectory::to_json`] writes it; other keys beside these are passed over.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for text that is not such JSON, or another `format`; [`ErrorKind::BadValue`] for a quaternion that is not of length one;
+    /// as [`Trajectory::check`].
+    pub fn from_json(text: &str) -> Result<Self> {
+        let syntax = |error: serde_json::Error| {
+            Error::new(ErrorKind::Syntax, format!("this is no trajectory in JSON: {error}")).at_line(error.line().max(1))
+        };
+        #[derive(Deserialize)]
+        struct Versioned {
+            format: Option<u32>,
+        }
+        let version: Versioned = serde_json::from_str(text).map_err(syntax)?;
+        if version.format != Some(FORMAT) {
+            let told = version.format.map_or("none".to_owned(), |format| format.to_string());
+            let text = format!("the `format` is {told}; this groebot reads {FORMAT}");
+            return Err(Error::new(ErrorKind::Syntax, text));
+        }
+        let written: Written = serde_json::from_str(text).map_err(syntax)?;
+        let poses = |poses: Vec<[f64; 7]>| poses.into_iter().map(pose_of).collect::<Result<Vec<Pose>>>();
+        let contact = |own: WrittenContact| Ok(Contact { name: own.name, poses: poses(own.poses)?, stands: own.stands });
+        let track = |own: WrittenTrack| Track { name: own.name, at: own.at.into_iter().map(Point3::from).collect() };
+        let trajectory = Trajectory {
+            robot: written.robot,
+            joints: written.joints,
+            times: written.time,
+            q: written.q,
+            base: poses(written.base)?,
+            contacts: written.contacts.into_iter().map(contact).collect::<Result<_>>()?,
+            points: written.points.into_iter().map(track).collect(),
+            figures: written
+                .figures
+                .into_iter()
+                .map(|own| Figure { name: own.name, unit: own.unit, values: own.values })
+                .collect(),
+        };
+        trajectory.check()?;
+        Ok(trajectory)
+    }
+}
