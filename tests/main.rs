@@ -13,6 +13,7 @@ mod gait;
 mod groebner;
 mod kinematics;
 mod model;
+mod motion;
 mod number;
 mod poly;
 mod real;

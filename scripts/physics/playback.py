@@ -40,10 +40,18 @@ LIFTED = 0.005
 
 
 def load(path):
+    """The columns of a trajectory by their names: `q:KNEE [rad]` is `KNEE`, `base_x [m]` is `base_x`."""
     with open(path, newline="") as file:
+        if file.readline().strip() != "# groebot trajectory 1":
+            sys.exit(f"{path}: this is no trajectory of version 1")
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    # Units stand behind the names: `time [s]`.
-    return {name.split(" ")[0]: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}
+    walk = {
+        name.rsplit(" ", 1)[0].removeprefix("q:"): numpy.array([float(row[name]) for row in rows]) for name in rows[0]
+    }
+    for side in ("left", "right"):
+        x, y, z, w = (walk[f"{side}_q{axis}"] for axis in "xyzw")
+        walk[f"{side}_yaw"] = numpy.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return walk
 
 
 def wrapped(angle):
@@ -70,7 +78,7 @@ class Robot:
         model.body_mass[heaviest] *= torso_mass
         model.body_inertia[heaviest] *= torso_mass
         self.torso = torso
-        mass, height = model.body_subtreemass[torso], walk["torso_z"][0]
+        mass, height = model.body_subtreemass[torso], walk["base_z"][0]
         length = 0.63 * height
         size = mass * gravity * length
         stiffness = servo[0] * size * gain
@@ -88,7 +96,7 @@ class Robot:
         angles = numpy.column_stack([walk[name] for name in names])
         # A servo damps what its joint turns faster than it should.
         self.commands = angles + damping / stiffness * numpy.gradient(angles, self.tick, axis=0)
-        self.data.qpos[:7] = [walk[f"torso_{key}"][0] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        self.data.qpos[:7] = [walk[f"base_{key}"][0] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")]
         for joint in range(1, model.njnt):
             self.data.qpos[model.jnt_qposadr[joint]] = walk[model.joint(joint).name][0]
         mujoco.mj_forward(model, self.data)

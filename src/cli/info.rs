@@ -1,5 +1,7 @@
 //! `groebot info`: a chain with its geometry, limbs with their motors, a robot with its links, or a system, in words.
 
+mod robot;
+
 use std::path::PathBuf;
 
 use super::console::{self, Paint};
@@ -8,7 +10,6 @@ use super::{Halt, Outcome, json};
 use crate::derive::limbs::{JointPlace, Limbs};
 use crate::derive::{Description, Ends, InputFile, formulate};
 use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind};
-use crate::model::JointType;
 use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
@@ -29,9 +30,12 @@ pub struct Arguments {
     ends: EndArguments,
     #[command(flatten)]
     snap: SnapArgument,
-    /// JSON, of a chain
+    /// JSON, of a chain or a robot
     #[arg(long)]
     json: bool,
+    /// Joint values of a robot at which its centre of mass is told, in the order in which they are listed [rad or m] [default: all zero]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    q: Option<Vec<f64>>,
 }
 
 /// Prints the input.
@@ -40,8 +44,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
-        Description::Robot(tree) if ends == Ends::default() && tree.leaves().len() > 1 => {
-            console::print(&robot_page(tree, paint))
+        Description::Robot(robot) if ends == Ends::default() && robot.leaves().len() > 1 => {
+            let body = robot::Body::new(robot, arguments.q.as_deref().unwrap_or_default())?;
+            console::print(&if arguments.json { json::text(&body.json()) } else { body.page(paint) })
         }
         Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
         Description::Limbs(limbs) if ends == Ends::default() => console::print(&limbs_page(limbs, paint)),
@@ -204,38 +209,4 @@ fn limbs_page(limbs: &Limbs, paint: Paint) -> String {
         page += &format!("\n{}\n{}", paint.bold(&format!("limb {}", limb.name)), chain_page(&limb.chain, &[], paint));
     }
     page
-}
-
-fn robot_page(tree: &Robot, paint: Paint) -> String {
-    let moving = tree.joints().iter().filter(|joint| joint.kind != JointType::Fixed).count();
-    let (links, fixed) = (tree.links().len(), tree.joints().len() - moving);
-    let name = paint.bold(tree.name());
-    let mut page =
-        format!("{name}: {links} links, {} that move, {fixed} fixed; root {}\n\n", joints(moving), tree.root());
-    let lines = tree.outline();
-    let width = lines.iter().map(|(branch, _)| branch.chars().count()).max().unwrap_or(0);
-    for (branch, motion) in &lines {
-        page += &format!("{}\n", format!("{branch:<width$}  {}", paint.dim(motion)).trim_end());
-    }
-    page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&tree.tips()));
-    page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&tree.leaves()));
-    if let Some(tip) = tree.tips().first() {
-        page += &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", tree.root());
-    }
-    page
-}
-
-/// Names with commas, in lines of about a hundred characters.
-fn wrapped(names: &[&str]) -> String {
-    let mut lines = vec![String::new()];
-    for (index, name) in names.iter().enumerate() {
-        let comma = if index + 1 < names.len() { ", " } else { "" };
-        if lines.last().is_some_and(|line| line.len() + name.len() > 100) {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            *line += &format!("{name}{comma}");
-        }
-    }
-    lines.iter().map(|line| format!("  {}\n", line.trim_end())).collect()
 }

@@ -19,6 +19,7 @@ mod explain;
 mod export;
 mod files;
 mod fk;
+mod follow;
 mod forms;
 mod ik;
 mod info;
@@ -77,6 +78,7 @@ enum Command {
     Basis(basis::Arguments),
     Walk(walk::Arguments),
     Export(export::Arguments),
+    Follow(follow::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -123,6 +125,7 @@ pub fn run() -> ExitCode {
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
         Command::Export(arguments) => export::run(arguments),
+        Command::Follow(arguments) => follow::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

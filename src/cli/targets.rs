@@ -113,7 +113,10 @@ impl<'a, R: BufRead> Reader<'a, R> {
         let found = |(form, names): (usize, &Vec<&str>)| columns(names, record).ok().map(|columns| (form, columns));
         match self.forms.iter().enumerate().find_map(found) {
             Some(found) => Ok(found),
-            None => columns(&self.forms[0], record).map(|columns| (0, columns)),
+            None => {
+                let fewest = (0..self.forms.len()).min_by_key(|form| self.forms[*form].len()).unwrap_or(0);
+                columns(&self.forms[fewest], record).map(|columns| (fewest, columns))
+            }
         }
     }
 }

@@ -7,6 +7,7 @@ use super::motion::Motion;
 use super::polygon::Polygon;
 use super::reference::Reference;
 use super::schedule::{Action, Schedule};
+use crate::motion::{beyond_limit, too_fast};
 
 /// Two feet must stay this far apart, seen from above \[m\].
 pub const FEET_APART: f64 = 0.004;
@@ -81,8 +82,9 @@ pub fn faults(
     let mut found = Vec::new();
     for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
         let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
-        if let Some(fault) = limit(biped, &motion.postures[sample].q) {
-            add(fault);
+        let limits = biped.joints.iter().map(|range| Some(range.limits));
+        if let Some((joint, value)) = beyond_limit(limits, &motion.postures[sample].q) {
+            add(Fault::Limit { joint, value });
         }
         let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
         if tilts && (demand.statically || demand.keeps_way && falls) {
@@ -91,20 +93,14 @@ pub fn faults(
             add(Fault::Dynamic { margin: balance.margin });
         }
         if sample > 0 {
-            let rate = |joint: usize| (motion.postures[sample].q[joint] - motion.postures[sample - 1].q[joint]) / tick;
-            let fast = |joint: &usize| rate(*joint).abs() > biped.joints[*joint].speed * demand.speed_share;
-            if let Some(joint) = (0..biped.joints.len()).find(fast) {
-                add(Fault::Speed { joint, rate: rate(joint) });
+            let [before, now] = [sample - 1, sample].map(|sample| &motion.postures[sample].q);
+            let speeds = biped.joints.iter().map(|range| Some(range.speed * demand.speed_share));
+            if let Some((joint, rate)) = too_fast(speeds, before, now, tick) {
+                add(Fault::Speed { joint, rate });
             }
         }
     }
     found
-}
-
-fn limit(biped: &Biped, q: &[f64]) -> Option<Fault> {
-    let beyond = |(range, value): (&super::JointRange, &f64)| *value < range.limits.0 || *value > range.limits.1;
-    let joint = biped.joints.iter().zip(q).position(beyond)?;
-    Some(Fault::Limit { joint, value: q[joint] })
 }
 
 /// The first step of a schedule, with the time in samples, on which the feet come too near to one another, seen from above.

@@ -1,100 +1,84 @@
-//! A walk as a table, CSV or JSON.
+//! A walk as a trajectory, and so as CSV or JSON.
 
-use std::fmt::Write;
-
+use nalgebra::{Point2, Point3};
 use serde_json::{Value, json};
 
+use super::balance::Balance;
 use super::biped::Biped;
-use super::footprint::Footprint;
+use super::footprint::{Footprint, Side};
 use super::plan::{Gait, Walk};
 use super::schedule::Action;
 use super::summary::Summary;
-
-/// The columns behind the joints.
-const COLUMNS: [&str; 26] = [
-    "torso_x",
-    "torso_y",
-    "torso_z",
-    "torso_qx",
-    "torso_qy",
-    "torso_qz",
-    "torso_qw",
-    "left_x",
-    "left_y",
-    "left_z",
-    "left_yaw",
-    "left_stands",
-    "right_x",
-    "right_y",
-    "right_z",
-    "right_yaw",
-    "right_stands",
-    "com_x",
-    "com_y",
-    "com_z",
-    "zmp_x",
-    "zmp_y",
-    "pendulum_x",
-    "pendulum_y",
-    "static_margin",
-    "margin",
-];
+use crate::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 
 impl Walk {
-    /// The walk as CSV, a row a sample: `time` \[s\], the joints by name \[rad\], the pose of the torso with its quaternion xyzw, for each
-    /// foot its sole's position and heading and whether it stands (1 or 0), the centre of mass, the zero moment points of the multibody
-    /// and of the pendulum, the static and the dynamic margin \[m\]. Nine decimals.
+    /// The walk as a trajectory: its base is the torso, its contacts are the soles `left` and `right`, its points the centre of mass `com` and the zero
+    /// moment points of the multibody, `zmp`, and of the pendulum, `pendulum`; its figures `static_margin` and `margin` \[m\].
+    pub fn trajectory(&self, biped: &Biped) -> Trajectory {
+        let joint = |range: &super::JointRange| JointTrack {
+            name: range.name.clone(),
+            slides: false,
+            limits: Some(range.limits).filter(|(low, high)| low.is_finite() && high.is_finite()),
+            speed: Some(range.speed).filter(|speed| speed.is_finite()),
+        };
+        let contact = |side: Side| Contact {
+            name: side.name().to_owned(),
+            poses: self.references.iter().map(|reference| reference.world_from_soles[side as usize]).collect(),
+            stands: self.references.iter().map(|reference| reference.stands[side as usize]).collect(),
+        };
+        let floor = |name: &str, point: fn(&Balance) -> Point2<f64>| Track {
+            name: name.to_owned(),
+            at: self.balances.iter().map(point).map(|point| Point3::new(point.x, point.y, 0.0)).collect(),
+        };
+        let figure = |name: &str, value: fn(&Balance) -> f64| Figure {
+            name: name.to_owned(),
+            unit: "m".to_owned(),
+            values: self.balances.iter().map(value).collect(),
+        };
+        let postures = &self.motion.postures;
+        Trajectory {
+            robot: biped.name.clone(),
+            joints: biped.joints.iter().map(joint).collect(),
+            times: (0..self.balances.len()).map(|sample| self.time(sample)).collect(),
+            q: postures.iter().map(|posture| posture.q.clone()).collect(),
+            base: postures.iter().map(|posture| posture.world_from_torso).collect(),
+            contacts: vec![contact(Side::Left), contact(Side::Right)],
+            points: vec![
+                Track { name: "com".to_owned(), at: self.motion.centres.clone() },
+                floor("zmp", |balance| balance.zmp),
+                floor("pendulum", |balance| balance.pendulum),
+            ],
+            figures: vec![
+                figure("static_margin", |balance| balance.static_margin),
+                figure("margin", |balance| balance.margin),
+            ],
+        }
+    }
+
+    /// The walk's trajectory as CSV: [`crate::motion::table`].
     pub fn to_csv(&self, biped: &Biped) -> String {
-        let joints = biped.joints.iter().map(|joint| joint.name.as_str());
-        let mut text = ["time"].into_iter().chain(joints).chain(COLUMNS).collect::<Vec<_>>().join(",");
-        text.push('\n');
-        for sample in 0..self.balances.len() {
-            // Writing to a string cannot fail.
-            let _ = write!(text, "{}", self.time(sample));
-            for value in self.motion.postures[sample].q.iter().chain(&self.figures(sample)) {
-                let _ = write!(text, ",{}", decimal(*value));
-            }
-            text.push('\n');
-        }
-        text
+        self.trajectory(biped).to_csv()
     }
 
-    /// The figures of [`COLUMNS`].
-    fn figures(&self, sample: usize) -> Vec<f64> {
-        let (posture, balance, reference) =
-            (&self.motion.postures[sample], &self.balances[sample], &self.references[sample]);
-        let (at, turn) = (posture.world_from_torso.translation.vector, posture.world_from_torso.rotation.coords);
-        let mut figures = vec![at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w];
-        for (sole, stands) in reference.world_from_soles.iter().zip(reference.stands) {
-            let (at, yaw) = (sole.translation.vector, sole.rotation.euler_angles().2);
-            figures.extend([at.x, at.y, at.z, yaw, f64::from(u8::from(stands))]);
-        }
-        let centre = self.motion.centres[sample];
-        figures.extend([centre.x, centre.y, centre.z, balance.zmp.x, balance.zmp.y]);
-        figures.extend([balance.pendulum.x, balance.pendulum.y, balance.static_margin, balance.margin]);
-        figures
-    }
-
-    /// The walk as JSON: robot, joints with limits and speeds, footsteps, phases, summary, and the samples as in [`Walk::to_csv`].
+    /// The walk's trajectory as JSON, and beside it under `walk` the time between two samples, footsteps, phases, summary, and the support polygons.
     pub fn to_json(&self, biped: &Biped) -> String {
-        let joints = biped.joints.iter().map(
-            |joint| json!({ "name": joint.name, "low": joint.limits.0, "high": joint.limits.1, "speed": joint.speed }),
-        );
         let route = &self.schedule.route;
         let steps = route.steps.iter().map(|step| {
             let mut value = print(&step.print);
             value["foot"] = step.side.name().into();
             value
         });
-        let value = json!({
-            "robot": biped.name,
+        let support = |balance: &Balance| -> Value {
+            balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect()
+        };
+        let mut value = self.trajectory(biped).to_json();
+        value["walk"] = json!({
             "tick": self.schedule.tick,
-            "joints": joints.collect::<Vec<_>>(),
             "start": { "left": print(&route.start[0]), "right": print(&route.start[1]) },
             "steps": steps.collect::<Vec<_>>(),
             "phases": self.phases(),
             "summary": summary(&Summary::of(biped, self)),
-            "samples": (0..self.balances.len()).map(|sample| self.sample(sample)).collect::<Vec<_>>(),
+            "support": self.balances.iter().map(support).collect::<Vec<_>>(),
         });
         value.to_string() + "\n"
     }
@@ -116,23 +100,6 @@ impl Walk {
         };
         self.schedule.phases.iter().map(phase).collect()
     }
-
-    fn sample(&self, sample: usize) -> Value {
-        let balance = &self.balances[sample];
-        let mut value = json!({ "time": self.time(sample), "q": self.motion.postures[sample].q });
-        for (name, figure) in COLUMNS.into_iter().zip(self.figures(sample)) {
-            value[name] = figure.into();
-        }
-        value["support"] = balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect();
-        value
-    }
-}
-
-/// Nine decimals, without a negative zero.
-pub(super) fn decimal(value: f64) -> String {
-    let text = format!("{value:.9}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.into() }
 }
 
 fn print(print: &Footprint) -> Value {

@@ -7,7 +7,7 @@ use nalgebra::Point3;
 use super::biped::Biped;
 use super::footprint::Side;
 use super::plan::Walk;
-use super::table::decimal;
+use crate::motion::table::decimal;
 use crate::{Error, ErrorKind, Result};
 
 /// The joints in the thesis' order: the right leg from the foot up, then the left one.

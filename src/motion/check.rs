@@ -66,10 +66,13 @@ pub fn findings(trajectory: &Trajectory, bounds: &Bounds) -> Vec<Finding> {
     let mut found = Vec::new();
     for (sample, q) in trajectory.q.iter().enumerate() {
         let mut add = |fault: Option<Fault>| found.extend(fault.map(|fault| Finding { sample, fault }));
-        add(beyond_limit(&trajectory.joints, q));
+        let limits = trajectory.joints.iter().map(|joint| joint.limits);
+        add(beyond_limit(limits, q).map(|(joint, value)| Fault::Limit { joint, value }));
         if let Some(before) = sample.checked_sub(1) {
             let time = trajectory.times[sample] - trajectory.times[before];
-            add(too_fast(&trajectory.joints, &trajectory.q[before], q, time * bounds.speed_share));
+            let speeds = trajectory.joints.iter().map(|joint| joint.speed.map(|speed| speed * bounds.speed_share));
+            let fast = too_fast(speeds, &trajectory.q[before], q, time);
+            add(fast.map(|(joint, rate)| Fault::Speed { joint, rate }));
             add(jumps(&trajectory.joints, &trajectory.q[before], q, bounds.jump));
         }
         let margin = margins.map(|figure| figure.values[sample]).filter(|margin| *margin < bounds.margin);
@@ -78,18 +81,24 @@ pub fn findings(trajectory: &Trajectory, bounds: &Bounds) -> Vec<Finding> {
     found
 }
 
-/// The first joint beyond its limits.
-pub fn beyond_limit(joints: &[JointTrack], q: &[f64]) -> Option<Fault> {
-    let beyond = |(joint, value): (&JointTrack, &f64)| joint.limits.is_some_and(|(low, high)| *value < low || *value > high);
-    let joint = joints.iter().zip(q).position(beyond)?;
-    Some(Fault::Limit { joint, value: q[joint] })
+/// The first joint beyond its limits, by its place, with its value.
+pub fn beyond_limit(limits: impl Iterator<Item = Option<(f64, f64)>>, q: &[f64]) -> Option<(usize, f64)> {
+    let beyond =
+        |(limits, value): (Option<(f64, f64)>, &f64)| limits.is_some_and(|(low, high)| *value < low || *value > high);
+    let joint = limits.zip(q).position(beyond)?;
+    Some((joint, q[joint]))
 }
 
-/// The first joint that cannot go from `before` to `q` in `time` \[s\].
-pub fn too_fast(joints: &[JointTrack], before: &[f64], q: &[f64], time: f64) -> Option<Fault> {
-    let fast = |joint: &usize| joints[*joint].speed.is_some_and(|speed| (q[*joint] - before[*joint]).abs() > speed * time);
-    let joint = (0..joints.len()).find(fast)?;
-    Some(Fault::Speed { joint, rate: (q[joint] - before[joint]) / time })
+/// The first joint that cannot go from `before` to `q` in `time` \[s\] at its greatest speed, by its place, with its rate.
+pub fn too_fast(
+    speeds: impl Iterator<Item = Option<f64>>,
+    before: &[f64],
+    q: &[f64],
+    time: f64,
+) -> Option<(usize, f64)> {
+    let rates = q.iter().zip(before).map(|(to, from)| (to - from) / time);
+    let fast = |(speed, rate): (Option<f64>, f64)| speed.is_some_and(|speed| rate.abs() > speed).then_some(rate);
+    speeds.zip(rates).map(fast).enumerate().find_map(|(joint, rate)| Some((joint, rate?)))
 }
 
 /// The first joint without a told speed that goes further than `most`.

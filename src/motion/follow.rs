@@ -1,5 +1,7 @@
 //! An arm along poses: of all solutions the branch that stays continuous, within limits. Main function: [`follow`].
 
+use std::cmp::Ordering;
+
 use super::{JointTrack, Trajectory};
 use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
 use crate::spatial::{Pose, angle};
@@ -9,7 +11,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 const NEAR: f64 = 0.5;
 /// How near to a limit a value may be beyond it by rounding \[rad or m\].
 const ROUNDING: f64 = 1e-9;
-/// The most values of a pose that turns shift by whole ones; more are left out.
+/// The most combinations of a solution's values that differ by whole turns; those furthest from zero are left out.
 const MOST_STATES: usize = 4096;
 
 /// How fast a path is gone.
@@ -70,7 +72,8 @@ pub fn follow(
     watch: &Watch,
 ) -> Result<Followed> {
     if chain.task() != Task::Pose || !chain.given().is_empty() {
-        let text = format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
+        let text =
+            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let times = times(pace, poses.len())?;
@@ -82,8 +85,8 @@ pub fn follow(
         watch.report("poses of the path", sample, poses.len() - sample);
         let named = |error: Error| error.with_context(format_args!("pose {}", sample + 1));
         solver.solve(&Target::Pose(*pose), &[], &mut found).map_err(named)?;
-        let states = path.states(&found).map_err(named)?;
-        layers.push(path.reached(sample, states, layers.last()));
+        let choices = path.choices(&found).map_err(named)?;
+        layers.push(path.reached(sample, &choices, layers.last()));
     }
     let ways = path.ways(&layers);
     let jumps = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways)).collect();
@@ -101,8 +104,58 @@ fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
             bad(format!("the time between two poses is {time}; give a positive number"))
         }
         Pace::Every(time) => Ok((0..count).map(|sample| sample as f64 * time).collect()),
-        Pace::At(times) if times.len() != count => bad(format!("{} times for {count} poses; give one each", times.len())),
+        Pace::At(times) if times.len() != count => {
+            bad(format!("{} times for {count} poses; give one each", times.len()))
+        }
         Pace::At(times) => Ok(times.clone()),
+    }
+}
+
+/// Fewer jumps first, then the shorter way.
+fn cheaper(a: (usize, f64), b: (usize, f64)) -> Ordering {
+    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+}
+
+/// The values of a solution's joints within the limits, which differ by whole turns.
+struct Choices {
+    branch: usize,
+    values: Vec<Vec<f64>>,
+}
+
+impl Choices {
+    /// The number of combinations.
+    fn count(&self) -> usize {
+        self.values.iter().fold(1, |count, values| count.saturating_mul(values.len()))
+    }
+
+    /// The same with at most [`MOST_STATES`] combinations: the joint with the most values loses the one that is furthest from zero.
+    fn fewer(mut self) -> Self {
+        while self.count() > MOST_STATES {
+            let Some(most) = self.values.iter_mut().max_by_key(|values| values.len()) else { break };
+            most.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            most.pop();
+            most.sort_by(f64::total_cmp);
+        }
+        self
+    }
+
+    /// All combinations, the last joint's values fastest.
+    fn states(&self) -> Vec<State> {
+        let mut all = vec![Vec::new()];
+        for values in &self.values {
+            all = all.iter().flat_map(|q| values.iter().map(|value| [&q[..], &[*value]].concat())).collect();
+        }
+        let state = |q| State { q, branch: self.branch, cost: (usize::MAX, f64::INFINITY), from: 0 };
+        all.into_iter().map(state).collect()
+    }
+
+    /// The place among the combinations of the one that is next to `q`.
+    fn nearest(&self, q: &[f64]) -> usize {
+        self.values.iter().zip(q).fold(0, |place, (values, before)| {
+            let off = |at: &usize| (values[*at] - before).abs();
+            let next = (0..values.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+            place * values.len() + next
+        })
     }
 }
 
@@ -114,21 +167,17 @@ struct Path<'p> {
 }
 
 impl Path<'_> {
-    /// All values within the limits that are solutions but for whole turns.
-    fn states(&self, found: &[Solution]) -> Result<Vec<(Vec<f64>, usize)>> {
-        let mut states = Vec::new();
-        for solution in found {
-            let mut shifted = vec![Vec::new()];
-            for (joint, value) in self.chain.joints().iter().zip(&solution.q) {
-                let turns = joint.kind == JointKind::Revolute;
-                let values = within(joint.limits, *value, turns);
-                shifted = shifted.iter().flat_map(|q| values.iter().map(|value| [&q[..], &[*value]].concat())).collect();
-                shifted.truncate(MOST_STATES);
-            }
-            states.extend(shifted.into_iter().map(|q| (q, solution.branch)));
-        }
-        match (states.is_empty(), found.first()) {
-            (false, _) => Ok(states),
+    /// The values of each solution that are within the limits, joint by joint.
+    fn choices(&self, found: &[Solution]) -> Result<Vec<Choices>> {
+        let of = |solution: &Solution| {
+            let joints = self.chain.joints().iter().zip(&solution.q);
+            let values = joints.map(|(joint, value)| within(joint.limits, *value, joint.kind == JointKind::Revolute));
+            Choices { branch: solution.branch, values: values.collect() }
+        };
+        let choices: Vec<Choices> =
+            found.iter().map(of).filter(|choices| choices.count() > 0).map(Choices::fewer).collect();
+        match (choices.is_empty(), found.first()) {
+            (false, _) => Ok(choices),
             (true, None) => Err(Error::new(ErrorKind::BadValue, "it is out of reach")),
             (true, Some(_)) => {
                 let text = format!("all {} solutions are beyond the limits of a joint", found.len());
@@ -137,20 +186,29 @@ impl Path<'_> {
         }
     }
 
-    /// The states at a pose, each with the best way to it.
-    fn reached(&self, sample: usize, states: Vec<(Vec<f64>, usize)>, before: Option<&Vec<State>>) -> Vec<State> {
-        let best = |(q, branch): (Vec<f64>, usize)| {
-            let ways = before.into_iter().flatten().enumerate().map(|(from, state)| {
-                let (jumps, way) = self.step(sample, &state.q, &q);
-                ((state.cost.0 + usize::from(jumps), state.cost.1 + way), from)
-            });
-            let order = |a: &((usize, f64), usize), b: &((usize, f64), usize)| {
-                a.0.0.cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))
-            };
-            let (cost, from) = ways.min_by(order).unwrap_or(((0, 0.0), 0));
-            State { q, branch, cost, from }
+    /// The states at a pose, each with the best way to it: from a state before to the values of a solution that are next to its own, or by a jump
+    /// from the best of all.
+    fn reached(&self, sample: usize, choices: &[Choices], before: Option<&Vec<State>>) -> Vec<State> {
+        let mut states: Vec<State> = choices.iter().flat_map(Choices::states).collect();
+        let Some(before) = before else {
+            states.iter_mut().for_each(|state| state.cost = (0, 0.0));
+            return states;
         };
-        states.into_iter().map(best).collect()
+        let best = (0..before.len()).min_by(|a, b| cheaper(before[*a].cost, before[*b].cost)).unwrap_or(0);
+        let starts: Vec<usize> =
+            choices.iter().scan(0, |start, own| Some(std::mem::replace(start, *start + own.count()))).collect();
+        let mut relax = |to: usize, from: usize| {
+            let (jumps, way) = self.step(sample, &before[from].q, &states[to].q);
+            let cost = (before[from].cost.0 + usize::from(jumps), before[from].cost.1 + way);
+            if cheaper(cost, states[to].cost).is_lt() {
+                (states[to].cost, states[to].from) = (cost, from);
+            }
+        };
+        for (own, start) in choices.iter().zip(starts) {
+            (start..start + own.count()).for_each(|to| relax(to, best));
+            (0..before.len()).for_each(|from| relax(start + own.nearest(&before[from].q), from));
+        }
+        states
     }
 
     /// Whether a step jumps, and the sum of the squares of the joints' ways.
@@ -178,9 +236,8 @@ impl Path<'_> {
 
     /// The state of the best path at each pose.
     fn ways(&self, layers: &[Vec<State>]) -> Vec<usize> {
-        let order = |a: &&State, b: &&State| a.cost.0.cmp(&b.cost.0).then(a.cost.1.total_cmp(&b.cost.1));
         let last = layers.last().map_or(&[][..], |layer| layer);
-        let end = last.iter().enumerate().min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(place, _)| place);
+        let end = (0..last.len()).min_by(|a, b| cheaper(last[*a].cost, last[*b].cost)).unwrap_or(0);
         let mut ways = vec![end];
         for layer in layers[1..].iter().rev() {
             ways.push(layer[ways[ways.len() - 1]].from);
@@ -192,8 +249,10 @@ impl Path<'_> {
     /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
     fn jump(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> Option<Jump> {
         let [before, now] = [sample - 1, sample].map(|at| &layers[at][ways[at]]);
-        let excess = |joint: &usize| self.way(*joint, before.q[*joint], now.q[*joint]).abs() / self.most(sample, *joint);
-        let joint = (0..now.q.len()).max_by(|a, b| excess(a).total_cmp(&excess(b))).filter(|joint| excess(joint) > 1.0)?;
+        let excess =
+            |joint: &usize| self.way(*joint, before.q[*joint], now.q[*joint]).abs() / self.most(sample, *joint);
+        let joint =
+            (0..now.q.len()).max_by(|a, b| excess(a).total_cmp(&excess(b))).filter(|joint| excess(joint) > 1.0)?;
         let step = self.way(joint, before.q[joint], now.q[joint]);
         let name = |joint: usize| &self.chain.joints()[joint].name;
         let goes_on = layers[sample].iter().any(|state| !self.step(sample, &before.q, &state.q).0);
@@ -205,7 +264,12 @@ impl Path<'_> {
             let furthest =
                 |joint: &usize| self.way(*joint, before.q[*joint], same.q[*joint]).abs() / self.most(sample, *joint);
             let fast = (0..same.q.len()).max_by(|a, b| furthest(a).total_cmp(&furthest(b))).unwrap_or(joint);
-            format!("the branch goes on, but `{}` would turn faster than it can", name(fast))
+            let turns = self.chain.joints()[fast].kind == JointKind::Revolute;
+            if turns && self.way(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
+                format!("`{}` would leave its limits; it turns back by a whole turn", name(fast))
+            } else {
+                format!("the branch goes on, but `{}` would be faster than it can", name(fast))
+            }
         } else if let Some(limited) = self.at_limit(&before.q) {
             format!("`{}` is at its limit", name(limited))
         } else {

@@ -63,11 +63,8 @@ impl Trajectory {
             name: own.name.clone(),
             at: own.at.iter().map(|point| point.coords.into()).collect(),
         };
-        let figure = |own: &Figure| WrittenFigure {
-            name: own.name.clone(),
-            unit: own.unit.clone(),
-            values: own.values.clone(),
-        };
+        let figure =
+            |own: &Figure| WrittenFigure { name: own.name.clone(), unit: own.unit.clone(), values: own.values.clone() };
         let written = Written {
             format: FORMAT,
             robot: self.robot.clone(),
@@ -89,7 +86,8 @@ impl Trajectory {
     /// as [`Trajectory::check`].
     pub fn from_json(text: &str) -> Result<Self> {
         let syntax = |error: serde_json::Error| {
-            Error::new(ErrorKind::Syntax, format!("this is no trajectory in JSON: {error}")).at_line(error.line().max(1))
+            Error::new(ErrorKind::Syntax, format!("this is no trajectory in JSON: {error}"))
+                .at_line(error.line().max(1))
         };
         #[derive(Deserialize)]
         struct Versioned {
@@ -103,7 +101,8 @@ impl Trajectory {
         }
         let written: Written = serde_json::from_str(text).map_err(syntax)?;
         let poses = |poses: Vec<[f64; 7]>| poses.into_iter().map(pose_of).collect::<Result<Vec<Pose>>>();
-        let contact = |own: WrittenContact| Ok(Contact { name: own.name, poses: poses(own.poses)?, stands: own.stands });
+        let contact =
+            |own: WrittenContact| Ok(Contact { name: own.name, poses: poses(own.poses)?, stands: own.stands });
         let track = |own: WrittenTrack| Track { name: own.name, at: own.at.into_iter().map(Point3::from).collect() };
         let trajectory = Trajectory {
             robot: written.robot,

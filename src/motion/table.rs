@@ -30,7 +30,8 @@ const FORMAT: u32 = 1;
 /// The longest file that is read, in bytes.
 pub const TABLE_LIMIT: u64 = 1_000_000_000;
 /// The ends of the columns of a pose, with their units.
-const POSE: [(&str, &str); 7] = [("x", "m"), ("y", "m"), ("z", "m"), ("qx", "1"), ("qy", "1"), ("qz", "1"), ("qw", "1")];
+const POSE: [(&str, &str); 7] =
+    [("x", "m"), ("y", "m"), ("z", "m"), ("qx", "1"), ("qy", "1"), ("qz", "1"), ("qw", "1")];
 
 impl Trajectory {
     /// The trajectory as CSV in the format of [`table`](self).
@@ -71,7 +72,9 @@ impl Trajectory {
                     }
                 }
                 (None, _) if line.trim().is_empty() => {}
-                (None, None) => header = Some(Header::read(line, &mut trajectory).map_err(|error| error.at_line(place))?),
+                (None, None) => {
+                    header = Some(Header::read(line, &mut trajectory).map_err(|error| error.at_line(place))?)
+                }
                 (None, Some(header)) => {
                     header.row(line, &mut trajectory).map_err(|error| error.at_line(place))?;
                 }
@@ -95,7 +98,9 @@ impl Trajectory {
             names.extend(pose(&contact.name));
             names.push(format!("{}_stands [1]", contact.name));
         }
-        names.extend(self.points.iter().flat_map(|track| ["x", "y", "z"].map(|end| format!("{}_{end} [m]", track.name))));
+        names.extend(
+            self.points.iter().flat_map(|track| ["x", "y", "z"].map(|end| format!("{}_{end} [m]", track.name))),
+        );
         names.extend(self.figures.iter().map(|figure| format!("{} [{}]", figure.name, figure.unit)));
         names
     }
@@ -140,7 +145,8 @@ impl Header {
     fn read(line: &str, trajectory: &mut Trajectory) -> Result<Self> {
         let names: Vec<(&str, &str)> = line.split(',').map(|cell| named(cell.trim())).collect::<Result<_>>()?;
         if names[0] != ("time", "s") {
-            let text = format!("the first column is `{}`; give `time [s]`", shown(line.split(',').next().unwrap_or("")));
+            let text =
+                format!("the first column is `{}`; give `time [s]`", shown(line.split(',').next().unwrap_or("")));
             return Err(Error::new(ErrorKind::MissingKey, text));
         }
         let find = |name: &str| names.iter().position(|(own, _)| *own == name);
@@ -148,7 +154,8 @@ impl Header {
             let places: Option<Vec<usize>> = ends.iter().map(|end| find(&format!("{stem}_{end}"))).collect();
             places
         };
-        let pose = |stem: &str| all(stem, &POSE.map(|(end, _)| end)).and_then(|places| <[usize; 7]>::try_from(places).ok());
+        let pose =
+            |stem: &str| all(stem, &POSE.map(|(end, _)| end)).and_then(|places| <[usize; 7]>::try_from(places).ok());
         let mut header = Header {
             columns: names.len(),
             joints: Vec::new(),
@@ -163,7 +170,12 @@ impl Header {
                 continue;
             }
             if let Some(joint) = name.strip_prefix("q:") {
-                trajectory.joints.push(JointTrack { name: joint.to_owned(), slides: *unit == "m", limits: None, speed: None });
+                trajectory.joints.push(JointTrack {
+                    name: joint.to_owned(),
+                    slides: *unit == "m",
+                    limits: None,
+                    speed: None,
+                });
                 header.joints.push(place);
                 continue;
             }
@@ -249,7 +261,11 @@ pub(super) fn pose_of([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Result<Pose> {
         let text = format!("a quaternion has the length {norm}; give one of length one");
         return Err(Error::new(ErrorKind::BadValue, text));
     }
-    Ok(Pose::from_parts(Translation3::new(x, y, z), UnitQuaternion::new_normalize(quaternion)))
+    // What is of length one but for rounding stays as it is written.
+    let is_unit = (norm - 1.0).abs() < 1e-14;
+    let rotation =
+        if is_unit { UnitQuaternion::new_unchecked(quaternion) } else { UnitQuaternion::new_normalize(quaternion) };
+    Ok(Pose::from_parts(Translation3::new(x, y, z), rotation))
 }
 
 /// Nine decimals, without a negative zero.

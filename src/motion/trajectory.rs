@@ -101,8 +101,10 @@ impl Trajectory {
             return bad(format!("sample {}: its time is not behind the one before; let time go on", at + 2));
         }
         self.check_names()?;
-        let lengths = [("joint values", self.q.len()), ("base", if self.base.is_empty() { count } else { self.base.len() })];
-        let contacts = self.contacts.iter().flat_map(|own| [(&own.name[..], own.poses.len()), (&own.name, own.stands.len())]);
+        let lengths =
+            [("joint values", self.q.len()), ("base", if self.base.is_empty() { count } else { self.base.len() })];
+        let contacts =
+            self.contacts.iter().flat_map(|own| [(&own.name[..], own.poses.len()), (&own.name, own.stands.len())]);
         let points = self.points.iter().map(|own| (&own.name[..], own.at.len()));
         let figures = self.figures.iter().map(|own| (&own.name[..], own.values.len()));
         for (name, length) in lengths.into_iter().chain(contacts).chain(points).chain(figures) {
@@ -123,7 +125,8 @@ impl Trajectory {
     fn check_names(&self) -> Result<()> {
         let joints: Vec<&str> = self.joints.iter().map(|joint| joint.name.as_str()).collect();
         let others = self.contacts.iter().map(|own| &own.name);
-        let others = others.chain(self.points.iter().map(|own| &own.name)).chain(self.figures.iter().map(|own| &own.name));
+        let others =
+            others.chain(self.points.iter().map(|own| &own.name)).chain(self.figures.iter().map(|own| &own.name));
         let others: Vec<&str> = others.map(String::as_str).collect();
         for names in [joints, others] {
             let twice = names.iter().enumerate().find(|(place, name)| names[..*place].contains(name));

@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 20] = [
+const TABLE: [(&str, Uses); 21] = [
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
     ("poly", Uses::Only(&["number"])),
@@ -25,7 +25,8 @@ const TABLE: [(&str, Uses); 20] = [
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
     ),
     ("codegen", Uses::Only(&["number", "solver"])),
-    ("gait", Uses::Only(&["spatial", "model", "kinematics", "dynamics"])),
+    ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
+    ("gait", Uses::Only(&["spatial", "model", "kinematics", "dynamics", "motion"])),
     ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
     ("sim", Uses::AllAbove),

@@ -8,6 +8,7 @@ mod derive;
 mod explain;
 mod export;
 mod fk;
+mod follow;
 mod ik;
 mod info;
 mod interrupted;

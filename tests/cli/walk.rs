@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use groebot::motion::Trajectory;
 use tempfile::tempdir;
 
 use super::{refused, run, succeed, text};
@@ -14,19 +15,22 @@ fn eight_steps_are_written_as_csv_json_and_svg() {
     for word in ["8 steps", "0.280 m", "least margin", "joint limits", "none had to be slowed down"] {
         assert!(told.contains(word), "{word}: {told}");
     }
-    let table = fs::read_to_string(&csv).unwrap();
-    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    assert_eq!(header[0], "time");
-    let column = |name: &str| header.iter().position(|column| *column == name).unwrap();
-    let (left, right, margin) = (column("LHipYawPitch"), column("RHipYawPitch"), column("margin"));
-    for (row, line) in table.lines().skip(1).enumerate() {
-        let fields: Vec<&str> = line.split(',').collect();
-        assert_eq!(fields[0].parse::<f64>().unwrap(), row as f64 / 100.0);
-        assert_eq!(fields[left], fields[right]);
-        assert!(fields[margin].parse::<f64>().unwrap() >= 0.01);
+    assert!(
+        fs::read_to_string(&csv)
+            .unwrap()
+            .starts_with("# groebot trajectory 1\n# robot: nao_v5\ntime [s],q:HeadYaw [rad],")
+    );
+    let walk = Trajectory::read_csv(&csv).unwrap();
+    let column = |name: &str| walk.joints.iter().position(|joint| joint.name == name).unwrap();
+    let (left, right) = (column("LHipYawPitch"), column("RHipYawPitch"));
+    for (row, q) in walk.q.iter().enumerate() {
+        assert_eq!(walk.times[row], row as f64 / 100.0);
+        assert_eq!(q[left], q[right]);
     }
-    let walk: serde_json::Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
-    assert_eq!(walk["samples"].as_array().unwrap().len(), table.lines().count() - 1);
+    let margin = walk.figures.iter().find(|figure| figure.name == "margin").unwrap();
+    assert!(margin.values.iter().all(|margin| *margin >= 0.01));
+    let again = Trajectory::from_json(&fs::read_to_string(&json).unwrap()).unwrap();
+    assert_eq!(again.times, walk.times);
     assert!(fs::read_to_string(&svg).unwrap().contains("zero moment point"));
 }
 
@@ -44,7 +48,7 @@ fn turns_files_of_footsteps_and_preview_control_are_walked() {
     fs::write(&steps, "foot,x,y,yaw\nleft,0.03,0.05,0.05\nright,0.05,-0.05,0.05\nleft,0.05,0.05,0.05\n").unwrap();
     assert!(succeed(&["walk", "nao", "--footsteps", text(&steps), "-o", text(&out)]).contains("3 steps"));
     let walk: serde_json::Value = serde_json::from_str(&fs::read_to_string(&out).unwrap()).unwrap();
-    assert_eq!(walk["steps"][2]["foot"], "left");
+    assert_eq!(walk["walk"]["steps"][2]["foot"], "left");
 }
 
 #[test]
@@ -87,7 +91,7 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert!(header.starts_with("t,q1,q2,q3,q4,q5,q6,q12,q11,q10,q9,q8,q7,X_right_foot,"), "{header}");
     assert_eq!(table.lines().count(), 1 + 1 + 6 * 81);
     assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
-    assert_eq!(fs::read_to_string(&csv).unwrap().lines().count(), table.lines().count());
+    assert_eq!(Trajectory::read_csv(&csv).unwrap().times.len(), table.lines().count() - 1);
     assert!(fs::read_to_string(&svg).unwrap().contains("ankles aslant"));
     let told = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
     assert!(
@@ -130,11 +134,13 @@ fn three_robots_walk_by_one_step_goal() {
     }
 }
 
-/// The columns of a table in the order of `names`, at its last row.
-fn last_row<const N: usize>(table: &str, names: [&str; N]) -> [f64; N] {
-    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
-    let last: Vec<&str> = table.lines().last().unwrap().split(',').collect();
-    names.map(|name| last[header.iter().position(|column| *column == name).unwrap()].parse().unwrap())
+/// Where the soles are at the end of a walk, left and right: x, y and heading.
+fn last_soles(file: &std::path::Path) -> [[f64; 3]; 2] {
+    let walk = Trajectory::read_csv(file).unwrap();
+    [0, 1].map(|side| {
+        let sole = walk.contacts[side].poses[walk.times.len() - 1];
+        [sole.translation.x, sole.translation.y, sole.rotation.euler_angles().2]
+    })
 }
 
 #[test]
@@ -145,15 +151,14 @@ fn nao_walks_to_a_goal_without_further_options() {
     for word in ["51 steps by the seed's sine", "2.000 m, turn 0.0 deg", "none had to be slowed down"] {
         assert!(told.contains(word), "{word}: {told}");
     }
-    let table = fs::read_to_string(&csv).unwrap();
-    let feet = last_row(&table, ["left_x", "left_y", "right_x", "right_y", "left_yaw", "right_yaw"]);
-    for (value, wanted) in feet.iter().zip([2.0, 0.05, 2.0, -0.05, 0.0, 0.0]) {
+    let feet = last_soles(&csv).concat();
+    for (value, wanted) in feet.iter().zip([2.0, 0.05, 0.0, 2.0, -0.05, 0.0]) {
         assert!((value - wanted).abs() < 1e-9, "{feet:?}");
     }
     // The picture, the summary and the table tell the same least margin.
-    let margin = table.lines().next().unwrap().split(',').position(|name| name == "margin").unwrap();
-    let rows = table.lines().skip(1).map(|row| row.split(',').nth(margin).unwrap().parse::<f64>().unwrap());
-    let least = format!("{:.1} mm at", 1e3 * rows.fold(f64::INFINITY, f64::min));
+    let walk = Trajectory::read_csv(&csv).unwrap();
+    let margin = walk.figures.iter().find(|figure| figure.name == "margin").unwrap();
+    let least = format!("{:.1} mm at", 1e3 * margin.values.iter().copied().fold(f64::INFINITY, f64::min));
     assert!(told.contains(&format!("least margin    {least}")), "{least}: {told}");
     assert!(fs::read_to_string(&svg).unwrap().contains(&format!("least: {least}")), "{least}");
 }
@@ -166,8 +171,7 @@ fn every_gait_of_nao_reaches_goals_on_all_sides() {
         for (x, y) in [(0.3, 0.1), (0.0, -0.2), (-0.4, 0.05), (0.02, 0.0)] {
             let goal = format!("--goal={x},{y}");
             succeed(&["walk", "nao", "--gait", gait, &goal, "-o", text(&csv)]);
-            let [left_x, left_y, right_x, right_y] =
-                last_row(&fs::read_to_string(&csv).unwrap(), ["left_x", "left_y", "right_x", "right_y"]);
+            let [[left_x, left_y, _], [right_x, right_y, _]] = last_soles(&csv);
             let miss = ((left_x + right_x) / 2.0 - x).hypot((left_y + right_y) / 2.0 - y);
             assert!(miss < 1e-3, "{gait} {goal}: {miss}");
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use groebot::Watch;
 use groebot::gait::{Biped, Gait, Measures, Regular, Route, Side, Walk, plan};
+use groebot::motion::Trajectory;
 use groebot::robots::{NAO_SEED, Outline};
 use nalgebra::Point2;
 use quick_xml::events::Event;
@@ -82,11 +83,9 @@ fn axis(panel: &[Element], along: &str) -> impl Fn(f64) -> f64 {
 
 /// The margins of a walk's table by their times \[m\], \[s\].
 fn margins_of_table(humanoid: &Biped, walk: &Walk) -> Vec<(f64, f64)> {
-    let csv = walk.to_csv(humanoid);
-    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let header = lines.next().unwrap();
-    let margin = header.iter().position(|name| *name == "margin").unwrap();
-    lines.map(|row| (row[margin].parse().unwrap(), row[0].parse().unwrap())).collect()
+    let read = Trajectory::from_csv(&walk.to_csv(humanoid)).unwrap();
+    let margin = read.figures.iter().find(|figure| figure.name == "margin").unwrap();
+    margin.values.iter().copied().zip(read.times).collect()
 }
 
 fn on_the_spot(turn: f64) -> Walk {

@@ -2,6 +2,7 @@
 
 use groebot::gait::{Gait, Regular, TICK, Walk};
 use groebot::kinematics::Chain;
+use groebot::motion::{Bounds, Trajectory, findings};
 use groebot::robots;
 use groebot::solver::Program;
 use groebot::spatial::Pose;
@@ -73,26 +74,30 @@ fn turning_agrees_with_the_derived_solver_of_both_legs() {
 #[test]
 fn csv_is_sampled_at_100_hz_with_one_motor_for_both_hips() {
     let walk = walk(&request(&regular())).unwrap();
-    let csv = walk.to_csv(&robot().0);
-    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let header = lines.next().unwrap();
-    assert_eq!(header[..3], ["time", "HeadYaw", "HeadPitch"]);
-    let column = |name: &str| header.iter().position(|column| *column == name).unwrap();
-    let mut rows = 0;
-    for (row, fields) in lines.enumerate() {
-        assert_eq!(fields.len(), header.len());
-        assert_eq!(fields[0].parse::<f64>().unwrap(), (row as f64) / 100.0);
-        assert_eq!(fields[column("LHipYawPitch")], fields[column("RHipYawPitch")]);
-        let knee: f64 = fields[column("LKneePitch")].parse().unwrap();
-        assert!((knee - leg(&walk, row, "L")[3]).abs() < 1e-9);
-        rows += 1;
+    let written = walk.trajectory(&robot().0);
+    let read = Trajectory::from_csv(&walk.to_csv(&robot().0)).unwrap();
+    let column = |name: &str| read.joints.iter().position(|joint| joint.name == name).unwrap();
+    assert_eq!((read.joints.len(), column("HeadYaw"), column("HeadPitch")), (24, 0, 1));
+    assert_eq!(read.times.len(), walk.balances.len());
+    for (row, q) in read.q.iter().enumerate() {
+        assert_eq!(read.times[row], (row as f64) / 100.0);
+        assert_eq!(q[column("LHipYawPitch")], q[column("RHipYawPitch")]);
+        assert!((q[column("LKneePitch")] - leg(&walk, row, "L")[3]).abs() < 1e-9);
+        let off = read.base[row].inv_mul(&written.base[row]).to_homogeneous() - nalgebra::Matrix4::identity();
+        assert!(off.amax() < 1e-8 && (read.points[0].at[row] - written.points[0].at[row]).norm() < 1e-8);
     }
-    assert_eq!(rows, walk.balances.len());
-    let json: serde_json::Value = serde_json::from_str(&walk.to_json(&robot().0)).unwrap();
-    assert_eq!(json["samples"].as_array().unwrap().len(), rows);
-    assert_eq!(json["joints"].as_array().unwrap().len(), 24);
-    assert_eq!(json["tick"], TICK);
-    assert_eq!(json["summary"]["gait"], "seed");
+    assert_eq!(read.contacts[0].stands, written.contacts[0].stands);
+    let text = walk.to_json(&robot().0);
+    let back = Trajectory::from_json(&text).unwrap();
+    assert_eq!(
+        (&back.q, &back.times, &back.joints, &back.figures),
+        (&written.q, &written.times, &written.joints, &written.figures)
+    );
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!((&json["format"], &json["walk"]["tick"]), (&1.into(), &TICK.into()));
+    assert_eq!(json["walk"]["summary"]["gait"], "seed");
+    assert_eq!(json["walk"]["support"].as_array().unwrap().len(), read.times.len());
+    assert!(findings(&written, &Bounds { margin: 0.01, speed_share: 0.9, ..Bounds::default() }).is_empty());
     let svg = walk.to_svg(&robot().0);
     assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && svg.contains("LKneePitch"));
     assert_eq!(svg.matches("<polygon").count(), 2 + walk.schedule.route.steps.len());

@@ -1,0 +1,160 @@
+//! `groebot follow`: joint values along poses, by the branch of the solutions that stays continuous.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+
+use super::ends::{EndArguments, SnapArgument};
+use super::progress::{Limits, Session};
+use super::targets::Reader;
+use super::{Outcome, console};
+use crate::derive::{Description, InputFile, Proved};
+use crate::files::write_atomically;
+use crate::kinematics::Chain;
+use crate::motion::{Followed, Pace, follow};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
+
+/// The names of a pose's numbers: of the position, and of the quaternion.
+const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+
+const EXAMPLES: &str = "Examples:
+  groebot follow robot.urdf --poses poses.csv -o path.csv
+  groebot follow robot.urdf --base base_link --tip tool0 --poses poses.csv --every 0.01 --json path.json
+
+poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and may begin with time (seconds); a row of names is optional. Of all
+solutions within the limits the path has the fewest jumps between branches, and of such paths the shortest. A step is a jump where a joint goes
+further than its speed (velocity in the URDF) allows in the time, or without times or speeds more than half a radian or a tenth of the reach. Each
+jump is told with its place and reason; with --strict it is an error.";
+
+/// Follows poses by the solutions that stay continuous
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A mechanism's folder, or an input file with a chain
+    #[arg(value_name = "DIR-or-FILE")]
+    input: PathBuf,
+    #[command(flatten)]
+    ends: EndArguments,
+    #[command(flatten)]
+    snap: SnapArgument,
+    /// The poses, CSV
+    #[arg(long, value_name = "FILE")]
+    poses: PathBuf,
+    /// The time between two poses, where the file tells none; without it joints may be as fast as they like [s]
+    #[arg(long, value_name = "SECONDS")]
+    every: Option<f64>,
+    /// Where the path goes, CSV: a trajectory
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Where the same goes as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// A jump is an error, and nothing is written
+    #[arg(long)]
+    strict: bool,
+    /// No progress and no summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Follows the poses and writes what is asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let input = InputFile::read(&arguments.input)?;
+    let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
+    let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
+    let chain = input.chain(&ends)?.ok_or_else(none)?;
+    let (poses, times) = read_poses(&arguments.poses)?;
+    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
+    let solver = Proved::of_chain(&chain, &session.watch)?;
+    let told =
+        if times.is_some() || arguments.every.is_some() { speeds(&input.description, &chain) } else { Vec::new() };
+    let pace = match (times, arguments.every) {
+        (Some(times), _) => Pace::At(times),
+        (None, every) => Pace::Every(every.unwrap_or(1.0)),
+    };
+    let followed = follow(&chain, &told, solver.program(), &poses, &pace, &session.watch)
+        .map_err(|error| error.in_file(&arguments.poses))?;
+    drop(session);
+    if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {
+        let text = format!("the path must jump at pose {}: {}", jump.sample + 1, jump.why);
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(&arguments.poses).into());
+    }
+    if let Some(file) = &arguments.out {
+        write_atomically(file, followed.trajectory.to_csv().as_bytes())?;
+    }
+    if let Some(file) = &arguments.json {
+        write_atomically(file, (followed.trajectory.to_json().to_string() + "\n").as_bytes())?;
+    }
+    if arguments.quiet { Ok(()) } else { console::print(&summary(&chain, &followed)) }
+}
+
+/// The greatest speeds of the chain's joints, where the description has them.
+fn speeds(description: &Description, chain: &Chain) -> Vec<Option<f64>> {
+    let Description::Robot(robot) = description else { return Vec::new() };
+    let speed = |name: &str| robot.joint(name).ok().and_then(|joint| robot.joints()[joint].speed);
+    chain.joints().iter().map(|joint| speed(&joint.name).filter(|speed| *speed > 0.0)).collect()
+}
+
+/// The poses of a file, and their times where it tells them.
+fn read_poses(file: &Path) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+    let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
+    read_from(BufReader::new(opened)).map_err(|error| error.in_file(file))
+}
+
+fn read_from(input: impl BufRead) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+    let timed: Vec<&str> = ["time"].into_iter().chain(POSE).collect();
+    let mut reader = Reader::of_forms(vec![timed, POSE.to_vec()], input);
+    let (mut poses, mut times) = (Vec::new(), Vec::new());
+    while let Some(row) = reader.next() {
+        let row = row?;
+        let (time, numbers) = match row.target.len() {
+            8 => (Some(row.target[0]), &row.target[1..]),
+            _ => (None, &row.target[..]),
+        };
+        poses.push(pose(numbers).map_err(|error| error.at_line(row.line))?);
+        times.extend(time);
+    }
+    match times.len() {
+        0 => Ok((poses, None)),
+        count if count == poses.len() => Ok((poses, Some(times))),
+        _ => Err(Error::new(ErrorKind::BadValue, "some rows have a time and some have none; give all or none")),
+    }
+}
+
+fn pose(numbers: &[f64]) -> Result<Pose> {
+    let &[x, y, z, qx, qy, qz, qw] = numbers else {
+        let text = format!(
+            "{} numbers; a pose has seven: x, y, z, qx, qy, qz, qw, and a time before them or none",
+            numbers.len()
+        );
+        return Err(Error::new(ErrorKind::BadValue, text));
+    };
+    let quaternion = Quaternion::new(qw, qx, qy, qz);
+    let norm = quaternion.norm();
+    if !(x + y + z + norm).is_finite() || (norm - 1.0).abs() > 1e-3 {
+        let text = format!("the quaternion has the length {norm}; give finite numbers, and a quaternion of length one");
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    Ok(Pose::from_parts(Translation3::new(x, y, z), UnitQuaternion::new_normalize(quaternion)))
+}
+
+/// The path in a few lines.
+fn summary(chain: &Chain, followed: &Followed) -> String {
+    let Followed { trajectory, jumps } = followed;
+    let count = trajectory.times.len();
+    let plural = if count == 1 { "pose" } else { "poses" };
+    let mut text = match jumps.len() {
+        0 => format!("{}: {count} {plural}, without a jump\n", chain.name()),
+        1 => format!("{}: {count} {plural}, one jump\n", chain.name()),
+        more => format!("{}: {count} {plural}, {more} jumps\n", chain.name()),
+    };
+    for jump in jumps {
+        let joint = &trajectory.joints[jump.joint];
+        let (step, unit) = if joint.slides { (jump.step, "m") } else { (jump.step.to_degrees(), "deg") };
+        text += &format!("  pose {}: {} goes {step:.4} {unit}; {}\n", jump.sample + 1, joint.name, jump.why);
+    }
+    text
+}

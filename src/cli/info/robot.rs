@@ -1,0 +1,112 @@
+//! A robot with its links, in words and as JSON.
+
+use nalgebra::Point3;
+use serde_json::{Value, json};
+
+use super::{Paint, joints};
+use crate::Result;
+use crate::dynamics::Model;
+use crate::model::{JointType, Robot};
+use crate::spatial::Pose;
+
+/// How many doubts a page lists.
+const LISTED: usize = 8;
+
+/// A robot, what it weighs, and where its centre of mass is.
+pub struct Body<'r> {
+    robot: &'r Robot,
+    model: Model,
+    /// The centre of mass in the frame of the root; none without a mass.
+    centre: Option<Point3<f64>>,
+}
+
+impl<'r> Body<'r> {
+    /// `robot` at the joint values `q`, all zero where there are none.
+    ///
+    /// # Errors
+    /// As [`Model::new`] and [`Model::place`].
+    pub fn new(robot: &'r Robot, q: &[f64]) -> Result<Self> {
+        let model = Model::new(robot)?;
+        let zero = vec![0.0; model.joints().len()];
+        let placed = model.place(&Pose::identity(), if q.is_empty() { &zero } else { q })?;
+        let centre = (model.mass() > 0.0).then(|| placed.centre_of_mass());
+        Ok(Body { robot, centre, model })
+    }
+
+    /// The robot as JSON: `format` (1), names, joints that move in the order of `--q`, mass, centre of mass, what is doubtful.
+    pub fn json(&self) -> Value {
+        let robot = self.robot;
+        let moving = robot.moving().into_iter().map(|place| {
+            let joint = &robot.joints()[place];
+            json!({
+                "name": joint.name, "type": joint.kind.name(), "parent": joint.parent, "child": joint.child,
+                "limits": joint.limits, "speed": joint.speed, "effort": joint.effort,
+                "follows": joint.mimic.as_ref().map(|mimic| &mimic.leader),
+            })
+        });
+        json!({
+            "format": 1,
+            "robot": robot.name(),
+            "root": robot.root(),
+            "links": robot.links().iter().map(|link| &link.name).collect::<Vec<_>>(),
+            "joints": moving.collect::<Vec<_>>(),
+            "mass": self.model.mass(),
+            "centre_of_mass": self.centre.map(|centre| [centre.x, centre.y, centre.z]),
+            "doubts": robot.doubts(),
+        })
+    }
+
+    /// The robot in words.
+    pub fn page(&self, paint: Paint) -> String {
+        let robot = self.robot;
+        let moving = robot.joints().iter().filter(|joint| joint.kind != JointType::Fixed).count();
+        let (links, fixed) = (robot.links().len(), robot.joints().len() - moving);
+        let name = paint.bold(robot.name());
+        let mut page =
+            format!("{name}: {links} links, {} that move, {fixed} fixed; root {}\n\n", joints(moving), robot.root());
+        let lines = robot.outline();
+        let width = lines.iter().map(|(branch, _)| branch.chars().count()).max().unwrap_or(0);
+        for (branch, motion) in &lines {
+            page += &format!("{}\n", format!("{branch:<width$}  {}", paint.dim(motion)).trim_end());
+        }
+        page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&robot.tips()));
+        page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&robot.leaves()));
+        page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
+        if let Some(tip) = robot.tips().first() {
+            page += &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", robot.root());
+        }
+        page
+    }
+
+    fn weight(&self) -> String {
+        let Some(centre) = self.centre else { return "  not told\n".to_owned() };
+        let shapes = |count: fn(&crate::model::Link) -> usize| self.robot.links().iter().map(count).sum::<usize>();
+        let (seen, hard) = (shapes(|link| link.visuals.len()), shapes(|link| link.collisions.len()));
+        let at = centre.coords.map(|x| format!("{x:.4}"));
+        let mut text = format!(
+            "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} shapes are seen, {hard} collide\n",
+            self.model.mass(), at.x, at.y, at.z
+        );
+        let doubts = self.robot.doubts();
+        text += &doubts.iter().take(LISTED).map(|doubt| format!("  {doubt}\n")).collect::<String>();
+        if doubts.len() > LISTED {
+            text += &format!("  and {} more\n", doubts.len() - LISTED);
+        }
+        text
+    }
+}
+
+/// Names with commas, in lines of about a hundred characters.
+fn wrapped(names: &[&str]) -> String {
+    let mut lines = vec![String::new()];
+    for (index, name) in names.iter().enumerate() {
+        let comma = if index + 1 < names.len() { ", " } else { "" };
+        if lines.last().is_some_and(|line| line.len() + name.len() > 100) {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            *line += &format!("{name}{comma}");
+        }
+    }
+    lines.iter().map(|line| format!("  {}\n", line.trim_end())).collect()
+}

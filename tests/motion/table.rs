@@ -1,0 +1,80 @@
+//! What is written is read back, as CSV and as JSON; other files are refused with their line.
+
+use groebot::ErrorKind;
+use groebot::motion::Trajectory;
+use proptest::prelude::*;
+
+use super::sample;
+
+#[test]
+fn a_table_is_read_back() {
+    let path = sample();
+    let text = path.to_csv();
+    let header = "time [s],q:hip [rad],q:mast_x [m],base_x [m],base_y [m],base_z [m],base_qx [1],base_qy [1],base_qz [1],base_qw [1],left_x [m]";
+    assert!(text.starts_with(&format!("# groebot trajectory 1\n# robot: r\n{header},")), "{text}");
+    let read = Trajectory::from_csv(&text).unwrap();
+    assert_eq!(read.to_csv(), text);
+    assert_eq!((&read.robot, &read.times, &read.q), (&path.robot, &path.times, &path.q));
+    assert_eq!(
+        (&read.figures, &read.points, &read.contacts[0].stands),
+        (&path.figures, &path.points, &path.contacts[0].stands)
+    );
+    for (a, b) in read.base.iter().zip(&path.base).chain(read.contacts[0].poses.iter().zip(&path.contacts[0].poses)) {
+        assert!((a.to_homogeneous() - b.to_homogeneous()).amax() < 2e-9);
+    }
+    assert!(read.joints.iter().all(|joint| joint.limits.is_none()), "a table does not tell limits");
+    assert_eq!(read.joints[1].unit(), "m");
+}
+
+#[test]
+fn json_is_read_back() {
+    let path = sample();
+    let mut value = path.to_json();
+    assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
+    value["walk"] = 1.into();
+    assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is passed over");
+    for (format, told) in [(2.into(), "the `format` is 2"), (serde_json::Value::Null, "the `format` is none")] {
+        value["format"] = format;
+        let error = Trajectory::from_json(&value.to_string()).unwrap_err();
+        assert!(error.kind() == ErrorKind::Syntax && error.message().contains(told), "{error}");
+    }
+    assert_eq!(Trajectory::from_json("{").unwrap_err().kind(), ErrorKind::Syntax);
+}
+
+#[test]
+fn mistakes_have_a_line() {
+    use ErrorKind::*;
+    let text = sample().to_csv();
+    let last = text.lines().last().unwrap();
+    let cases = [
+        ("# groebot trajectory 1", "# groebot trajectory 2", Syntax, 1, "version `2`"),
+        ("# groebot trajectory 1\n", "", Syntax, 1, "begins with"),
+        ("time [s]", "t [s]", MissingKey, 3, "give `time [s]`"),
+        ("q:hip [rad]", "q:hip", Syntax, 3, "has no unit"),
+        (last, "0.3,1", BadValue, 6, "2 cells; there are 22 columns"),
+        ("0.1,0.1,", "0.1,x,", Syntax, 5, "`x` is no finite number"),
+        ("0.1,0.1,", "0.1,nan,", Syntax, 5, "`nan` is no finite number"),
+    ];
+    for (from, to, kind, line, words) in cases {
+        let error = Trajectory::from_csv(&text.replacen(from, to, 1)).unwrap_err();
+        assert_eq!((error.kind(), error.place().line), (kind, Some(line)), "{error}");
+        assert!(error.message().contains(words), "{error}");
+    }
+    assert!(Trajectory::from_csv("# groebot trajectory 1\n").unwrap_err().message().contains("no row of names"));
+    let twice = text.replacen("q:mast_x [m]", "q:hip [m]", 1);
+    assert_eq!(Trajectory::from_csv(&twice).unwrap_err().kind(), DuplicateName);
+}
+
+proptest! {
+    /// Whatever is read, nothing panics.
+    #[test]
+    fn damaged_tables_are_read_or_refused(at in 0usize..900, what in ".{0,4}", length in 0usize..30) {
+        let text = sample().to_csv();
+        let at = at % text.len();
+        let end = (at + length).min(text.len());
+        let _ = Trajectory::from_csv(&format!("{}{what}{}", &text[..at], &text[end..]));
+        let json = sample().to_json().to_string();
+        let (at, end) = (at % json.len(), end % json.len());
+        let _ = Trajectory::from_json(&format!("{}{what}{}", &json[..at], &json[end.max(at)..]));
+    }
+}
