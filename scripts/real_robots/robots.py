@@ -29,11 +29,16 @@ class Chain:
 
     def path(self) -> Path:
         """The URDF: the one file of the package whose path ends as `urdf` says."""
-        files = metadata.files(self.package) or []
-        found = [file for file in files if f"/{file}".endswith(f"/{self.urdf}")]
-        if len(found) != 1:
-            raise FileNotFoundError(f"{self.package} has {len(found)} files {self.urdf}; give the path that one file ends with")
-        return Path(found[0].locate()).resolve()
+        return locate(self.package, self.urdf)
+
+
+def locate(package: str, urdf: str) -> Path:
+    """The one file of an installed package whose path ends with `urdf`."""
+    files = metadata.files(package) or []
+    found = [file for file in files if f"/{file}".endswith(f"/{urdf}")]
+    if len(found) != 1:
+        raise FileNotFoundError(f"{package} has {len(found)} files {urdf}; give the path that one file ends with")
+    return Path(found[0].locate()).resolve()
 
 
 def read() -> list[Chain]:
