@@ -79,7 +79,7 @@ fn solve(c: &mut Criterion) {
     let mut group = c.benchmark_group("solve");
     for name in MECHANISMS {
         let program = Derivation::new(source(name).system.unwrap(), &Watch::none()).expect("it derives").program;
-        group.bench_function(name, |b| b.iter(|| program.solve(black_box(&[60.0, 150.0]))));
+        group.bench_function(name, |b| b.iter(|| program.solve_numbers(black_box(&[60.0, 150.0]))));
     }
     group.finish();
 }
@@ -91,7 +91,7 @@ fn solve_chain(c: &mut Criterion) {
         let chain = chain(name);
         let derived = Derived::of_chain(&chain, &Watch::none()).expect("it derives");
         let target = derived.reached(&ORDINARY[..chain.joints().len()]).expect("as many values as joints");
-        group.bench_function(name, |b| b.iter(|| derived.program.solve(black_box(&target))));
+        group.bench_function(name, |b| b.iter(|| derived.program.solve_numbers(black_box(&target))));
     }
     group.finish();
 }

@@ -3,53 +3,34 @@
 //! The modules stand in the order of the way that the data goes; each stage is plain data that prints.
 //!
 //! ```
-//! use groebot::derive::{Derivation, certificate, formulate};
-//! use groebot::kinematics::Chain;
+//! use groebot::derive::Proved;
+//! use groebot::kinematics::Target;
+//! use groebot::model::Robot;
 //! use groebot::{Watch, codegen};
 //!
-//! // A chain: NAO's leg in the sagittal plane, two joints about y, lengths in exact millimetres.
-//! let chain = Chain::from_toml(r#"
-//!     name = "leg"
-//!     length_unit = "mm"
-//!     order = ["c4", "c3", "s4", "s3"]
-//!     task = { kind = "planar_position", plane = "xz" }
-//!     tip = { point = [0, 0, 202.9] }
-//!     [[joint]]
-//!     name = "HipPitch"
-//!     symbol = "3"
-//!     type = "revolute"
-//!     axis = [0, 1, 0]
-//!     point = [0, 0, 0]
-//!     [[joint]]
-//!     name = "KneePitch"
-//!     symbol = "4"
-//!     type = "revolute"
-//!     axis = [0, 1, 0]
-//!     point = [0, 0, 100]
-//! "#)?;
+//! // A robot as its file describes it, here with angles of 1.5708, and the chain from its root to its tip.
+//! let robot = Robot::read_urdf("tests/corpus/urdf/ur5.urdf".as_ref())?;
+//! let chain = robot.chain(None, None)?;
 //!
-//! // Its equations, and a proved Groebner basis of them on every stratum of the target (px, pz).
-//! let system = formulate(&chain)?;
-//! let derivation = Derivation::new(system.clone(), &Watch::none())?;
-//! let basis = derivation.requested.solved().expect("two solutions").triangular.to_string();
-//! assert!(basis.contains("20580*c4 + (-px^2 - pz^2 + 20588.41) = 0"), "NAO (6.7.18)");
+//! // Its solver: the order of the joints, a Groebner basis for each step with its proof, a program.
+//! let derived = Proved::of_chain(&chain, &Watch::none())?;
 //!
-//! // The proof can be checked again from its text, without the engine.
-//! let text = certificate::write(&derivation)?;
-//! assert_eq!(certificate::prove(&system, &text)?, derivation);
-//!
-//! // All solutions, and forward kinematics as their witness.
-//! let solutions = derivation.program.solve(&[60.0, 150.0])?;
-//! assert_eq!(solutions.len(), 2);
+//! // All solutions of a pose, and forward kinematics as their witness.
+//! let target = Target::Pose(chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?);
+//! let solutions = derived.program().solve(&target, &[])?;
+//! assert_eq!(solutions.len(), 8);
 //! for solution in &solutions {
-//!     let tip = chain.forward(&solution.q)?.translation;
-//!     assert!((tip.x - 60.0).abs() < 1e-10 && (tip.z - 150.0).abs() < 1e-10);
+//!     let [distance, angle] = target.missed(&chain, &solution.q);
+//!     assert!(distance < 1e-12 && angle < 1e-12);
 //! }
 //!
 //! // The same solver as source code.
-//! assert!(codegen::c99::emit(&derivation.program).contains("HipPitch"));
+//! assert!(codegen::c99::emit(derived.program()).contains("shoulder_pan"));
 //! # Ok::<(), groebot::Error>(())
 //! ```
+//!
+//! The polynomials of a mechanism whose equations are one block, such as NAO's leg in its sagittal plane, are what [`derive::Derivation`] shows:
+//! `examples/02_planar_leg.rs`.
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;

@@ -1,4 +1,4 @@
-"""Mass and centre of mass of whole robots, by groebot and by Pinocchio: python masses.py [--groebot PATH]
+"""Mass and centre of mass of whole robots, by groebot and by Pinocchio: python masses.py [--groebot PATH] [URDF ...]
 
 Each robot stands at zero and at two random configurations; both must agree to 1e-12, of the mass and of the height. The exit status is 0 when all do.
 """
@@ -63,15 +63,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--groebot", default="target/release/groebot")
     parser.add_argument("--ci", action="store_true", help="only robots of the packages that --ci installs")
+    parser.add_argument("urdf", nargs="*", help="URDF files instead of the list")
     arguments = parser.parse_args()
     worst = 0.0
     print("robot,links,moving joints,mass [kg],mass off [1],centre off [m]")
-    for package, urdf in ROBOTS:
-        if arguments.ci and package != "example-robot-data":
-            continue
-        off, apart, mass, links, moving = compare(arguments.groebot, robots.locate(package, urdf))
+    listed = [(package, urdf) for package, urdf in ROBOTS if package == "example-robot-data" or not arguments.ci]
+    paths = arguments.urdf or [robots.locate(package, urdf) for package, urdf in listed]
+    for path in paths:
+        off, apart, mass, links, moving = compare(arguments.groebot, path)
         worst = max(worst, off, apart)
-        print(f"{urdf.rsplit('/', 1)[-1]},{links},{moving},{mass:.6f},{off:.1e},{apart:.1e}", flush=True)
+        print(f"{str(path).rsplit('/', 1)[-1]},{links},{moving},{mass:.6f},{off:.1e},{apart:.1e}", flush=True)
     sys.exit(0 if worst <= TOLERANCE else 1)
 
 

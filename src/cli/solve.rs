@@ -81,7 +81,7 @@ pub(super) fn read_program(path: &Path) -> Result<Program> {
 
 fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
     let target = forms.inputs(numbers)?;
-    let solutions = program.solve(&angles.to_radians(program, &target))?;
+    let solutions = program.solve_numbers(&angles.to_radians(program, &target))?;
     Ok(Answer { program, target, solutions, reason: None, angles })
 }
 

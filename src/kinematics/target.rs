@@ -115,6 +115,21 @@ impl Target {
         }
     }
 
+    /// Whether a number of this kind of target is called `name` in a derived solver: `px`, `r11`, `d1`, `phi`, `pitch`.
+    pub fn has(&self, name: &str) -> bool {
+        let (position, rest) =
+            (name.starts_with('p') && name.len() == 2, name.chars().skip(1).all(|c| c.is_ascii_digit()));
+        match self {
+            Target::Pose(_) => position || (name.starts_with('r') && rest),
+            Target::Rotation(_) => name.starts_with('r') && rest,
+            Target::Position(_) | Target::PlanarPosition(_) => position,
+            Target::Ray { .. } => position || name.starts_with('d'),
+            Target::Direction(_) => name.starts_with('d'),
+            Target::PositionPitchRoll { .. } => position || ["pitch", "roll"].contains(&name),
+            Target::PlanarPose(_) => position || name == "phi",
+        }
+    }
+
     /// Fails unless the target is of the kind of `chain`'s task and finite.
     ///
     /// # Errors

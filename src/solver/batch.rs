@@ -82,12 +82,12 @@ impl Batch {
 }
 
 impl Program {
-    /// All real solutions for many targets: `targets` holds those of one after those of another, each as [`Program::solve`] takes it.
+    /// All real solutions for many targets: `targets` holds those of one after those of another, each as [`Program::solve_numbers`] takes it.
     ///
-    /// The work is shared among rayon's threads. The answers are those of [`Program::solve`], whatever their number.
+    /// The work is shared among rayon's threads. The answers are those of [`Program::solve_numbers`], whatever their number.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the count of numbers is no multiple of the inputs'. Targets that [`Program::solve`] refuses are
+    /// [`ErrorKind::BadValue`] when the count of numbers is no multiple of the inputs'. Targets that [`Program::solve_numbers`] refuses are
     /// told by [`Batch::refused`].
     pub fn solve_batch(&self, targets: &[f64]) -> Result<Batch> {
         let inputs = self.inputs.len();
@@ -97,7 +97,7 @@ impl Program {
         }
         let pieces: Vec<Vec<Result<Vec<Solution>>>> = targets
             .par_chunks(PIECE * inputs)
-            .map(|piece| piece.chunks(inputs).map(|target| self.solve(target)).collect())
+            .map(|piece| piece.chunks(inputs).map(|target| self.solve_numbers(target)).collect())
             .collect();
         let mut batch = Batch { joints: vec![Vec::new(); self.joints.len()], ..Batch::default() };
         for (index, solved) in pieces.into_iter().flatten().enumerate() {

@@ -23,13 +23,34 @@ pub struct Nearest {
 }
 
 impl Program {
-    /// All real solutions for `target` (one number an input, in order and unit of [`Program::inputs`]), by branch. Empty when the
-    /// target is unreachable. The program must be valid ([`Program::validate`]).
+    /// All real solutions for `target` and the values `given` of the joints that the user gives, by branch: empty when the target is unreachable. Lengths
+    /// are in the program's unit. The program must be valid ([`Program::validate`]).
+    ///
+    /// # Errors
+    /// As [`Program::solve_numbers`]; [`ErrorKind::BadValue`] for a target of another task.
+    pub fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+        let numbers = target.numbers();
+        let named = self.inputs.iter().take(numbers.len()).all(|input| target.has(&input.name));
+        if self.inputs.len() != numbers.len() + given.len() || !named {
+            let names: Vec<&str> = self.inputs.iter().map(|input| input.name.as_str()).collect();
+            let text = format!(
+                "a target of {} numbers and {} given values; the solver asks for {}",
+                numbers.len(),
+                given.len(),
+                names.join(", ")
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        self.solve_numbers(&[&numbers[..], given].concat())
+    }
+
+    /// The same for a target in numbers: one an input, in order and unit of [`Program::inputs`]; for programs of equations, which have parameters in
+    /// place of a tip, and for targets from files.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a wrong count of numbers, NaN or infinity, or a condition that does not hold
     /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] when the target lies on a stratum that could not be derived.
-    pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
+    pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
         let mut solutions = self.walk(target, UsualPairs::unwanted(), |answers| answers.into_solutions())?;
         solutions.sort_by_key(|solution| solution.branch);
         self.mark_choice(&mut solutions);
@@ -40,7 +61,7 @@ impl Program {
     /// far as polishing brings it; none when there is no such candidate.
     ///
     /// # Errors
-    /// As [`Program::solve`].
+    /// As [`Program::solve_numbers`].
     pub fn nearest(&self, target: &[f64]) -> Result<Option<Nearest>> {
         self.walk(target, UsualPairs::unwanted(), |answers| answers.into_nearest())
     }
@@ -110,7 +131,7 @@ impl Program {
 
 impl InverseKinematics for Program {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
-        *out = self.solve(&[target.numbers(), given.to_vec()].concat())?;
+        *out = self.solve(target, given)?;
         Ok(())
     }
 }

@@ -45,7 +45,7 @@ impl Program {
         Some(Forward { inputs, equations })
     }
 
-    /// The target that joint values reach (radians, and the program's length unit): the one that [`Program::solve`] takes. None as for
+    /// The target that joint values reach (radians, and the program's length unit): the one that [`Program::solve_numbers`] takes. None as for
     /// [`Program::forward`], or for another number of joint values.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         let forward = self.forward().filter(|_| q.len() == self.joints.len())?;

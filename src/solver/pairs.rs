@@ -26,12 +26,12 @@ pub struct Pairs {
 }
 
 impl Program {
-    /// The answers of [`Program::solve`] by cosines and sines. Where all candidates solve the equations within rounding and are apart, as
+    /// The answers of [`Program::solve_numbers`] by cosines and sines. Where all candidates solve the equations within rounding and are apart, as
     /// at ordinary targets, these are the numbers that angles are taken of, and printed solvers take none; else they are those of
     /// the angles.
     ///
     /// # Errors
-    /// As [`Program::solve`].
+    /// As [`Program::solve_numbers`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
         let usual = if self.compares_tip() { UsualPairs::none_yet() } else { UsualPairs::unwanted() };
         let mut pairs = self.walk(target, usual, |answers| answers.into_pairs())?;

@@ -105,7 +105,7 @@ impl<'a> Check<'a> {
 
     fn row(&self, number: usize, target: Target) -> Result<Row> {
         let Target { kind, inputs: target, joints } = target;
-        let answers = match self.program.solve(&target) {
+        let answers = match self.program.solve_numbers(&target) {
             Ok(answers) => Some(answers),
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             Err(error) => return Err(error),

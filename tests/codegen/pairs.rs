@@ -71,7 +71,7 @@ fn check(program: &Program) {
     }
     for target in &targets {
         let Ok(pairs) = program.solve_pairs(target) else { continue };
-        let solutions = program.solve(target).unwrap();
+        let solutions = program.solve_numbers(target).unwrap();
         assert_eq!(pairs.len(), solutions.len());
         for (pairs, solution) in pairs.iter().zip(&solutions) {
             assert_eq!((pairs.branch, &pairs.free), (solution.branch, &solution.free));

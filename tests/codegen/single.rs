@@ -50,7 +50,7 @@ pub fn compare(program: &Program, count: usize) -> Option<Seen> {
         let count = numbers.next().unwrap() as usize;
         let answers: Vec<Vec<f64>> =
             (0..count).map(|_| program.joints.iter().map(|_| numbers.next().unwrap()).collect()).collect();
-        let expected = program.solve(target).unwrap();
+        let expected = program.solve_numbers(target).unwrap();
         let turn = |a: f64, b: f64| (a - b - std::f64::consts::TAU * ((a - b) / std::f64::consts::TAU).round()).abs();
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| turn(*a, *b) <= 2e-2);
         seen.answers += answers.len();

@@ -69,7 +69,7 @@ fn assert_close(a: &[f64], b: &[f64], place: &str) {
 }
 
 fn check(program: &Program, question: &Question, output: &mut Output<'_>, place: &str) {
-    let answers = program.solve(&question.target).unwrap();
+    let answers = program.solve_numbers(&question.target).unwrap();
     let joints = program.joints.len();
     let turned = |answer: &Solution| -> Vec<Vec<i32>> {
         (0..joints).map(|joint| turns(program, joint, answer.q[joint], question.limits[joint])).collect()
@@ -233,7 +233,7 @@ fn families_reach_into_limits() {
         let Some(executables) = executables(&program, folder.path()) else { return };
         let target = program.reached(&q).unwrap();
         let families = program
-            .solve(&target)
+            .solve_numbers(&target)
             .unwrap()
             .iter()
             .filter(|answer| answer.free == [joint] || answer.free.len() == 1)

@@ -55,7 +55,7 @@ fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
         let rotation = pose.rotation.to_rotation_matrix();
         let rows = (0..9).map(|entry| rotation[(entry / 3, entry % 3)]);
         let target: Vec<f64> = pose.translation.vector.iter().copied().chain(rows).collect();
-        let answers = derived.program.solve(&target).unwrap();
+        let answers = derived.program.solve_numbers(&target).unwrap();
         let near =
             |a: f64, b: f64| ((a - b) / std::f64::consts::TAU - ((a - b) / std::f64::consts::TAU).round()).abs() < 1e-9;
         let found = answers.iter().filter(|answer| answer.q.iter().zip(&q).all(|(a, b)| near(*a, *b))).count();

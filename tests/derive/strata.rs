@@ -64,7 +64,7 @@ fn another_order_of_the_leg_has_no_such_stratum() {
 fn the_base_is_out_of_reach_unless_the_links_are_equal() {
     let leg = derive(source("nao_leg_sagittal").system.unwrap());
     assert!(matches!(find(&leg.requested, "pz = 0, px = 0").outcome, Outcome::Inconsistent(_)));
-    assert_eq!(leg.program.solve(&[0.0, 0.0]).unwrap(), []);
+    assert_eq!(leg.program.solve_numbers(&[0.0, 0.0]).unwrap(), []);
 
     let symbolic = derive(symbolic_leg());
     let folded = symbolic.requested.walk().into_iter().filter_map(|node| match &node.outcome {
@@ -76,11 +76,11 @@ fn the_base_is_out_of_reach_unless_the_links_are_equal() {
         !folded.is_empty() && folded.iter().all(|(label, free)| label.contains("L1") && *free == [0]),
         "{folded:?}"
     );
-    let answers = symbolic.program.solve(&[0.0, 0.0, 100.0, 100.0]).unwrap();
+    let answers = symbolic.program.solve_numbers(&[0.0, 0.0, 100.0, 100.0]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     assert_eq!(answers[0].free, [0], "the hip is free when the ankle is at the hip");
     assert!((answers[0].q[1].abs() - std::f64::consts::PI).abs() < 1e-12);
-    assert_eq!(symbolic.program.solve(&[0.0, 0.0, 100.0, 102.9]).unwrap(), []);
+    assert_eq!(symbolic.program.solve_numbers(&[0.0, 0.0, 100.0, 102.9]).unwrap(), []);
 }
 
 #[test]
@@ -102,13 +102,13 @@ fn targets_near_a_stratum_are_solved_like_any_other() {
             for sign in [-1.0, 1.0] {
                 let small = sign * 10f64.powi(-k);
                 for target in [[free, small], [small, free]] {
-                    let answers = derivation.program.solve(&target).unwrap();
+                    let answers = derivation.program.solve_numbers(&target).unwrap();
                     assert_eq!(answers.len(), 2, "{name} {target:?}: {answers:?}");
                     assert!(answers.iter().all(|a| a.residual < 1e-11), "{name} {target:?}: {answers:?}");
                 }
             }
         }
-        assert_eq!(derivation.program.solve(&[free, 0.0]).unwrap().len(), 2);
+        assert_eq!(derivation.program.solve_numbers(&[free, 0.0]).unwrap().len(), 2);
     }
 }
 

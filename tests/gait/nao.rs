@@ -58,7 +58,7 @@ fn turning_agrees_with_the_derived_solver_of_both_legs() {
         let mut expected = vec![yaw, 0.0, 0.0];
         expected.extend(leg(&walk, sample, "L"));
         expected.extend(&leg(&walk, sample, "R")[1..]);
-        let misses = program.solve(&target).unwrap().into_iter().map(|solution| {
+        let misses = program.solve_numbers(&target).unwrap().into_iter().map(|solution| {
             solution
                 .q
                 .iter()

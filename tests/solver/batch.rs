@@ -32,7 +32,7 @@ fn a_batch_has_the_answers_of_its_targets_whatever_the_threads() {
     assert_eq!(batch.refused().len(), 500 / 7);
     for (index, target) in targets.chunks(3).enumerate() {
         let range = batch.of_target(index);
-        match program.solve(target) {
+        match program.solve_numbers(target) {
             Ok(answers) => {
                 assert_eq!(answers.len(), range.len());
                 for (answer, place) in answers.iter().zip(range) {
@@ -64,7 +64,7 @@ fn angles_are_those_of_the_c_library() {
     for k in 0..20_000 {
         let pan = f64::from(k) * TAU / 16_000.0;
         let target = pan_tilt::direction(pan, 0.3);
-        let answers = program.solve(&target).unwrap();
+        let answers = program.solve_numbers(&target).unwrap();
         let expected = target[1].atan2(target[0]);
         let nearest = answers.iter().map(|answer| (answer.q[0] - expected).abs()).fold(f64::INFINITY, f64::min);
         worst = worst.max(nearest);
@@ -77,9 +77,9 @@ fn angles_are_those_of_the_c_library() {
 fn more_answers_than_there_can_be_are_united() {
     let program = pan_tilt::program();
     let target = pan_tilt::direction(0.4, 0.9);
-    let both = program.solve(&target).unwrap();
+    let both = program.solve_numbers(&target).unwrap();
     assert_eq!(both.len(), 2);
-    let one = Program { isolated: Some(1), ..program }.solve(&target).unwrap();
+    let one = Program { isolated: Some(1), ..program }.solve_numbers(&target).unwrap();
     assert_eq!(one.len(), 1);
     assert!(both.contains(&one[0]));
     assert!(both.iter().all(|answer| one[0].residual <= answer.residual));

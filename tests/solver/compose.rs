@@ -80,7 +80,7 @@ fn the_shared_motor_stands_once_and_is_no_input() {
 /// Pan 0 or half a turn, as in the test of the first program alone; the slide at 0.7 or -0.7.
 #[test]
 fn the_second_program_runs_for_each_answer_of_the_first() {
-    let answers = both().solve(&[0.6, 0.0, 0.8, 0.7]).unwrap();
+    let answers = both().solve_numbers(&[0.6, 0.0, 0.8, 0.7]).unwrap();
     assert_eq!(answers.len(), 2, "{answers:?}");
     assert_joints(&answers[0], &[PI, 0.8_f64.atan2(-0.6), -0.7], 1e-15);
     assert_joints(&answers[1], &[0.0, 0.8_f64.atan2(0.6), 0.7], 1e-15);
@@ -89,7 +89,7 @@ fn the_second_program_runs_for_each_answer_of_the_first() {
 /// Straight up, pan is free; the slide follows the member that is shown.
 #[test]
 fn a_free_shared_joint_stays_free() {
-    let answers = both().solve(&[0.0, 0.0, 1.0, 0.7]).unwrap();
+    let answers = both().solve_numbers(&[0.0, 0.0, 1.0, 0.7]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     assert_joints(&answers[0], &[0.0, FRAC_PI_2, 0.7], 1e-15);
     assert_eq!(answers[0].free, [0]);
@@ -104,7 +104,7 @@ fn inputs_of_one_name_are_one_input() {
     let inputs: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(inputs, ["pan", "x"]);
     assert_eq!((program.parameters.len(), program.joints.len()), (3, 3));
-    let answers = program.solve(&[0.3, 0.5]).unwrap();
+    let answers = program.solve_numbers(&[0.3, 0.5]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     let reach = 0.5 * 0.3_f64.cos();
     assert_joints(&answers[0], &[0.3, reach, reach], 1e-15);
@@ -116,7 +116,7 @@ fn without_shared_joints_the_answers_are_all_pairs() {
     let program = pan_tilt::program();
     let pairs = program.followed_by(&program.prefixed("b_"), &[]).unwrap();
     let (first, second) = (pan_tilt::direction(0.3, 0.4), pan_tilt::direction(-1.0, 0.2));
-    let answers = pairs.solve(&[first, second].concat()).unwrap();
+    let answers = pairs.solve_numbers(&[first, second].concat()).unwrap();
     assert_eq!(answers.len(), 4, "{answers:?}");
     for answer in &answers {
         for (q, target) in answer.q.chunks(2).zip([first, second]) {
@@ -124,7 +124,10 @@ fn without_shared_joints_the_answers_are_all_pairs() {
             assert!(reached.iter().zip(target).all(|(a, b)| (a - b).abs() < 1e-15), "{answer:?}");
         }
     }
-    assert!(pairs.solve(&[first.as_slice(), &[0.0, 0.0, 1.5]].concat()).is_err(), "the second condition holds too");
+    assert!(
+        pairs.solve_numbers(&[first.as_slice(), &[0.0, 0.0, 1.5]].concat()).is_err(),
+        "the second condition holds too"
+    );
 }
 
 #[test]

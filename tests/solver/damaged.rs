@@ -9,12 +9,12 @@ fn run(text: &str) -> bool {
     match Program::from_json(text) {
         Ok(program) => {
             let target = vec![0.0; program.inputs.len()];
-            drop(program.solve(&target));
+            drop(program.solve_numbers(&target));
             let mut target = target;
             for (index, value) in target.iter_mut().enumerate() {
                 *value = f64::from(u8::from(index % 4 == 0));
             }
-            drop(program.solve(&target));
+            drop(program.solve_numbers(&target));
             true
         }
         Err(error) => {

@@ -27,7 +27,7 @@ fn assert_joints(answer: &Solution, expected: &[f64], tolerance: f64) {
 /// Pan 0 or half a turn, tilt by a triangle of sides 3, 4, 5; smaller root first.
 #[test]
 fn each_root_of_the_first_block_goes_through_the_second() {
-    let answers = pan_tilt::program().solve(&[0.6, 0.0, 0.8]).unwrap();
+    let answers = pan_tilt::program().solve_numbers(&[0.6, 0.0, 0.8]).unwrap();
     assert_eq!(answers.iter().map(|answer| answer.branch).collect::<Vec<_>>(), [0, 1]);
     assert_joints(&answers[0], &[PI, 0.8_f64.atan2(-0.6)], 1e-15);
     assert_joints(&answers[1], &[0.0, 0.8_f64.atan2(0.6)], 1e-15);
@@ -36,7 +36,7 @@ fn each_root_of_the_first_block_goes_through_the_second() {
 
 #[test]
 fn straight_up_pan_is_free_and_the_first_sample_is_shown() {
-    let answers = pan_tilt::program().solve(&[0.0, 0.0, 1.0]).unwrap();
+    let answers = pan_tilt::program().solve_numbers(&[0.0, 0.0, 1.0]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     assert_joints(&answers[0], &[0.0, FRAC_PI_2], 1e-15);
     assert_eq!((answers[0].free.as_slice(), answers[0].branch), ([0].as_slice(), 2));
@@ -47,7 +47,7 @@ fn the_wrist_has_two_answers_and_the_generating_joints_are_one() {
     let program = wrist::program(false);
     for k in 1..200 {
         let q = [0.77 * f64::from(k), 0.31 * f64::from(k), 1.13 * f64::from(k)];
-        let answers = program.solve(&wrist::rotation(q)).unwrap();
+        let answers = program.solve_numbers(&wrist::rotation(q)).unwrap();
         assert_eq!(answers.len(), 2, "{q:?}: {answers:?}");
         assert!(answers.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| close(*a, b, 1e-13))), "{q:?}");
         let flipped = [q[0] + PI, -q[1], q[2] + PI];
@@ -65,7 +65,7 @@ fn a_straight_wrist_is_one_family() {
         for (index, noise) in [(2, 1e-17), (5, -3e-17)] {
             target[index] = f64::from(k % 3) * noise;
         }
-        let answers = program.solve(&target).unwrap();
+        let answers = program.solve_numbers(&target).unwrap();
         assert_eq!(answers.len(), 1, "{q:?}: {answers:?}");
         assert_eq!(answers[0].free, [0]);
         assert_joints(&answers[0], &[0.0, 0.0, q[0] + q[2]], 1e-12);
@@ -76,7 +76,7 @@ fn a_straight_wrist_is_one_family() {
 #[test]
 fn an_isolated_answer_at_a_sample_is_no_family() {
     for small in [1e-4, 1e-8, 1e-10] {
-        let answers = pan_tilt::program().solve(&pan_tilt::direction(0.0, FRAC_PI_2 - small)).unwrap();
+        let answers = pan_tilt::program().solve_numbers(&pan_tilt::direction(0.0, FRAC_PI_2 - small)).unwrap();
         assert_eq!(answers.len(), 2, "{answers:?}");
         assert!(answers.iter().all(|answer| answer.free.is_empty()), "{answers:?}");
         assert!(answers.iter().any(|answer| close(answer.q[0], 0.0, 1e-15)), "{answers:?}");
@@ -87,7 +87,7 @@ fn an_isolated_answer_at_a_sample_is_no_family() {
 fn close_to_a_straight_wrist_the_two_answers_are_isolated() {
     let program = wrist::program(false);
     for small in [1e-3, 1e-6, 1e-9] {
-        let answers = program.solve(&wrist::rotation([0.4, small, 1.1])).unwrap();
+        let answers = program.solve_numbers(&wrist::rotation([0.4, small, 1.1])).unwrap();
         assert_eq!(answers.len(), 2, "{small}: {answers:?}");
         assert!(answers.iter().all(|answer| answer.free.is_empty()));
         assert!(answers.iter().any(|answer| close(answer.q[0], 0.4, 1e-15 / small)), "{small}: {answers:?}");
@@ -142,7 +142,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         nearby: false,
     };
     program.validate().unwrap();
-    program.solve(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()
+    program.solve_numbers(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()
 }
 
 #[test]
@@ -173,10 +173,10 @@ fn charts_of_a_pivot_group_share_their_branch_numbers() {
 #[test]
 fn an_open_chart_of_a_later_block_is_an_error() {
     let program = wrist::program(true);
-    let error = program.solve(&wrist::rotation([0.2, PI / 3.0, 0.4])).unwrap_err();
+    let error = program.solve_numbers(&wrist::rotation([0.2, PI / 3.0, 0.4])).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("r33 = 1/2"), "{error}");
-    assert_eq!(program.solve(&wrist::rotation([0.2, 1.0, 0.4])).unwrap().len(), 2);
+    assert_eq!(program.solve_numbers(&wrist::rotation([0.2, 1.0, 0.4])).unwrap().len(), 2);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn a_target_off_its_conditions_is_refused_by_name_and_measure() {
     let program = wrist::program(false);
     let exact = wrist::rotation([0.2, 0.3, 0.4]);
     let refused = |target: [f64; 9]| {
-        let error = program.solve(&target).unwrap_err();
+        let error = program.solve_numbers(&target).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::BadValue);
         error.message().to_owned()
     };
@@ -192,7 +192,7 @@ fn a_target_off_its_conditions_is_refused_by_name_and_measure() {
     assert!(text.contains("`r11` to `r33`") && text.contains("2.0e-3") && text.contains("1e-9"), "{text}");
     assert!(refused(exact.map(|value| -value)).contains("determinant"));
     assert!(refused([f64::MAX; 9]).contains("differs"));
-    let error = pan_tilt::program().solve(&[0.6, 0.0, 0.9]).unwrap_err();
+    let error = pan_tilt::program().solve_numbers(&[0.6, 0.0, 0.9]).unwrap_err();
     assert!(error.message().contains("`dx` to `dz` are no unit vector"), "{error}");
 }
 
@@ -201,7 +201,7 @@ fn a_target_off_its_conditions_is_refused_by_name_and_measure() {
 fn what_rounding_to_ten_digits_leaves_is_removed() {
     let q = [0.2, 0.3, 0.4];
     let rounded = wrist::rotation(q).map(|value| (value * 1e10).round() * 1e-10);
-    let answers = wrist::program(false).solve(&rounded).unwrap();
+    let answers = wrist::program(false).solve_numbers(&rounded).unwrap();
     assert_eq!(answers.len(), 2);
     assert!(answers.iter().all(|answer| answer.residual <= 1e-15), "{answers:?}");
     assert!(answers.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| close(*a, b, 1e-9))));
@@ -211,9 +211,9 @@ fn what_rounding_to_ten_digits_leaves_is_removed() {
 fn too_small_a_capacity_keeps_the_best() {
     let whole = arm::program();
     let target = arm::tool([0.4, 0.5, 0.6]);
-    let all = whole.solve(&target).unwrap();
+    let all = whole.solve_numbers(&target).unwrap();
     assert_eq!(all.len(), 4);
-    let few = Program { capacity: 2, ..whole }.solve(&target).unwrap();
+    let few = Program { capacity: 2, ..whole }.solve_numbers(&target).unwrap();
     assert_eq!(few.len(), 2);
     assert!(few.iter().all(|answer| all.contains(answer)));
 }
@@ -237,7 +237,7 @@ fn a_plain_joint_is_sampled_at_its_own_values() {
     let steps = &mut program.blocks[0].charts[1].steps;
     steps[0] = Step::Sample { joint: JointValue::Plain(0), values: vec![0.25, 0.0] };
     program.validate().unwrap();
-    let answers = program.solve(&[0.0, 0.3, 0.0]).unwrap();
+    let answers = program.solve_numbers(&[0.0, 0.3, 0.0]).unwrap();
     assert_eq!(answers.len(), 1);
     assert_eq!(answers[0].q, [0.0, 0.0]);
 }

@@ -91,6 +91,6 @@ fn a_single_block_may_have_open_charts_only() {
     block.charts = vec![gap];
     let program = Program { blocks: vec![block], capacity: 0, ..whole };
     program.validate().unwrap();
-    assert_eq!(program.solve(&[0.6, 0.0, 0.8]).unwrap_err().kind(), ErrorKind::Unsupported);
-    assert!(program.solve(&[0.0, 0.0, 1.0]).unwrap().is_empty());
+    assert_eq!(program.solve_numbers(&[0.6, 0.0, 0.8]).unwrap_err().kind(), ErrorKind::Unsupported);
+    assert!(program.solve_numbers(&[0.0, 0.0, 1.0]).unwrap().is_empty());
 }

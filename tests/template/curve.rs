@@ -24,7 +24,7 @@ fn folded(random: &mut Random, off: f64) -> [f64; 6] {
 fn lost(off: f64, targets: usize) -> usize {
     let (program, mut random) = (arm(), Random::new(24));
     let is_lost = |q: &[f64; 6]| {
-        let answers = program.solve(&program.reached(q).unwrap()).unwrap();
+        let answers = program.solve_numbers(&program.reached(q).unwrap()).unwrap();
         let way = |found: &[f64]| distance(&found.try_into().unwrap(), q);
         !answers.iter().any(|answer| way(&answer.q) <= f64::max(1e-7, 1e-12 / off.abs()))
     };
@@ -43,7 +43,7 @@ fn a_family_is_told() {
     let (program, mut random) = (arm(), Random::new(25));
     for _ in 0..40 {
         let q = folded(&mut random, 0.0);
-        let answers = program.solve(&program.reached(&q).unwrap()).unwrap();
+        let answers = program.solve_numbers(&program.reached(&q).unwrap()).unwrap();
         let told = answers.iter().filter(|answer| !answer.free.is_empty());
         assert!(told.clone().count() > 0 && told.clone().all(|answer| (answer.q[5] - q[5]).abs() < 1e-6), "{q:?}");
     }

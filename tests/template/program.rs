@@ -27,7 +27,7 @@ fn a_program_gives_back_the_joints() {
     let mut random = Random::new(16);
     for _ in 0..50 {
         let q = random.angles();
-        let solutions = derived.program.solve(&target(&derived.chain, &q)).unwrap();
+        let solutions = derived.program.solve_numbers(&target(&derived.chain, &q)).unwrap();
         assert!(solutions.len().is_multiple_of(2) && solutions.len() <= 16);
         let near = |found: &[f64]| distance(&found.try_into().unwrap(), &q) < 1e-9;
         assert_eq!(solutions.iter().filter(|solution| near(&solution.q)).count(), 1);

@@ -28,7 +28,7 @@ fn answer_all(derived: &Derived, cases: u32, joints: impl Strategy<Value = [f64;
     let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(cases) });
     let run = |q: [f64; 6]| {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         prop_assert!(!found.is_empty(), "{q:?}: no answer");
         for answer in &found {
             let reached = derived.reached(&answer.q).unwrap();

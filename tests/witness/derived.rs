@@ -96,7 +96,7 @@ fn an_angle_that_hardly_matters_is_found() {
     for q in [[2.9299499523295327, -0.5595037167059775, -2.730454790267445], [-2.744637149732931, 1.99631, -2.73045479]]
     {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         // The second joint moves the hand by 1e-10 m a radian, and rounding leaves 1e-16 m of the target.
         let near = |a: &Solution, q: &[f64]| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-5);
         assert!(found.iter().any(|answer| near(answer, &q)), "{q:?}: {found:?}");
@@ -122,7 +122,7 @@ fn a_family_leaves_the_isolated_answers_next_to_it() {
         [-1.1416860189863716, FRAC_PI_2, 2.7271525371587795, 2.6300492957661383, 0.025887027639579507, 2.3680767039];
     for q in [straight, bent] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
         assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
@@ -145,7 +145,7 @@ fn answers_beside_a_family_are_told_from_it() {
         [1.9704230982243562, -1.712693381399061, -0.6801266552832805, PI, 0.6853713977081761],
     ] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
         assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
@@ -186,7 +186,7 @@ fn a_family_next_to_a_folded_knee_is_found() {
         ],
     ] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let families = |list: &[Solution]| list.iter().filter(|answer| answer.free == [0]).count();
         assert!(families(&found) >= families(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
@@ -211,7 +211,7 @@ fn families_next_to_each_other_are_told_apart() {
     let target = derived.reached(&q).unwrap();
     let families = |list: Vec<Solution>| list.iter().filter(|answer| answer.free == [5]).count();
     let expected = families(screws.solve(&target).unwrap());
-    assert_eq!((families(derived.program.solve(&target).unwrap()), expected), (4, 4));
+    assert_eq!((families(derived.program.solve_numbers(&target).unwrap()), expected), (4, 4));
 }
 
 /// NAO's arm next to where its answers meet in pairs: eight, of which pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist,
@@ -222,7 +222,7 @@ fn answers_that_rounding_tells_apart_are_two() {
     let screws = ByScrews::new(&chain).unwrap();
     let q = [0.8627998442172125, -2.3824601626755086, 2.5481778138821483, -1.356032992644737, -1.6545327338122349];
     let target = derived.reached(&q).unwrap();
-    let (found, expected) = (derived.program.solve(&target).unwrap(), screws.solve(&target).unwrap());
+    let (found, expected) = (derived.program.solve_numbers(&target).unwrap(), screws.solve(&target).unwrap());
     assert_eq!((found.len(), expected.len()), (8, 8), "{found:?}\n{expected:?}");
 }
 
@@ -236,7 +236,7 @@ fn a_family_on_a_small_part_of_the_circle_is_found() {
         [1.9718164955569466, 2.150909511394738, 0.0, -1.574327778109324, PI, -2.0946209055636196],
         [0.014418844465883485, -2.013769168566549, 0.0, -1.5713535665710783, PI, -0.41288617615122725],
     ] {
-        let found = derived.program.solve(&derived.reached(&q).unwrap()).unwrap();
+        let found = derived.program.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
         assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
         let beside = |a: &Solution| a.free.is_empty() && (a.q[4].abs() - PI).abs() < 1e-6;
         assert!(!found.iter().any(beside), "{q:?}: {found:?}");
@@ -254,7 +254,7 @@ fn a_family_along_a_part_of_the_circle_is_found() {
     let stretched = [1.5756778981, -0.2200531633, 0.0, -1.2689545032, -FRAC_PI_2, 1.8006871953];
     for q in [bent, stretched] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve(&target).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
         assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
         for answer in found {
             let reached = derived.reached(&answer.q).unwrap();
@@ -290,7 +290,7 @@ fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
     ];
     let elsewhere = [-2.419657094109, 1.054870837519, 1.752177158433, 1.353371642241, -1.852398087691, -0.638629516560];
     let target = derived.reached(&q).unwrap();
-    let found = derived.program.solve(&target).unwrap();
+    let found = derived.program.solve_numbers(&target).unwrap();
     for near in [q, elsewhere] {
         let is_found = |a: &Solution| a.q.iter().zip(near).all(|(a, b)| (a - b).abs() < 1e-9);
         assert!(found.iter().any(is_found), "{near:?}: {found:?}");
@@ -313,7 +313,7 @@ fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
             q[2] = straight + width * q[2] / 3.0;
             // Next to a straight wrist as well, joints 4 and 6 are hardly determined.
             prop_assume!(q[4].sin().abs() > 0.05);
-            let found = derived.program.solve(&derived.reached(&q).unwrap()).unwrap();
+            let found = derived.program.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
             // Where both answers all but meet, what rounding leaves of the target tells the joints less well.
             let singular_values = derived.measured().spatial_jacobian(&q).unwrap().singular_values();
             let known = f64::max(1e-6, 1e-13 / singular_values.min());

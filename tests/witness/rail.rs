@@ -29,7 +29,7 @@ fn an_arm_along_its_rail_is_solved_at_both_ends() {
         for elbow in [-2.0, -0.5, 0.7, 1.9] {
             let q = [place, -FRAC_PI_2, 0.4 * place - 1.0, elbow, 0.6];
             let target = derived.reached(&q).unwrap();
-            let answers = derived.program.solve(&target).unwrap();
+            let answers = derived.program.solve_numbers(&target).unwrap();
             assert!(answers.iter().any(|answer| answer.free.contains(&0)), "{q:?}: {answers:?}");
             for answer in answers {
                 let reached = derived.reached(&answer.q).unwrap();

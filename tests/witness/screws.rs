@@ -68,7 +68,7 @@ impl Links {
 }
 
 fn leg_answers(program: &Program, target: [f64; 2]) -> Vec<Answer> {
-    let answers = program.solve(&target).unwrap();
+    let answers = program.solve_numbers(&target).unwrap();
     answers.iter().map(|a| [0, 1].map(|j| (!a.free.contains(&j)).then_some(a.q[j]))).collect()
 }
 
@@ -130,7 +130,7 @@ fn random_two_link_chains_and_the_screw_solver_agree() {
 
 /// NAO's arm as two links along z that turn about y: its q4 is the forearm's absolute angle from the y axis, q2 + relative = pi/2 - q4.
 fn arm_answers(program: &Program, target: [f64; 2]) -> Vec<Answer> {
-    let answers = program.solve(&target).unwrap();
+    let answers = program.solve_numbers(&target).unwrap();
     answers.iter().map(|a| [Some(a.q[0]), Some(angle::wrap(PI / 2.0 - a.q[1] - a.q[0]))]).collect()
 }
 

@@ -73,7 +73,8 @@ impl<'r> Body<'r> {
         page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&robot.leaves()));
         page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
         if let Some(tip) = robot.tips().first() {
-            page += &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", robot.root());
+            page +=
+                &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", robot.root());
         }
         page
     }
@@ -85,7 +86,10 @@ impl<'r> Body<'r> {
         let at = centre.coords.map(|x| format!("{x:.4}"));
         let mut text = format!(
             "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} shapes are seen, {hard} collide\n",
-            self.model.mass(), at.x, at.y, at.z
+            self.model.mass(),
+            at.x,
+            at.y,
+            at.z
         );
         let doubts = self.robot.doubts();
         text += &doubts.iter().take(LISTED).map(|doubt| format!("  {doubt}\n")).collect::<String>();

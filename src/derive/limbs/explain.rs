@@ -52,7 +52,7 @@ impl DerivedLimbs {
     /// # Errors
     /// As [`crate::solver::Program::solve`]; what `watch` stops with.
     pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
-        if !self.program.solve(target)?.is_empty() {
+        if !self.program.solve_numbers(target)?.is_empty() {
             return Ok(None);
         }
         match &self.coupled {
@@ -65,7 +65,7 @@ impl DerivedLimbs {
     fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
         for stage in &self.stages {
-            let answers = stage.program.solve(&target[..stage.program.inputs.len()])?;
+            let answers = stage.program.solve_numbers(&target[..stage.program.inputs.len()])?;
             if answers.is_empty() {
                 let nearest = before.iter().map(|q| stage.derived.program.nearest(&stage.target(target, q)));
                 let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
@@ -73,7 +73,9 @@ impl DerivedLimbs {
                 let ways = if stage == &self.stages[0] { 0 } else { before.len() };
                 let limb = self.limbs.limbs()[stage.limb].name.clone();
                 let disagreement = match self.alone(stage, watch)? {
-                    Some(alone) => self.disagreement(stage, &before, &alone.program.solve(&stage.own_target(target))?),
+                    Some(alone) => {
+                        self.disagreement(stage, &before, &alone.program.solve_numbers(&stage.own_target(target))?)
+                    }
                     None => None,
                 };
                 return Ok(Some(Explanation { limb, before: ways, disagreement, nearest }));
@@ -91,7 +93,7 @@ impl DerivedLimbs {
         for stage in &self.stages {
             let Some(alone) = self.alone(stage, watch)? else { break };
             let own = stage.own_target(target);
-            let answers = alone.program.solve(&own)?;
+            let answers = alone.program.solve_numbers(&own)?;
             let limb = self.limbs.limbs()[stage.limb].name.clone();
             if answers.is_empty() {
                 return Ok(Explanation { limb, before: 0, disagreement: None, nearest: alone.program.nearest(&own)? });

@@ -39,7 +39,7 @@ pub trait Solver {
 
 impl Solver for Program {
     fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>> {
-        Program::solve(self, inputs)
+        Program::solve_numbers(self, inputs)
     }
 }
 

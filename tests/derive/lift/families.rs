@@ -25,7 +25,7 @@ fn check(name: &str, chain: &Chain) -> Derived {
     for pose in 0..POSES {
         let q = random.joints(chain);
         let target = derived.reached(&q).unwrap();
-        let answers = derived.program.solve(&target).unwrap();
+        let answers = derived.program.solve_numbers(&target).unwrap();
         let place = format!("{name} pose {pose} {q:?}: {answers:?}");
         assert!(answers.iter().any(|answer| distance(chain, &answer.q, &q, &answer.free) < 1e-7), "{place}");
         assert!(answers.iter().all(|answer| miss(&derived, &target, answer) <= 1e-12), "{place}");

@@ -24,7 +24,7 @@ fn answers_are_complete_exact_and_as_many_as_the_screw_solver_s() {
             let q = random.joints(&chain);
             let target = derived.reached(&q).unwrap();
             let start = Instant::now();
-            let answers = derived.program.solve(&target).unwrap();
+            let answers = derived.program.solve_numbers(&target).unwrap();
             running += start.elapsed();
             let place = format!("{} pose {pose} {q:?}: {answers:?}", robot.name());
             assert!(answers.iter().any(|answer| distance(&chain, &answer.q, &q, &answer.free) < 1e-9), "{place}");

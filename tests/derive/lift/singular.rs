@@ -15,7 +15,7 @@ fn derived(name: &str) -> Derived {
 /// The answers at the pose of `q`, all of which reach it.
 fn answers(derived: &Derived, q: &[f64]) -> Vec<Solution> {
     let target = derived.reached(q).unwrap();
-    let answers = derived.program.solve(&target).unwrap();
+    let answers = derived.program.solve_numbers(&target).unwrap();
     for answer in &answers {
         assert!(miss(derived, &target, answer) <= 1e-12, "{q:?}: {answer:?}");
     }

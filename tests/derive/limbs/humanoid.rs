@@ -94,7 +94,7 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
         let q = random.angles(11);
         let target = LEGS.reached(&q).unwrap();
         let start = Instant::now();
-        let answers = LEGS.program.solve(&target).unwrap();
+        let answers = LEGS.program.solve_numbers(&target).unwrap();
         running += start.elapsed();
         let place = format!("pose {pose} {q:?}");
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{place}: {answers:?}");
@@ -120,7 +120,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
     for pose in 0..100 {
         let q = random.angles(11);
         let target = BOTH_POSES.reached(&q).unwrap();
-        let answers = BOTH_POSES.program.solve(&target).unwrap();
+        let answers = BOTH_POSES.program.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "pose {pose} {q:?}: {answers:?}");
         for (limb, chain) in [(1, &legs[0]), (0, &legs[1])] {
             let asked = BOTH_POSES.joints_of(limb, &q).unwrap();
@@ -146,7 +146,7 @@ fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
         let mut target = BOTH_POSES.reached(&q).unwrap();
         // The right foot's pose stands first.
         target[12..].copy_from_slice(&BOTH_POSES.reached(&other).unwrap()[12..]);
-        assert!(BOTH_POSES.program.solve(&target).unwrap().is_empty());
+        assert!(BOTH_POSES.program.solve_numbers(&target).unwrap().is_empty());
         let explained = BOTH_POSES.explain(&target, &Watch::none()).unwrap().unwrap();
         assert_eq!((explained.limb.as_str(), explained.before), ("left", 8));
         assert!(explained.to_string().contains("limb `left` needs `HipYawPitch` at"), "{explained}");
@@ -162,7 +162,7 @@ fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
 fn the_standing_robot_is_found() {
     let leg = [0.0, -0.4, 0.8, -0.4, 0.0];
     let q = [&[0.0][..], &leg, &leg].concat();
-    let answers = BOTH_POSES.program.solve(&BOTH_POSES.reached(&q).unwrap()).unwrap();
+    let answers = BOTH_POSES.program.solve_numbers(&BOTH_POSES.reached(&q).unwrap()).unwrap();
     assert_eq!(answers.len(), 32, "{answers:?}");
     assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{answers:?}");
 }
@@ -178,7 +178,7 @@ fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {
             let mut q = random.angles(11);
             q[roll_place] = roll;
             let target = BOTH_POSES.reached(&q).unwrap();
-            let answers = BOTH_POSES.program.solve(&target).unwrap();
+            let answers = BOTH_POSES.program.solve_numbers(&target).unwrap();
             let near = |answer: &Solution| distance(&answer.q, &q) < 1e-6;
             assert!(answers.iter().any(near), "{q:?}: {answers:?}");
         }

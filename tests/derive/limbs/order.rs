@@ -39,7 +39,7 @@ fn each_way_of_the_first_limb_is_continued_by_the_second() {
     assert_eq!(joints, ["j0", "a_j1", "b_j1", "b_j2"]);
     let half = std::f64::consts::FRAC_PI_2;
     let target = [1.0, 1.0, 1.9, 1.0];
-    let answers = arms.program.solve(&target).unwrap();
+    let answers = arms.program.solve_numbers(&target).unwrap();
     // The second arm from (1, 0) to (1.9, 1) and from (0, 1) to (1.9, 1): two elbows each.
     assert_eq!(answers.len(), 4, "{answers:?}");
     for hip in [0.0, half] {
@@ -63,7 +63,7 @@ fn a_motor_of_three_limbs_stands_once() {
     assert_eq!(arms.program.joints.len(), 5);
     for q in [[0.3, 0.7, -1.1, 0.4, 0.9], [-2.0, 1.0, 2.0, -1.5, 0.5]] {
         let target = arms.reached(&q).unwrap();
-        let answers = arms.program.solve(&target).unwrap();
+        let answers = arms.program.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{q:?}: {answers:?}");
         // b has one joint for two numbers: only the hip that made the target fits.
         assert!(answers.iter().all(|answer| distance(&answer.q[..1], &q[..1]) < 1e-12), "{answers:?}");
@@ -78,13 +78,13 @@ fn two_arms_that_must_agree_on_the_shoulder() {
     let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[limb("a", 2, POSITION), limb("b", 2, POSITION)]).unwrap();
     assert!(arms.coupled.is_some() && arms.dimension() == 2);
     for q in [[0.3, 0.7, -1.1], [-2.0, 1.0, 2.0], [0.0, std::f64::consts::PI, 0.5]] {
-        let answers = arms.program.solve(&arms.reached(&q).unwrap()).unwrap();
+        let answers = arms.program.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
     }
     // The second arm's shoulder at 0.25, or mirrored at the line to its tip at 0.85; the first one's at 0 or a right angle.
     let (near, far) = (0.25_f64, 0.85_f64);
     let target = [1.0, 1.0, near.cos() + far.cos(), near.sin() + far.sin()];
-    assert!(arms.program.solve(&target).unwrap().is_empty());
+    assert!(arms.program.solve_numbers(&target).unwrap().is_empty());
     let explained = arms.explain(&target, &Watch::none()).unwrap().unwrap();
     let disagreement = explained.disagreement.unwrap();
     assert_eq!((explained.limb.as_str(), disagreement.motor.as_str()), ("b", "j0"));
@@ -115,7 +115,7 @@ fn a_given_shared_joint_is_given_once() {
     let inputs: Vec<&str> = arms.program.inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(inputs, ["a_px", "a_py", "a_j0", "b_px", "b_py"]);
     let q = [0.4, 0.5, 0.6, -0.7, -0.8];
-    let answers = arms.program.solve(&arms.reached(&q).unwrap()).unwrap();
+    let answers = arms.program.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
     assert_eq!(answers.len(), 4, "{answers:?}");
     assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{answers:?}");
 }

@@ -62,7 +62,7 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
         let q = random.angles(14);
         let target = STANDING.reached(&q).unwrap();
         let start = Instant::now();
-        let answers = STANDING.program.solve(&target).unwrap();
+        let answers = STANDING.program.solve_numbers(&target).unwrap();
         running += start.elapsed();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{q:?}: {answers:?}");
         let asked = feet(&q);
@@ -84,7 +84,7 @@ fn the_standing_robot_is_found() {
         for (ahead, knee) in [(-0.4, 0.8), (-0.2, 0.9)] {
             let leg = |thigh: f64| [0.0, thigh - pitch, knee, -thigh - knee, 0.0];
             let q = [&[0.0, pitch, 0.0, hip][..], &leg(-0.4), &leg(ahead)].concat();
-            let answers = STANDING.program.solve(&STANDING.reached(&q).unwrap()).unwrap();
+            let answers = STANDING.program.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
             assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
         }
     }
@@ -147,7 +147,7 @@ fn going_round_with_the_yaw_finds_the_same_answers() {
     let (mut ours, mut theirs) = (0, 0);
     for _ in 0..6 {
         let q = random.angles(14);
-        let answers = STANDING.program.solve(&STANDING.reached(&q).unwrap()).unwrap();
+        let answers = STANDING.program.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
         let found = meetings(&legs, &feet(&q), &q[1..3]);
         for (yaw, [left, right]) in &found {
             let is_ours = |other: &Vec<f64>| {

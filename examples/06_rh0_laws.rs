@@ -1,6 +1,6 @@
 //! RH0's laws as printed, (3-46) and (3-48), beside ours: the way of the centre of mass in a stride from above, and its height, as SVG.
 //!
-//!     cargo run --release --example 05_rh0_laws > docs/rh0_laws.svg
+//!     cargo run --release --example 06_rh0_laws > docs/rh0_laws.svg
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! All joint values of a UR5 for one pose, by an order of subproblems that is found from its geometry and told in words.
 //!
-//!     cargo run --release --example 03_screw_solver
+//!     cargo run --release --example 04_screw_solver
 
 use groebot::kinematics::Target;
 use groebot::kinematics::screw::ScrewSolver;

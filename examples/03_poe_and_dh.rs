@@ -1,7 +1,7 @@
 //! One robot, two formulations: product of exponentials and Denavit-Hartenberg (RH0 2.7). Both give the same pose; the inverse
 //! by screws gives all four solutions, (2-66) one.
 //!
-//!     cargo run --release --example 02_poe_and_dh
+//!     cargo run --release --example 03_poe_and_dh
 
 use groebot::Result;
 use nalgebra::Point3;

@@ -1,6 +1,6 @@
 //! NAO walks eight steps: a request becomes joint angles whose zero moment point is proved to stay over the feet.
 //!
-//!     cargo run --release --example 04_walk
+//!     cargo run --release --example 05_walk
 
 use groebot::gait::{Regular, Request, Route, Side, Style, Summary, Walker, plan};
 use groebot::robots::{NAO_SEED, Outline, nao_walker};
