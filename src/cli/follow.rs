@@ -11,8 +11,10 @@ use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
 use crate::derive::{Description, InputFile, Proved};
+use crate::dynamics::{Clearance, Model};
 use crate::files::write_atomically;
 use crate::kinematics::Chain;
+use crate::model::Robot;
 use crate::motion::{Followed, Pace, follow};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
@@ -88,7 +90,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let Some(file) = &arguments.json {
         write_atomically(file, (followed.trajectory.to_json().to_string() + "\n").as_bytes())?;
     }
-    if arguments.quiet { Ok(()) } else { console::print(&summary(&chain, &followed)) }
+    if arguments.quiet {
+        return Ok(());
+    }
+    let touches = match &input.description {
+        Description::Robot(robot) => touching(robot, &followed)?,
+        _ => String::new(),
+    };
+    console::print(&(summary(&chain, &followed) + &touches))
 }
 
 /// The greatest speeds of the chain's joints, where the description has them.
@@ -139,6 +148,31 @@ fn pose(numbers: &[f64]) -> Result<Pose> {
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(Pose::from_parts(Translation3::new(x, y, z), UnitQuaternion::new_normalize(quaternion)))
+}
+
+/// The links that touch on the way, with the pose at which they first do, all other joints at zero.
+fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
+    let model = Model::new(robot)?;
+    let clearance = Clearance::new(robot, &model);
+    let places = followed.trajectory.joints.iter().map(|joint| model.joint(&joint.name).ok()).collect::<Vec<_>>();
+    let mut seen: Vec<[usize; 2]> = Vec::new();
+    let mut text = String::new();
+    for (sample, values) in followed.trajectory.q.iter().enumerate() {
+        let mut q = vec![0.0; model.joints().len()];
+        for (place, value) in places.iter().zip(values) {
+            if let Some(place) = place {
+                q[*place] = *value;
+            }
+        }
+        for touch in clearance.touching(&model.place(&Pose::identity(), &q)?) {
+            if !seen.contains(&touch.links) {
+                seen.push(touch.links);
+                let [one, other] = touch.links.map(|link| &robot.links()[link].name);
+                text += &format!("  links touch: {one} and {other}, from pose {} on\n", sample + 1);
+            }
+        }
+    }
+    Ok(text)
 }
 
 /// The path in a few lines.

@@ -1,13 +1,15 @@
 //! Dynamics of robots by Lie groups, RH0 2.4: the matrices `M` and `C` of `M q'' + C q' + N = torques`, (2-41), centre of mass and momentum.
 //!
 //! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
-//! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`].
+//! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
 
+mod clearance;
 mod lagrange;
 mod model;
 mod momentum;
 mod placed;
 
+pub use clearance::{Clearance, Touch};
 pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;
 pub use placed::Placed;

@@ -4,7 +4,7 @@ use nalgebra::{Point2, Point3};
 
 use super::footprint::{Footprint, Side};
 use super::polygon::Polygon;
-use crate::dynamics::Model;
+use crate::dynamics::{Clearance, Model};
 use crate::model::{Meshes, Robot};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
@@ -58,6 +58,10 @@ pub struct Biped {
     pub feet: [Foot; 2],
     /// Where the third joints of the legs are, left and right, in the torso frame \[m\].
     pub hips: [Point3<f64>; 2],
+    /// Which links may touch one another.
+    pub clearance: Clearance,
+    /// The names of the links, by their places in the robot.
+    pub links: Vec<String>,
     /// Whether the torso carries the whole mass as a point at its centre of mass, for want of the links' own masses.
     pub is_point_mass: bool,
 }
@@ -127,6 +131,8 @@ impl Biped {
             hips: [hip(&left), hip(&right)],
             is_point_mass: (1..=model.joints().len()).all(|body| model.inertia_of(body).mass() == 0.0),
             feet: [left, right],
+            clearance: Clearance::new(robot, &model),
+            links: robot.links().iter().map(|link| link.name.clone()).collect(),
             model,
         })
     }

@@ -48,6 +48,8 @@ pub struct Summary {
     pub nearest_limit: (String, Extreme),
     /// The joint that turns at the greatest share of its speed, and the share.
     pub fastest: (String, Extreme),
+    /// Links that touch one another, by their names, how deep at most \[m\] and when that is met first; deepest first.
+    pub touching: Vec<([String; 2], Extreme)>,
     /// How many phases are slowed down, and the greatest factor.
     pub slowed: (usize, f64),
 }
@@ -82,6 +84,7 @@ impl Summary {
             ),
             nearest_limit: nearest_limit(biped, walk),
             fastest: fastest(biped, walk),
+            touching: touching(biped, walk),
             slowed: (slowed.clone().count(), slowed.map(|phase| phase.slowed).fold(1.0, f64::max)),
         }
     }
@@ -134,6 +137,25 @@ fn fastest(biped: &Biped, walk: &Walk) -> (String, Extreme) {
     among_joints(biped, walk, &share, 1.0)
 }
 
+/// The links that touch at a sample, each pair with its deepest place.
+fn touching(biped: &Biped, walk: &Walk) -> Vec<([String; 2], Extreme)> {
+    let mut found: Vec<([usize; 2], Extreme)> = Vec::new();
+    for (sample, posture) in walk.motion.postures.iter().enumerate() {
+        // A posture of a walk has a finite value for each joint.
+        let Ok(placed) = biped.model.place(&posture.world_from_torso, &posture.q) else { continue };
+        for touch in biped.clearance.touching(&placed) {
+            let deepest = Extreme { value: touch.depth, time: walk.time(sample) };
+            match found.iter_mut().find(|(links, _)| *links == touch.links) {
+                Some((_, known)) if known.value < touch.depth => *known = deepest,
+                Some(_) => {}
+                None => found.push((touch.links, deepest)),
+            }
+        }
+    }
+    found.sort_by(|(_, a), (_, b)| b.value.total_cmp(&a.value));
+    found.into_iter().map(|(links, depth)| (links.map(|link| biped.links[link].clone()), depth)).collect()
+}
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let gait = match self.gait {
@@ -170,6 +192,9 @@ impl fmt::Display for Summary {
             100.0 * share.value,
             share.time
         )?;
+        for ([one, other], depth) in &self.touching {
+            writeln!(f, "  links touch     {one} and {other}, {}", millimetres(depth))?;
+        }
         match self.slowed {
             (0, _) => writeln!(f, "  phases          none had to be slowed down"),
             (count, factor) => writeln!(f, "  phases          {count} slowed down, up to {factor:.2} times"),

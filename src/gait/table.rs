@@ -124,6 +124,7 @@ fn summary(summary: &Summary) -> Value {
         "pendulum_error": extreme(&summary.pendulum_error),
         "nearest_limit": joint(&summary.nearest_limit),
         "fastest": joint(&summary.fastest),
+        "touching": summary.touching.iter().map(|(links, depth)| json!({ "links": links, "depth": depth.value, "time": depth.time })).collect::<Vec<_>>(),
         "slowed_phases": summary.slowed.0,
         "slowest_factor": summary.slowed.1,
     })

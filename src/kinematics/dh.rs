@@ -84,13 +84,13 @@ impl DhRow {
     /// The joint whose axis is the z axis of `frame`.
     fn joint(&self, frame: &Frame) -> Joint {
         Joint {
-            mimic: None,
             name: self.name.clone(),
             symbol: self.symbol.clone(),
             kind: self.kind,
             axis: frame.direction(&along_z()),
             point: frame.point(),
             limits: self.limits,
+            mimic: None,
         }
     }
 }

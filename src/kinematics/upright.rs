@@ -7,7 +7,7 @@
 //!
 //! the loop of a chain with four given joints and a target that never changes.
 
-use num_traits::Zero;
+use num_traits::{ToPrimitive, Zero};
 
 use super::Target;
 use super::chain::along_z;
@@ -130,7 +130,6 @@ impl Upright {
     }
 
     fn seen_from_above(&self) -> [f64; 2] {
-        use num_traits::ToPrimitive;
         self.axis.each_ref().map(|x| x.to_f64().unwrap_or(0.0))
     }
 }

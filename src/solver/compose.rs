@@ -2,10 +2,9 @@
 //! first has put them ([`Program::followed_by`]).
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{
-    Block, Chart, Checks, Condition, Guard, Joint, JointValue, ParameterRule, Pivot, Program, Rule, Step,
-};
+use super::program::{Block, Chart, Checks, Condition, Guard, Joint, JointValue, Pivot, Program, Step};
 use super::refine::measured;
+use super::rule::{ParameterRule, Rule};
 use super::validate::MOST_ANSWERS;
 use crate::{Error, ErrorKind, Result};
 

@@ -6,8 +6,9 @@
 use super::angle::angle;
 use super::frame::Frame;
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{JointValue, Program, Rule};
+use super::program::{JointValue, Program};
 use super::refine::unknowns_of;
+use super::rule::Rule;
 
 /// What joint values reach, as operands of the checks' code.
 #[derive(Clone, Debug, PartialEq)]

@@ -19,6 +19,7 @@ mod pairs;
 mod program;
 mod prune;
 mod refine;
+mod rule;
 pub mod template;
 mod validate;
 mod walk;
@@ -33,9 +34,9 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use pairs::Pairs;
 pub(crate) use program::square;
 pub use program::{
-    Block, Chart, Checks, Condition, Following, Guard, Input, Joint, JointValue, ParameterRule, Pivot, Preference,
-    Program, Rule, Short, Step, Unit,
+    Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, Pivot, Preference, Program, Short, Step, Unit,
 };
+pub use rule::{Following, ParameterRule, Rule};
 
 /// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
 pub const ACCEPT: f64 = 1e-12;

@@ -1,5 +1,6 @@
 //! Inertia and Coriolis matrices against the motion of point masses.
 
+mod clearance;
 mod coriolis;
 mod lagrange;
 mod placed;

@@ -136,14 +136,13 @@ impl Mechanism {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a place beyond the last joint.
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
-        if let Some(standing) = &self.upright
-            && given != standing.plain.given()
-        {
-            let text = "the task `position_pitch_roll` is for as many joints as it has numbers: name the joints that are given (`given`)";
-            return Err(Error::new(ErrorKind::Unsupported, text));
-        }
-        if self.upright.is_some() {
-            return Ok(self);
+        match &self.upright {
+            None => {}
+            Some(standing) if given == standing.plain.given() => return Ok(self),
+            Some(_) => {
+                let text = "the task `position_pitch_roll` is for as many joints as it has numbers: name the joints that are given (`given`)";
+                return Err(Error::new(ErrorKind::Unsupported, text));
+            }
         }
         let count = self.driven().len();
         if let Some(place) = given.iter().find(|&&place| place >= count) {

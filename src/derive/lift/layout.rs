@@ -89,13 +89,7 @@ impl Layout {
         let (followers, inputs): (Vec<usize>, Vec<usize>) =
             mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
         let first = self.inputs.len();
-        for &index in &inputs {
-            let joint = &mechanism.joints()[index];
-            let input = self.inputs.len();
-            let unit = if joint.is_revolute() { Unit::Radian } else { length };
-            self.inputs.push(Input { name: joint.name.clone(), unit });
-            self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
-        }
+        self.give_inputs(mechanism, &inputs, length);
         for index in followers {
             let joint = &mechanism.joints()[index];
             let law = joint.follows.and_then(|(leader, [factor, offset])| {
@@ -108,16 +102,21 @@ impl Layout {
         }
     }
 
-    /// The same of a loop that stands for a target with pitch and roll: these, the way from the first axis and the height are of the target.
-    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
-        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
-        for &index in own {
+    /// Inputs that are the values of given joints, and their parameters.
+    fn give_inputs(&mut self, mechanism: &Mechanism, given: &[usize], length: Unit) {
+        for &index in given {
             let joint = &mechanism.joints()[index];
             let input = self.inputs.len();
             let unit = if joint.is_revolute() { Unit::Radian } else { length };
             self.inputs.push(Input { name: joint.name.clone(), unit });
             self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
         }
+    }
+
+    /// The same of a loop that stands for a target with pitch and roll: these, the way from the first axis and the height are of the target.
+    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
+        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
+        self.give_inputs(mechanism, own, length);
         let turn = |input| [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)];
         let way = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
         let rules = [turn(ROLL), turn(PITCH), [way.clone(), way.clone(), radius(standing)], turn(HEIGHT)];
