@@ -70,13 +70,7 @@ fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
         if low < 0.0 && high > 0.0 { 0.0 } else { within(low, high) }
     };
     let mut q: Vec<f64> = biped.joints.iter().map(rest).collect();
-    for (place, joint) in robot.moving().into_iter().enumerate() {
-        let law = robot.law(&robot.joints()[joint]);
-        if let Some(leader) = biped.joints.iter().position(|range| range.name == law.leader).filter(|own| *own != place)
-        {
-            q[place] = law.value(q[leader]);
-        }
-    }
+    robot.follow(&mut q);
     q
 }
 

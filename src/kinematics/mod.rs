@@ -1,5 +1,5 @@
 //! Kinematics of serial chains: the validated exact model [`Chain`] and what is asked of it ([`Task`]), its file formats
-//! ([`chain_toml`], [`dh_toml`], [`urdf`]), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`ideal`]), the
+//! ([`chain_toml`], [`dh_toml`], [URDF](crate::model::urdf)), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`ideal`]), the
 //! screw solver ([`screw`]) and a numeric inverse ([`oracle`], [`numeric`]).
 
 pub mod chain;

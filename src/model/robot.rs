@@ -205,6 +205,21 @@ impl Robot {
         }
     }
 
+    /// Puts the joints of a configuration that follow others where these bring them.
+    ///
+    /// # Panics
+    /// When `q` has fewer values than joints turn or slide.
+    pub fn follow(&self, q: &mut [f64]) {
+        let moving = self.moving();
+        for (place, joint) in moving.iter().enumerate() {
+            let law = self.law(&self.joints()[*joint]);
+            let leader = moving.iter().position(|other| self.joints()[*other].name == law.leader);
+            if let Some(leader) = leader.filter(|leader| *leader != place) {
+                q[place] = law.value(q[leader]);
+            }
+        }
+    }
+
     /// The mass of all links \[kg\].
     pub fn mass(&self) -> f64 {
         self.links().iter().map(|link| link.inertia().mass()).sum()

@@ -88,7 +88,7 @@ impl Manipulator {
     /// derived solver.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a value is not finite.
+    /// [`crate::ErrorKind::BadValue`] when a value is not finite.
     pub fn legs(&self, virtual_joints: &Virtual, trunk: &Pose) -> Result<Vec<LegValues>> {
         let mut found = Vec::new();
         self.solver.solve(&Target::Pose(self.foot(virtual_joints).inv_mul(trunk)), &[], &mut found)?;

@@ -1,4 +1,4 @@
-//! The solver itself: a small straight-line program with branches ([`Program`]), its evaluator, and [`Solution`].
+//! The solver itself: a small straight-line program with branches ([`Program`]), and its evaluator.
 //!
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 

@@ -46,7 +46,8 @@ fn what_is_beyond_bounds_is_found() {
 
 #[test]
 fn tracks_that_do_not_fit_are_refused() {
-    let changes: [(&str, fn(&mut Trajectory)); 8] = [
+    type Change = fn(&mut Trajectory);
+    let changes: [(&str, Change); 8] = [
         ("time is not behind", |path| path.times[1] = 0.3),
         ("time is not behind", |path| path.times[1] = f64::NAN),
         ("`joint values` has 2 values for 3 samples", |path| path.q.truncate(2)),
