@@ -5,8 +5,8 @@
 use std::hint::black_box;
 use std::io::Result;
 
-use groebot::kinematics::screw::ScrewSolver;
 use groebot::kinematics::Target;
+use groebot::kinematics::screw::ScrewSolver;
 use groebot::robots::{self, Known};
 use groebot_peers::by_batch;
 use groebot_peers::by_ik_geo::IkGeo;
