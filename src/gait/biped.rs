@@ -79,13 +79,13 @@ impl Biped {
         Biped::with_outlines(robot, links, outlines)
     }
 
-    /// The same on soles that cover the given points, in the planes through their links' origins.
+    /// The same on soles that cover the given points, in planes `height` over their links' origins \[m\].
     ///
     /// # Errors
     /// As [`Biped::new`], but for shapes.
-    pub fn on_outlines(robot: &Robot, soles: [&str; 2], outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
+    pub fn on_outlines(robot: &Robot, soles: [&str; 2], height: f64, outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        Biped::with_outlines(robot, links, outlines.map(|outline| (0.0, outline)))
+        Biped::with_outlines(robot, links, outlines.map(|outline| (height, outline)))
     }
 
     /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
@@ -213,7 +213,11 @@ fn touching(robot: &Robot, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Poi
         let (own, torso_from_link) = model.link(place);
         for shape in other.collisions.iter().filter(|_| own == body) {
             let torso_from_shape = torso_from_link * shape.pose();
-            points.extend(meshes.points(&shape.solid)?.into_iter().map(|point| torso_from_shape * point - at));
+            let read = meshes.points(&shape.solid).map_err(|error| {
+                let text = format!("{error}; or give the outline of the soles (--outline)");
+                Error::new(error.kind(), text)
+            });
+            points.extend(read?.into_iter().map(|point| torso_from_shape * point - at));
         }
     }
     let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);

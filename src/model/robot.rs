@@ -229,6 +229,9 @@ impl Robot {
     pub fn doubts(&self) -> Vec<String> {
         let fault = |link: &Link| {
             let inertia = link.mass.as_ref()?.inertia();
+            // A frame may say that it weighs nothing.
+            let weighs = inertia.generalised().iter().any(|entry| *entry != 0.0);
+            weighs.then_some(())?;
             Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational()).err()
         };
         let of = |link: &Link| {

@@ -40,7 +40,7 @@ pub fn nao_walker(outline: Outline) -> Result<Walker> {
             let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
             corners.map(|(x, y)| Point2::from(middle + Vector2::new(x * SEED_SOLE.0, y * SEED_SOLE.1))).to_vec()
         });
-        biped = Biped::on_outlines(&robot, soles, outlines)?;
+        biped = Biped::on_outlines(&robot, soles, 0.0, outlines)?;
     }
     let values = |side: Side| {
         let mirrored = move |(name, value)| (name, if name == "ShoulderPitch" { value } else { side.sign() * value });

@@ -63,7 +63,22 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     assert!(walk("l_sole", "l_sole").contains("moves both feet"));
     assert!(walk("RootWaist", "r_sole").contains("0 joints lead to `RootWaist`"));
     fs::write(&urdf, described.replace("<box size=\"0.24 0.14 0.01\"/>", "<mesh filename=\"nowhere.stl\"/>")).unwrap();
-    assert!(walk("l_sole", "r_sole").contains("nowhere.stl"));
+    let told = walk("l_sole", "r_sole");
+    assert!(told.contains("nowhere.stl") && told.contains("--outline"), "{told}");
+    let outline = |numbers: &str| {
+        ["walk", text(&urdf), "--left", "l_sole", "--right", "r_sole", "--steps", "2", "--outline", numbers]
+            .map(str::to_owned)
+    };
+    // The sole's plane at its link, and 2 cm above it: the robot then stands 2 cm lower.
+    let height = |numbers: &str| {
+        let told = succeed(&outline(numbers).each_ref().map(String::as_str));
+        let at = told.split("torso ").nth(1).unwrap().split(' ').next().unwrap();
+        at.parse::<f64>().unwrap()
+    };
+    let lower = height("-0.12,0.12,-0.07,0.07") - height("-0.12,0.12,-0.07,0.07,0.02");
+    assert!((lower - 0.02).abs() < 2e-3, "{lower}");
+    let three = refused(&outline("-0.1,0.1,-0.05").each_ref().map(String::as_str));
+    assert!(three.contains("four or five numbers"), "{three}");
     fs::write(&urdf, described.replace("<mass value=", "<mass value=\"0\" told=")).unwrap();
     assert!(walk("l_sole", "r_sole").contains("it has no mass"));
     assert!(refused(&["export", "derivations/ur5/0_chain.toml", "--format", "urdf"]).contains("no robot with links"));

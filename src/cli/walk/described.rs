@@ -20,8 +20,9 @@ pub struct SoleArguments {
     /// The link of the right sole; for a description
     #[arg(long, value_name = "LINK")]
     right: Option<String>,
-    /// What of the left sole touches the floor, from its link: behind, ahead, to the right, to the left [m]; mirrored on the right
-    #[arg(long, value_name = "X0,X1,Y0,Y1", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    /// What of the left sole touches the floor, from its link's origin: behind, ahead, to the right, to the left, and how high it is [m] (0 unless it is
+    /// given); mirrored on the right
+    #[arg(long, value_name = "X0,X1,Y0,Y1[,Z]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     outline: Option<Vec<f64>>,
 }
 
@@ -44,7 +45,10 @@ pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walke
     let at_file = |error: Error| error.in_file(file);
     let names = soles.links(&robot).map_err(at_file)?;
     let biped = match &soles.outline {
-        Some(outline) => Biped::on_outlines(&robot, names, outlines(outline)?),
+        Some(outline) => {
+            let (height, outlines) = outlines(outline)?;
+            Biped::on_outlines(&robot, names, height, outlines)
+        }
         None => Biped::new(&robot, names, &Meshes::beside(file)),
     };
     let biped = biped.map_err(at_file)?;
@@ -72,11 +76,15 @@ impl SoleArguments {
     }
 }
 
-/// The corners of both soles.
-fn outlines(outline: &[f64]) -> Result<[Vec<Point2<f64>>; 2]> {
-    let &[back, front, right, left] = outline else {
-        let text = "--outline takes four numbers: behind, ahead, right, left, such as -0.1,0.12,-0.06,0.06";
-        return Err(Error::new(ErrorKind::BadValue, text));
+/// The height and the corners of both soles.
+fn outlines(outline: &[f64]) -> Result<(f64, [Vec<Point2<f64>>; 2])> {
+    let (back, front, right, left, height) = match *outline {
+        [back, front, right, left] => (back, front, right, left, 0.0),
+        [back, front, right, left, height] => (back, front, right, left, height),
+        _ => {
+            let text = "--outline takes four or five numbers: behind, ahead, right, left, height, such as -0.1,0.12,-0.06,0.06,-0.1";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
     };
     if !(back < front && right < left) {
         let text = format!("--outline is {back},{front},{right},{left}; give the lower number of each pair first");
@@ -85,5 +93,5 @@ fn outlines(outline: &[f64]) -> Result<[Vec<Point2<f64>>; 2]> {
     let corners = |right: f64, left: f64| {
         [(back, right), (front, right), (front, left), (back, left)].map(|(x, y)| Point2::new(x, y)).to_vec()
     };
-    Ok([corners(right, left), corners(-left, -right)])
+    Ok((height, [corners(right, left), corners(-left, -right)]))
 }
