@@ -7,7 +7,7 @@ use nalgebra::Point3;
 
 use super::answers::exact;
 use super::console::{self, Paint};
-use super::ends::{EndArguments, SnapArgument};
+use super::ends::IdealEndArguments;
 use super::files::{assemble_files, destination, refuse_overwriting};
 use super::info::near_words;
 use super::json::{self, Told};
@@ -50,9 +50,7 @@ pub struct Arguments {
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
-    ends: EndArguments,
-    #[command(flatten)]
-    snap: SnapArgument,
+    ends: IdealEndArguments,
     /// The folder to write to
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -81,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session =
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
     let mut clock = Clock::start();
-    let ends = Ends { name: arguments.name.clone(), ..arguments.snap.ends(&arguments.ends)? };
+    let ends = Ends { name: arguments.name.clone(), ..arguments.ends.ends()? };
     let mut source = Source::read_between(&arguments.input, &ends)?;
     let folder = destination(&source, &arguments.input, arguments.out.as_deref())?;
     clock.lap("read");

@@ -38,9 +38,11 @@ pub struct EndArguments {
     given: Vec<String>,
 }
 
-/// Whether the ideal robot is meant.
+/// The same, and whether the ideal robot is meant.
 #[derive(clap::Args)]
-pub struct SnapArgument {
+pub struct IdealEndArguments {
+    #[command(flatten)]
+    plain: EndArguments,
     /// Take the ideal robot within this tolerance, in radians and shares of the reach: axes that almost meet do (default: 1e-6)
     #[arg(long, value_name = "TOLERANCE", value_parser = number, conflicts_with = "exact")]
     snap: Option<BigRational>,
@@ -49,14 +51,26 @@ pub struct SnapArgument {
     exact: bool,
 }
 
-impl SnapArgument {
-    /// What `arguments` ask, of the ideal robot.
+impl IdealEndArguments {
+    /// The same as plain data.
     ///
     /// # Errors
     /// As [`EndArguments::ends`].
-    pub fn ends(&self, arguments: &EndArguments) -> Result<Ends> {
+    pub fn ends(&self) -> Result<Ends> {
         let snap = if self.exact { Some(BigRational::default()) } else { self.snap.clone() };
-        Ok(Ends { snap, ..arguments.ends()? })
+        Ok(Ends { snap, ..self.plain.ends()? })
+    }
+
+    /// `chain`, which is no URDF's, for the task that is asked.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for links; as [`Ends::ask`].
+    pub fn ask(&self, chain: Chain) -> Result<Chain> {
+        if self.plain.base.is_some() || self.plain.tip.is_some() {
+            let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        self.plain.ends()?.ask(chain)
     }
 }
 
@@ -104,18 +118,6 @@ impl EndArguments {
             (Some(AskedTask::Spatial(task)), None) => Ok(Some(task)),
             (None, None) => Ok(None),
         }
-    }
-
-    /// `chain`, which is no URDF's, for the task that is asked.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] for links; as [`Ends::ask`].
-    pub fn ask(&self, chain: Chain) -> Result<Chain> {
-        if self.base.is_some() || self.tip.is_some() {
-            let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        self.ends()?.ask(chain)
     }
 }
 

@@ -4,9 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
-
-use super::ends::{EndArguments, SnapArgument};
+use super::ends::IdealEndArguments;
 use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
@@ -15,10 +13,13 @@ use crate::dynamics::{Clearance, Model};
 use crate::files::write_atomically;
 use crate::kinematics::Chain;
 use crate::model::Robot;
+use crate::motion::table::pose_of;
 use crate::motion::{Followed, Pace, follow};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
+/// How far from one the length of a quaternion may be: such as 0.707.
+const ROUNDED: f64 = 1e-3;
 /// The names of a pose's numbers: of the position, and of the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
@@ -39,9 +40,7 @@ pub struct Arguments {
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
-    ends: EndArguments,
-    #[command(flatten)]
-    snap: SnapArgument,
+    ends: IdealEndArguments,
     /// The poses, CSV
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
@@ -65,7 +64,7 @@ pub struct Arguments {
 /// Follows the poses and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
+    let ends = arguments.ends.ends()?.or(&input.ends);
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;
     let (poses, times) = read_poses(&arguments.poses)?;
@@ -134,20 +133,14 @@ fn read_from(input: impl BufRead) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
 }
 
 fn pose(numbers: &[f64]) -> Result<Pose> {
-    let &[x, y, z, qx, qy, qz, qw] = numbers else {
+    let count = |_| {
         let text = format!(
             "{} numbers; a pose has seven: x, y, z, qx, qy, qz, qw, and a time before them or none",
             numbers.len()
         );
-        return Err(Error::new(ErrorKind::BadValue, text));
+        Error::new(ErrorKind::BadValue, text)
     };
-    let quaternion = Quaternion::new(qw, qx, qy, qz);
-    let norm = quaternion.norm();
-    if !(x + y + z + norm).is_finite() || (norm - 1.0).abs() > 1e-3 {
-        let text = format!("the quaternion has the length {norm}; give finite numbers, and a quaternion of length one");
-        return Err(Error::new(ErrorKind::BadValue, text));
-    }
-    Ok(Pose::from_parts(Translation3::new(x, y, z), UnitQuaternion::new_normalize(quaternion)))
+    pose_of(numbers.try_into().map_err(count)?, ROUNDED)
 }
 
 /// The links that touch on the way, with the pose at which they first do, all other joints at zero.

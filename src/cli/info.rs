@@ -5,7 +5,7 @@ mod robot;
 use std::path::PathBuf;
 
 use super::console::{self, Paint};
-use super::ends::{EndArguments, SnapArgument};
+use super::ends::IdealEndArguments;
 use super::{Halt, Outcome, json};
 use crate::derive::limbs::{JointPlace, Limbs};
 use crate::derive::{Description, Ends, InputFile, formulate};
@@ -27,9 +27,7 @@ pub struct Arguments {
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
-    ends: EndArguments,
-    #[command(flatten)]
-    snap: SnapArgument,
+    ends: IdealEndArguments,
     /// JSON, of a chain or a robot
     #[arg(long)]
     json: bool,
@@ -41,7 +39,7 @@ pub struct Arguments {
 /// Prints the input.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let ends = arguments.snap.ends(&arguments.ends)?.or(&input.ends);
+    let ends = arguments.ends.ends()?.or(&input.ends);
     let paint = Paint::of(&std::io::stdout());
     match &input.description {
         Description::Robot(robot) if ends == Ends::default() && robot.leaves().len() > 1 => {

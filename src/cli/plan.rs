@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::ends::{EndArguments, SnapArgument};
+use super::ends::IdealEndArguments;
 use super::{Outcome, console, json};
 use crate::derive::InputFile;
 use crate::kinematics::Chain;
@@ -34,9 +34,7 @@ pub struct Mechanism {
     #[arg(value_name = "DIR-FILE-or-ROBOT")]
     input: PathBuf,
     #[command(flatten)]
-    ends: EndArguments,
-    #[command(flatten)]
-    snap: SnapArgument,
+    ends: IdealEndArguments,
 }
 
 impl Mechanism {
@@ -45,7 +43,7 @@ impl Mechanism {
     /// # Errors
     /// As [`ScrewSolver::within`].
     pub fn solver(&self, chain: &Chain) -> Result<ScrewSolver> {
-        let tolerance = self.snap.ends(&self.ends)?.tolerance();
+        let tolerance = self.ends.ends()?.tolerance();
         ScrewSolver::within(chain, tolerance).map_err(|error| match error.kind() {
             ErrorKind::Unsupported => Error::new(
                 ErrorKind::Unsupported,
@@ -64,7 +62,7 @@ impl Mechanism {
             return self.ends.ask(chain);
         }
         let input = InputFile::read(&self.input)?;
-        input.chain(&self.snap.ends(&self.ends)?)?.ok_or_else(|| {
+        input.chain(&self.ends.ends()?)?.ok_or_else(|| {
             let text = "this is a system of equations or of limbs; screw theory needs a chain (of limbs, give the file of one)";
             Error::new(ErrorKind::BadValue, text).in_file(&input.path)
         })

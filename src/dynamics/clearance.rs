@@ -47,7 +47,7 @@ impl Clearance {
         capsules.iter().for_each(|capsule| is_shaped[capsule.body] = true);
         let all = (0..capsules.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
         let pairs = all.filter(|(a, b)| !are_neighbours(model, &is_shaped, capsules[*a].body, capsules[*b].body));
-        Clearance { pairs: pairs.collect(), capsules: capsules.clone() }
+        Clearance { pairs: pairs.collect(), capsules }
     }
 
     /// The links that touch where `placed` is, deepest first; of two links the deepest place.

@@ -39,9 +39,18 @@ impl Model {
     /// # Errors
     /// [`ErrorKind::BadValue`] when a frame or mass is beyond doubles.
     pub fn new(robot: &Robot) -> Result<Self> {
-        let mut model = Model::still(robot);
+        let moving = robot.moving();
+        let still = Screw::Prismatic(nalgebra::Vector3::x_axis());
+        let joint = |place: &usize| ModelJoint { name: robot.joints()[*place].name.clone(), parent: 0, screw: still };
+        let mut model = Model {
+            joints: moving.iter().map(joint).collect(),
+            order: Vec::with_capacity(moving.len()),
+            bodies: vec![Inertia::none(); moving.len() + 1],
+            links: vec![(0, Pose::identity()); robot.links().len()],
+            mass: 0.0,
+        };
         for &place in robot.order() {
-            model.append(robot, place)?;
+            model.append(robot, place, &moving)?;
         }
         for (link, (body, base_from_link)) in robot.links().iter().zip(&model.links) {
             let inertia = link.inertia().placed(base_from_link);
@@ -55,34 +64,13 @@ impl Model {
         Err(Error::new(ErrorKind::BadValue, "a mass or a frame is beyond the range of doubles; give smaller numbers"))
     }
 
-    /// All links on the base, no joint placed.
-    fn still(robot: &Robot) -> Self {
-        let moving = robot.moving();
-        Model {
-            joints: Vec::with_capacity(moving.len()),
-            order: Vec::with_capacity(moving.len()),
-            bodies: vec![Inertia::none(); moving.len() + 1],
-            links: vec![(0, Pose::identity()); robot.links().len()],
-            mass: 0.0,
-        }
-        .with_joints(robot, &moving)
-    }
-
-    fn with_joints(mut self, robot: &Robot, moving: &[usize]) -> Self {
-        let still = Screw::Prismatic(nalgebra::Vector3::x_axis());
-        let joint = |place: &usize| ModelJoint { name: robot.joints()[*place].name.clone(), parent: 0, screw: still };
-        self.joints = moving.iter().map(joint).collect();
-        self
-    }
-
-    /// Places the link below the joint at `place` of the robot, whose parent stands already.
-    fn append(&mut self, robot: &Robot, place: usize) -> Result<()> {
+    /// Places the link below the joint at `place` of the robot, whose parent stands already; `moving` are the places of the joints that move.
+    fn append(&mut self, robot: &Robot, place: usize, moving: &[usize]) -> Result<()> {
         let joint = &robot.joints()[place];
         let (parent, child) = robot.ends(place);
         let (mut body, base_from_parent) = self.links[parent];
         let base_from_joint = base_from_parent * joint.origin.pose();
-        if joint.kind.is_single() {
-            let number = self.joints.iter().position(|own| own.name == joint.name).unwrap_or_default();
+        if let Ok(number) = moving.binary_search(&place) {
             self.joints[number].screw = screw(joint, &base_from_joint)?;
             self.joints[number].parent = body;
             self.order.push(number);

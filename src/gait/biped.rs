@@ -75,8 +75,9 @@ impl Biped {
     /// without shape, a robot without mass, a joint without limits; those of [`Meshes::points`].
     pub fn new(robot: &Robot, soles: [&str; 2], meshes: &Meshes) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        let outlines = [touching(robot, links[0], meshes)?, touching(robot, links[1], meshes)?];
-        Biped::with_outlines(robot, links, outlines)
+        let model = Model::new(robot)?;
+        let outlines = [touching(robot, &model, links[0], meshes)?, touching(robot, &model, links[1], meshes)?];
+        Biped::with_outlines(robot, model, links, outlines)
     }
 
     /// The same on soles that cover the given points, in planes `height` over their links' origins \[m\].
@@ -85,13 +86,17 @@ impl Biped {
     /// As [`Biped::new`], but for shapes.
     pub fn on_outlines(robot: &Robot, soles: [&str; 2], height: f64, outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
-        Biped::with_outlines(robot, links, outlines.map(|outline| (height, outline)))
+        Biped::with_outlines(robot, Model::new(robot)?, links, outlines.map(|outline| (height, outline)))
     }
 
     /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
-    fn with_outlines(robot: &Robot, links: [usize; 2], outlines: [(f64, Vec<Point2<f64>>); 2]) -> Result<Self> {
+    fn with_outlines(
+        robot: &Robot,
+        model: Model,
+        links: [usize; 2],
+        outlines: [(f64, Vec<Point2<f64>>); 2],
+    ) -> Result<Self> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, format!("{}: {text}", robot.name())));
-        let model = Model::new(robot)?;
         if model.mass().is_nan() || model.mass() <= 0.0 {
             return bad("it has no mass; a walk needs the masses of its links".to_owned());
         }
@@ -118,16 +123,14 @@ impl Biped {
             let of = |foot: &Foot| places.iter().copied().find(|joint| foot.joints.contains(joint));
             Some((of(&left)?, of(&right)?))
         };
-        let mimics = left.joints.iter().flat_map(|&one| right.joints.iter().map(move |&other| (one, other)));
-        let follows = |(one, other): &(usize, usize)| {
-            let [one, other] = [one, other].map(|joint| robot.joint(&model.joints()[*joint].name));
-            let laws = one.and_then(|one| Ok([one, other?].map(|joint| robot.law(&robot.joints()[joint]))));
-            laws.is_ok_and(|[one, other]| one == other)
-        };
+        let moving = robot.moving();
+        let law = |joint: usize| robot.law(&robot.joints()[moving[joint]]);
+        let pairs = left.joints.iter().flat_map(|&one| right.joints.iter().map(move |&other| (one, other)));
+        let follow = |(one, other): &(usize, usize)| law(*one) == law(*other);
         Ok(Biped {
             name: robot.name().to_owned(),
             joints: ranges(robot, &model)?,
-            shared: robot.actuators().iter().filter_map(shared).chain(mimics.filter(follows)).collect(),
+            shared: robot.actuators().iter().filter_map(shared).chain(pairs.filter(follow)).collect(),
             hips: [hip(&left), hip(&right)],
             is_point_mass: (1..=model.joints().len()).all(|body| model.inertia_of(body).mass() == 0.0),
             feet: [left, right],
@@ -204,8 +207,7 @@ fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>))
 }
 
 /// The height of the lowest points of what is fixed to a link over the link's origin, and these points from above, with the torso's axes.
-fn touching(robot: &Robot, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
-    let model = Model::new(robot)?;
+fn touching(robot: &Robot, model: &Model, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
     let (body, torso_from_sole) = model.link(link);
     let at = torso_from_sole.translation.vector;
     let mut points: Vec<Point3<f64>> = Vec::new();

@@ -14,7 +14,6 @@ use super::usual::Usual;
 use super::zmp::GRAVITY;
 use crate::kinematics::Target;
 use crate::model::Robot;
-use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
 /// A robot that can walk, with the gaits that it walks by name, its own first, each with its usual figures.
@@ -62,12 +61,10 @@ impl Walker {
 
 /// All joints at zero, or at the limit next to it, those that follow others where these bring them.
 fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
-    let within = |low: f64, high: f64| {
-        if high - low > 2.0 * ASIDE { 0f64.clamp(low + ASIDE, high - ASIDE) } else { (low + high) / 2.0 }
-    };
-    let rest = |range: &super::JointRange| {
-        let (low, high) = range.limits;
-        if low < 0.0 && high > 0.0 { 0.0 } else { within(low, high) }
+    let rest = |range: &super::JointRange| match range.limits {
+        (low, high) if low < 0.0 && high > 0.0 => 0.0,
+        (low, high) if high - low > 2.0 * ASIDE => 0f64.clamp(low + ASIDE, high - ASIDE),
+        (low, high) => (low + high) / 2.0,
     };
     let mut q: Vec<f64> = biped.joints.iter().map(rest).collect();
     robot.follow(&mut q);
@@ -77,19 +74,18 @@ fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
 /// The first posture of a leg within its limits that brings the sole below the hip with a bent knee.
 fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> {
     let (_, torso_from_link) = biped.model.link(foot.link);
-    let link_from_sole = torso_from_link.inv_mul(&foot.torso_from_sole);
+    let sole_from_link = foot.torso_from_sole.inv_mul(&torso_from_link);
     let within = |answer: &Vec<f64>| {
         let ranges = foot.joints.iter().map(|joint| biped.joints[*joint].limits);
         answer.iter().zip(ranges).all(|(value, (low, high))| low <= *value && *value <= high)
     };
     let size = |answer: &Vec<f64>| answer.iter().map(|value| value.abs()).fold(0.0, f64::max);
-    let hip = biped.hips[0].z;
+    let (hip, length) = (biped.hips[0].z, leg(biped));
     for share in HEIGHTS.into_iter().rev() {
         let mut torso_from_sole = foot.torso_from_sole;
-        torso_from_sole.translation.z = hip - share * leg(biped) - foot.ankle_height;
+        torso_from_sole.translation.z = hip - share * length - foot.ankle_height;
         let mut found = Vec::new();
-        let target: Pose = torso_from_sole * link_from_sole.inverse();
-        solver.solve(&Target::Pose(target), &[], &mut found)?;
+        solver.solve(&Target::Pose(torso_from_sole * sole_from_link), &[], &mut found)?;
         let best = found.into_iter().map(|answer| answer.q).filter(within).min_by(|a, b| size(a).total_cmp(&size(b)));
         if let Some(answer) = best {
             return Ok(answer);
@@ -140,7 +136,7 @@ fn one_step(biped: &Biped) -> Usual {
     }
 }
 
-/// Preview control, with a step in half the time.
+/// Preview control, with a step in a third of the time.
 fn preview(biped: &Biped) -> Usual {
     let usual = one_step(biped);
     Usual {

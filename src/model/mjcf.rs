@@ -5,8 +5,9 @@
 
 use std::fmt::Write;
 
+use super::attributes::{escaped, floats};
 use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid};
-use crate::spatial::{Inertia, Pose};
+use crate::spatial::Pose;
 
 impl Robot {
     /// The robot as MJCF, with the files of its meshes where `meshes` finds them; meshes in other formats than STL and OBJ are left out. Masses that no
@@ -138,26 +139,18 @@ fn moving(joint: &Joint, stem: &str) -> String {
 
 fn inertial(link: &Link, stem: &str) -> String {
     let Some(mass) = &link.mass else { return String::new() };
-    let inertia: Inertia = mass.inertia();
-    let ([x, y, z], m) = (inertia.centre_of_mass().into(), inertia.rotational());
-    let moments = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| m[at].to_string()).join(" ");
-    let at: [f64; 3] = [x, y, z];
-    format!("{stem}  <inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{moments}\"/>\n", numbers(&at), inertia.mass())
+    let inertia = mass.inertia();
+    let at: [f64; 3] = inertia.centre_of_mass().into();
+    let moments =
+        [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| inertia.rotational()[at].to_string()).join(" ");
+    format!("{stem}  <inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{moments}\"/>\n", floats(&at), inertia.mass())
 }
 
 /// Position and rotation as attributes; those that are zero are left out.
 fn placed(pose: &Pose) -> String {
     let (p, q) = (pose.translation.vector, pose.rotation);
-    let at = if p.norm() == 0.0 { String::new() } else { format!(" pos=\"{}\"", numbers(p.as_slice())) };
+    let at = if p.norm() == 0.0 { String::new() } else { format!(" pos=\"{}\"", floats(p.as_slice())) };
     let turn = [q.w, q.i, q.j, q.k];
-    let turned = if q.angle() == 0.0 { String::new() } else { format!(" quat=\"{}\"", numbers(&turn)) };
+    let turned = if q.angle() == 0.0 { String::new() } else { format!(" quat=\"{}\"", floats(&turn)) };
     at + &turned
-}
-
-fn numbers(values: &[f64]) -> String {
-    values.iter().map(|value| (value + 0.0).to_string()).collect::<Vec<_>>().join(" ")
-}
-
-fn escaped(text: &str) -> String {
-    quick_xml::escape::escape(text).into_owned()
 }

@@ -5,6 +5,7 @@
 //! 1029/10000, with doubles beside them. A named frame, such as a sole or a hand, is a link without mass behind a fixed joint, as in a
 //! URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 
+mod attributes;
 mod check;
 mod joint;
 mod link;

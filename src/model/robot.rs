@@ -163,14 +163,6 @@ impl Robot {
         self.ends[joint]
     }
 
-    /// The place of the joint that moves a link; none for the root.
-    ///
-    /// # Panics
-    /// When there is no such link.
-    pub fn above(&self, link: usize) -> Option<usize> {
-        self.above[link]
-    }
-
     /// The places of the joints from a link up to the root.
     ///
     /// # Panics

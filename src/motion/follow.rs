@@ -234,6 +234,12 @@ impl Path<'_> {
         }
     }
 
+    /// The joint that goes furthest in a step, and its way as a share of what it may go without a jump.
+    fn furthest(&self, sample: usize, before: &[f64], q: &[f64]) -> Option<(usize, f64)> {
+        let share = |joint: usize| self.way(joint, before[joint], q[joint]).abs() / self.most(sample, joint);
+        (0..q.len()).map(|joint| (joint, share(joint))).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The state of the best path at each pose.
     fn ways(&self, layers: &[Vec<State>]) -> Vec<usize> {
         let last = layers.last().map_or(&[][..], |layer| layer);
@@ -249,10 +255,7 @@ impl Path<'_> {
     /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
     fn jump(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> Option<Jump> {
         let [before, now] = [sample - 1, sample].map(|at| &layers[at][ways[at]]);
-        let excess =
-            |joint: &usize| self.way(*joint, before.q[*joint], now.q[*joint]).abs() / self.most(sample, *joint);
-        let joint =
-            (0..now.q.len()).max_by(|a, b| excess(a).total_cmp(&excess(b))).filter(|joint| excess(joint) > 1.0)?;
+        let (joint, _) = self.furthest(sample, &before.q, &now.q).filter(|(_, share)| *share > 1.0)?;
         let step = self.way(joint, before.q[joint], now.q[joint]);
         let name = |joint: usize| &self.chain.joints()[joint].name;
         let goes_on = layers[sample].iter().any(|state| !self.step(sample, &before.q, &state.q).0);
@@ -261,9 +264,7 @@ impl Path<'_> {
             let blocked = self.end_of_branch(sample, layers, ways);
             format!("the branch goes on, but ends {blocked}")
         } else if let Some(same) = same {
-            let furthest =
-                |joint: &usize| self.way(*joint, before.q[*joint], same.q[*joint]).abs() / self.most(sample, *joint);
-            let fast = (0..same.q.len()).max_by(|a, b| furthest(a).total_cmp(&furthest(b))).unwrap_or(joint);
+            let (fast, _) = self.furthest(sample, &before.q, &same.q)?;
             let turns = self.chain.joints()[fast].kind == JointKind::Revolute;
             if turns && self.way(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
                 format!("`{}` would leave its limits; it turns back by a whole turn", name(fast))

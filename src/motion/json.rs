@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-use super::table::{pose_numbers, pose_of};
+use super::table::{ROUNDING, pose_numbers, pose_of};
 use super::{Contact, Figure, JointTrack, Track, Trajectory};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
@@ -100,7 +100,8 @@ impl Trajectory {
             return Err(Error::new(ErrorKind::Syntax, text));
         }
         let written: Written = serde_json::from_str(text).map_err(syntax)?;
-        let poses = |poses: Vec<[f64; 7]>| poses.into_iter().map(pose_of).collect::<Result<Vec<Pose>>>();
+        let poses =
+            |poses: Vec<[f64; 7]>| poses.into_iter().map(|pose| pose_of(pose, ROUNDING)).collect::<Result<Vec<Pose>>>();
         let contact =
             |own: WrittenContact| Ok(Contact { name: own.name, poses: poses(own.poses)?, stands: own.stands });
         let track = |own: WrittenTrack| Track { name: own.name, at: own.at.into_iter().map(Point3::from).collect() };

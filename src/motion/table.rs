@@ -29,6 +29,8 @@ const MARK: &str = "# groebot trajectory ";
 const FORMAT: u32 = 1;
 /// The longest file that is read, in bytes.
 pub const TABLE_LIMIT: u64 = 1_000_000_000;
+/// How far from one the length of a quaternion may be that is written with nine decimals.
+pub(super) const ROUNDING: f64 = 1e-6;
 /// The ends of the columns of a pose, with their units.
 const POSE: [(&str, &str); 7] =
     [("x", "m"), ("y", "m"), ("z", "m"), ("qx", "1"), ("qy", "1"), ("qz", "1"), ("qw", "1")];
@@ -219,10 +221,10 @@ impl Header {
         trajectory.times.push(numbers[0]);
         trajectory.q.push(self.joints.iter().map(|place| numbers[*place]).collect());
         if let Some(places) = self.base {
-            trajectory.base.push(pose_of(places.map(|place| numbers[place]))?);
+            trajectory.base.push(pose_of(places.map(|place| numbers[place]), ROUNDING)?);
         }
         for (contact, (places, stands)) in trajectory.contacts.iter_mut().zip(&self.contacts) {
-            contact.poses.push(pose_of(places.map(|place| numbers[place]))?);
+            contact.poses.push(pose_of(places.map(|place| numbers[place]), ROUNDING)?);
             contact.stands.push(numbers[*stands] != 0.0);
         }
         for (track, places) in trajectory.points.iter_mut().zip(&self.points) {
@@ -253,11 +255,11 @@ pub(super) fn pose_numbers(pose: &Pose) -> [f64; 7] {
 /// The pose of a position and a quaternion xyzw.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a quaternion whose length is not one within 1e-6.
-pub(super) fn pose_of([x, y, z, qx, qy, qz, qw]: [f64; 7]) -> Result<Pose> {
+/// [`ErrorKind::BadValue`] for a quaternion whose length is not one within `rounding`.
+pub(crate) fn pose_of([x, y, z, qx, qy, qz, qw]: [f64; 7], rounding: f64) -> Result<Pose> {
     let quaternion = Quaternion::new(qw, qx, qy, qz);
     let norm = quaternion.norm();
-    if norm.is_nan() || (norm - 1.0).abs() > 1e-6 {
+    if norm.is_nan() || (norm - 1.0).abs() > rounding {
         let text = format!("a quaternion has the length {norm}; give one of length one");
         return Err(Error::new(ErrorKind::BadValue, text));
     }

@@ -15,7 +15,7 @@ pub use skd::{Manipulator, Real, Virtual, coordinated_arm};
 pub use teo::{TEO_ONE_STEP, teo, teo_walker};
 
 use crate::Result;
-use crate::gait::{Biped, Legs, Side, Walker};
+use crate::gait::{Biped, Side, Walker};
 use crate::kinematics::{Chain, ChainParts};
 use crate::model::Robot;
 
@@ -161,9 +161,4 @@ where
         }
     }
     Ok(posture)
-}
-
-/// A walker with legs that need nothing else.
-fn walker_of(biped: Biped, legs: Legs, gaits: &[(&'static str, crate::gait::Usual)]) -> Walker {
-    Walker { biped, legs, gaits: gaits.to_vec() }
 }

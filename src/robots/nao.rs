@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::{Point2, Vector2};
 
 use super::printed::{NAO_LEFT_LEG, NAO_RIGHT_LEG};
-use super::{Outline, described, posture, walker_of};
+use super::{Outline, described, posture};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Side, TICK, Usual, Walker};
 use crate::model::{Meshes, Robot};
@@ -48,7 +48,8 @@ pub fn nao_walker(outline: Outline) -> Result<Walker> {
     };
     let crouch = posture(&biped, values)?;
     let legs = Legs::new(&biped, [Arc::new(NAO_LEFT_LEG), Arc::new(NAO_RIGHT_LEG)], crouch)?;
-    Ok(walker_of(biped, legs, &[("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)]))
+    let gaits = vec![("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)];
+    Ok(Walker { biped, legs, gaits })
 }
 
 /// Heights of the hip that are tried in turn \[m\]: higher ones leave the ankles' roll more room, lower ones reach further.

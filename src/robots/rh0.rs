@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::printed::{FromTheFoot, Printed, RH0_LEFT_LEG, RH0_RIGHT_LEG};
-use super::{described, posture, walker_of};
+use super::{described, posture};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
 use crate::model::{Meshes, Robot};
@@ -46,7 +46,8 @@ pub fn rh0_walker() -> Result<Walker> {
     let pair = |(follower, leader): &(&str, &str)| Ok((biped.joint(follower)?, biped.joint(leader)?));
     let coordinated = COORDINATED.iter().map(pair).collect::<Result<_>>()?;
     let legs = Legs::new(&biped, [Arc::new(left), Arc::new(right)], crouch)?.with_coordinated(coordinated);
-    Ok(walker_of(biped, legs, &[("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)]))
+    let gaits = vec![("rh0", RH0_SIMULATION), ("rh0-real", RH0_EXPERIMENT), ("osg", RH0_GENERIC)];
+    Ok(Walker { biped, legs, gaits })
 }
 
 /// The height of the ankle over the sole \[m\]: assumed, `src/robots/data/rh0.toml`.

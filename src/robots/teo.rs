@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::printed::{Mirrored, TEO_LEFT_LEG};
-use super::{described, posture, walker_of};
+use super::{described, posture};
 use crate::Result;
 use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
 use crate::model::{Meshes, Robot};
@@ -29,7 +29,7 @@ pub fn teo_walker() -> Result<Walker> {
     let crouch = posture(&biped, |_| CROUCH)?;
     let right = Mirrored { image: TEO_LEFT_LEG, senses: SENSES };
     let legs = Legs::new(&biped, [Arc::new(TEO_LEFT_LEG), Arc::new(right)], crouch)?;
-    Ok(walker_of(biped, legs, &[("osg", TEO_ONE_STEP)]))
+    Ok(Walker { biped, legs, gaits: vec![("osg", TEO_ONE_STEP)] })
 }
 
 /// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle; all figures are ours.

@@ -4,6 +4,7 @@ use std::fmt::{self, Write};
 
 use num_traits::ToPrimitive;
 
+use crate::model::attributes::{escaped, floats};
 use crate::model::{Actuator, Joint, Link, Mass, Mimic, Origin, Robot, Shape, Solid};
 use crate::number::BigRational;
 use crate::spatial::exact::ExactVector;
@@ -141,15 +142,7 @@ fn decimals(numbers: &ExactVector) -> String {
     numbers.each_ref().map(decimal).join(" ")
 }
 
-fn floats(numbers: &[f64]) -> String {
-    numbers.iter().map(|number| (number + 0.0).to_string()).collect::<Vec<_>>().join(" ")
-}
-
 /// The digits of a decimal number; the nearest double of any other.
 fn decimal(number: &BigRational) -> String {
     crate::number::decimal_text(number).unwrap_or_else(|| number.to_f64().unwrap_or(f64::NAN).to_string())
-}
-
-fn escaped(text: &str) -> String {
-    quick_xml::escape::escape(text).into_owned()
 }
