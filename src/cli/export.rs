@@ -59,8 +59,9 @@ fn described(robot: &Path) -> Result<(Robot, Meshes)> {
     if let Some(known) = robot.to_str().and_then(robots::robot) {
         return Ok((known, Meshes::default()));
     }
-    match InputFile::read(robot)?.description {
-        Description::Robot(read) => Ok((read, Meshes::beside(robot))),
+    let input = InputFile::read(robot)?;
+    match input.description {
+        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
         _ => {
             let text = "this describes no robot with links; give one in URDF or TOML";
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))

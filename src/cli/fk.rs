@@ -160,7 +160,7 @@ fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
 fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let mut rows = targets::Reader::new(edge.names(), io::stdin().lock());
+    let mut rows = targets::Reader::new(edge.names(), io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
         write(&csv_header(edge))?;
     }

@@ -109,12 +109,12 @@ fn speeds(description: &Description, chain: &Chain) -> Vec<Option<f64>> {
 /// The poses of a file, and their times where it tells them.
 fn read_poses(file: &Path) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
-    read_from(BufReader::new(opened)).map_err(|error| error.in_file(file))
+    read_from(BufReader::new(opened), file).map_err(|error| error.in_file(file))
 }
 
-fn read_from(input: impl BufRead) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+fn read_from(input: impl BufRead, file: &Path) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     let timed: Vec<&str> = ["time"].into_iter().chain(POSE).collect();
-    let mut reader = Reader::of_forms(vec![timed, POSE.to_vec()], input);
+    let mut reader = Reader::of_forms(vec![timed, POSE.to_vec()], input, file);
     let (mut poses, mut times) = (Vec::new(), Vec::new());
     while let Some(row) = reader.next() {
         let row = row?;

@@ -129,7 +129,7 @@ fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
     let forms = Forms::new(program);
-    let mut rows = targets::Reader::of_forms(forms.names(), io::stdin().lock());
+    let mut rows = targets::Reader::of_forms(forms.names(), io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
         write(&csv_header(program))?;
     }

@@ -59,17 +59,19 @@ pub struct Reader<'a, R> {
     /// Once the first row is read: the form of its names and which column each is in, when the row has names.
     columns: Option<(usize, Vec<usize>)>,
     is_first: bool,
+    /// How errors call the input.
+    file: &'a Path,
 }
 
 impl<'a, R: BufRead> Reader<'a, R> {
-    /// Reads values of `names` from `input`.
-    pub fn new(names: Vec<&'a str>, input: R) -> Self {
-        Reader::of_forms(vec![names], input)
+    /// Reads values of `names` from `input`, which is `file`.
+    pub fn new(names: Vec<&'a str>, input: R, file: &'a Path) -> Self {
+        Reader::of_forms(vec![names], input, file)
     }
 
-    /// Reads values of any of these lists of names from `input`.
-    pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R) -> Self {
-        Reader { forms, lines: input.lines().enumerate(), columns: None, is_first: true }
+    /// Reads values of any of these lists of names from `input`, which is `file`.
+    pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R, file: &'a Path) -> Self {
+        Reader { forms, lines: input.lines().enumerate(), columns: None, is_first: true, file }
     }
 
     /// The next target; a first row of names is taken note of.
@@ -81,14 +83,14 @@ impl<'a, R: BufRead> Reader<'a, R> {
         loop {
             let (index, text) = self.lines.next()?;
             let line = index + 1;
-            let read = text.map_err(|error| unreadable(&error)).and_then(|text| match text.trim() {
+            let read = text.map_err(|error| unreadable(&error, self.file)).and_then(|text| match text.trim() {
                 "" => Ok(None),
                 text => self.row(&record(text)?),
             });
             match read {
                 Ok(None) => {}
                 Ok(Some(target)) => return Some(Ok(Row { line, target })),
-                Err(error) => return Some(Err(error.at_line(line).in_file(Path::new(STDIN)))),
+                Err(error) => return Some(Err(error.at_line(line).in_file(self.file))),
             }
         }
     }
@@ -148,9 +150,9 @@ fn record(line: &str) -> Result<StringRecord> {
     }
 }
 
-fn unreadable(error: &io::Error) -> Error {
+fn unreadable(error: &io::Error, file: &Path) -> Error {
     match error.kind() {
         io::ErrorKind::InvalidData => Error::new(ErrorKind::Syntax, "the text is not UTF-8; give UTF-8"),
-        _ => Error::io(Path::new(STDIN), error),
+        _ => Error::io(file, error),
     }
 }

@@ -42,7 +42,7 @@ pub fn parts(parts: &RobotParts) -> Result<Vec<(usize, usize)>> {
         check_mimic(joint, &parts.joints, &joints)?;
     }
     for (place, actuator) in parts.actuators.iter().enumerate() {
-        check_actuator(actuator, &parts.actuators[..place], &joints)?;
+        check_actuator(actuator, &parts.actuators[..place], &parts.joints)?;
     }
     parts.joints.iter().map(|joint| ends_of(joint, &parts.links, &links)).collect()
 }
@@ -58,7 +58,7 @@ pub fn place<'n>(what: &str, name: &str, names: impl Iterator<Item = &'n str> + 
     })
 }
 
-fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &HashMap<&str, usize>) -> Result<()> {
+fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &[Joint]) -> Result<()> {
     check_name(&actuator.name, None, "actuator")?;
     let named =
         |kind, message: String| Err(Error::new(kind, format!("actuator `{}`: {message}", shown(&actuator.name))));
@@ -68,9 +68,10 @@ fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &HashMap<&st
     if actuator.joints.is_empty() {
         return named(ErrorKind::BadValue, "it moves no joint; name one".to_owned());
     }
-    if let Some((name, _)) = actuator.joints.iter().find(|(name, _)| !joints.contains_key(name.as_str())) {
-        let names = some_among(name, joints.keys().copied());
-        return named(ErrorKind::UnknownName, format!("the robot has no joint `{}`{names}", shown(name)));
+    for (name, _) in &actuator.joints {
+        if let Err(error) = place("joint", name, joints.iter().map(|joint| joint.name.as_str())) {
+            return named(error.kind(), error.message().to_owned());
+        }
     }
     if let Some((name, ratio)) = actuator.joints.iter().find(|(_, ratio)| !(ratio.is_finite() && *ratio != 0.0)) {
         let message = format!("its ratio to `{}` is {ratio}; give one that is finite and not zero", shown(name));

@@ -3,18 +3,19 @@
 //! Every link is a body, every joint that turns or slides a joint with a position servo, and what collides a geom that touches the floor and no other
 //! part of the robot. Joints that follow others are tied to them by equations. The root moves freely over a floor.
 
-use std::fmt::Write;
-
 use super::attributes::{escaped, floats};
 use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid};
 use crate::spatial::Pose;
+
+/// The deepest level whose lines begin further to the right than those above.
+const MOST_STEMS: usize = 60;
 
 impl Robot {
     /// The robot as MJCF, with the files of its meshes where `meshes` finds them; meshes in other formats than STL and OBJ are left out. Masses that no
     /// body has are made possible by MuJoCo's compiler.
     pub fn to_mjcf(&self, meshes: &Meshes) -> String {
         let mut writer = Writer { robot: self, meshes, assets: Vec::new() };
-        let bodies = writer.body(self.root_place(), None, 2);
+        let bodies = writer.bodies();
         let assets: String = writer.assets.iter().map(|asset| format!("    {asset}\n")).collect();
         format!(
             "<mujoco model=\"{name}\">\n  <compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"true\" boundmass=\"1e-4\" \
@@ -64,35 +65,43 @@ struct Writer<'r> {
 }
 
 impl Writer<'_> {
-    /// The body of a link below `joint`, with all that hangs on it, `depth` levels deep.
-    fn body(&mut self, link: usize, joint: Option<&Joint>, depth: usize) -> String {
-        let robot = self.robot;
-        let (stem, own) = ("  ".repeat(depth), &robot.links()[link]);
-        let at = joint.map(|joint| placed(&joint.origin.pose())).unwrap_or_default();
-        // Writing to a string cannot fail.
-        let mut text = format!("{stem}<body name=\"{}\"{at}>\n", escaped(&own.name));
-        match joint {
-            None => {
-                let _ = writeln!(text, "{stem}  <freejoint name=\"root\"/>");
-            }
-            Some(joint) => text += &moving(joint, &stem),
+    /// All bodies, each within the one that carries it.
+    fn bodies(&mut self) -> String {
+        let (robot, children) = (self.robot, self.robot.children());
+        let (mut text, mut depth) = (String::new(), 2);
+        // What is still to be written, the next one last: a link and the joint above it, or the end of a body.
+        let mut open = vec![Some((robot.root_place(), None))];
+        while let Some(next) = open.pop() {
+            let Some((link, joint)) = next else {
+                depth -= 1;
+                text += &format!("{}</body>\n", stem(depth));
+                continue;
+            };
+            text += &self.opened(&robot.links()[link], joint, &stem(depth));
+            depth += 1;
+            open.push(None);
+            let below = children[link].iter().rev();
+            open.extend(below.map(|&joint| Some((robot.ends(joint).1, Some(&robot.joints()[joint])))));
         }
-        text += &inertial(own, &stem);
-        let shapes = own
+        text
+    }
+
+    /// The body of a link below `joint`, but for what hangs on it and its end.
+    fn opened(&mut self, link: &Link, joint: Option<&Joint>, stem: &str) -> String {
+        let at = joint.map(|joint| placed(&joint.origin.pose())).unwrap_or_default();
+        let moves = joint.map_or(format!("{stem}  <freejoint name=\"root\"/>\n"), |joint| moving(joint, stem));
+        let mut text = format!("{stem}<body name=\"{}\"{at}>\n{moves}{}", escaped(&link.name), inertial(link, stem));
+        let shapes = link
             .collisions
             .iter()
             .map(|shape| (shape, ""))
-            .chain(own.visuals.iter().map(|shape| (shape, " class=\"visual\"")));
+            .chain(link.visuals.iter().map(|shape| (shape, " class=\"visual\"")));
         for (shape, class) in shapes {
             if let Some(geom) = self.geom(shape) {
-                let _ = writeln!(text, "{stem}  <geom{class} {geom}{}/>", placed(&shape.pose()));
+                text += &format!("{stem}  <geom{class} {geom}{}/>\n", placed(&shape.pose()));
             }
         }
-        let below: Vec<usize> = robot.order().iter().copied().filter(|joint| robot.ends(*joint).0 == link).collect();
-        for joint in below {
-            text += &self.body(robot.ends(joint).1, Some(&robot.joints()[joint]), depth + 1);
-        }
-        text + &format!("{stem}</body>\n")
+        text
     }
 
     /// The solid and the colour of a geom; none for a mesh that MuJoCo cannot read.
@@ -118,6 +127,11 @@ impl Writer<'_> {
         let colour = shape.colour.map(|[r, g, b, a]| format!(" rgba=\"{r} {g} {b} {a}\"")).unwrap_or_default();
         Some(solid + &colour)
     }
+}
+
+/// The blanks before what is `depth` levels deep; beyond [`MOST_STEMS`] they grow no further, so that a very deep tree stays of linear size.
+fn stem(depth: usize) -> String {
+    "  ".repeat(depth.min(MOST_STEMS))
 }
 
 /// The joint of a body; nothing where it is fixed.

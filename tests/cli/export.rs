@@ -46,8 +46,15 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     let facets: String = [[0, 1, 2], [1, 2, 3], [4, 5, 6], [5, 6, 7], [0, 4, 1], [2, 6, 3]].map(facet).concat();
     fs::write(folder.path().join("sole.stl"), format!("solid s\n{facets}endsolid s\n")).unwrap();
     fs::write(&urdf, described.replace(box_of, "<mesh filename=\"sole.stl\"/>")).unwrap();
-    let again = walk(&[]);
-    assert_eq!(again, told);
+    assert_eq!(walk(&[]), told);
+
+    // A folder holds the description as `0_robot.urdf`, its meshes beside it.
+    let inside = folder.path().join("described");
+    fs::create_dir(&inside).unwrap();
+    fs::copy(&urdf, inside.join("0_robot.urdf")).unwrap();
+    fs::copy(folder.path().join("sole.stl"), inside.join("sole.stl")).unwrap();
+    let from_folder = succeed(&[&["walk", text(&inside)][..], &soles, &["--goal", "0.2,0.05,20"]].concat());
+    assert_eq!(from_folder, told);
 }
 
 #[test]

@@ -61,7 +61,8 @@ fn a_jump_is_told_or_refused() {
         ("", "there is no pose"),
     ] {
         fs::write(&input, text_of).unwrap();
-        assert!(refused(&all).contains(words), "{words}");
+        let told = refused(&all);
+        assert!(told.contains(words) && told.contains(text(&input)), "{told}");
     }
     assert!(refused(&["follow", "derivations/ur5", "--poses", "/nowhere.csv"]).contains("/nowhere.csv"));
 }

@@ -25,6 +25,23 @@ fn every_link_is_a_body_and_every_leader_has_a_servo() {
     }
 }
 
+/// A chain of eight thousand links is no deeper for the writer than one of two, and its text is not much longer a link.
+#[test]
+fn a_very_deep_robot_is_written() {
+    let chain = |count: usize| {
+        let link = |k: usize| {
+            let (above, name) = (k - 1, format!("l{k}"));
+            let ends = format!("<parent link=\"l{above}\"/><child link=\"{name}\"/>");
+            format!("<link name=\"{name}\"/><joint name=\"j{k}\" type=\"fixed\">{ends}</joint>")
+        };
+        let links: String = (1..=count).map(link).collect();
+        Robot::from_urdf(&format!("<robot name=\"deep\"><link name=\"l0\"/>{links}</robot>")).unwrap()
+    };
+    let text = chain(8_000).to_mjcf(&Meshes::default());
+    assert_eq!((count(&text, "body"), text.matches("</body>").count()), (8_001, 8_001));
+    assert!(text.len() < 8_001 * 400);
+}
+
 #[test]
 fn what_follows_is_tied_and_meshes_that_are_not_there_are_left_out() {
     let text = Robot::from_urdf(RICH).unwrap().to_mjcf(&Meshes::default());

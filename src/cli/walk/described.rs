@@ -38,7 +38,9 @@ pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walke
             format!("`{}` is neither a file nor a robot that walks; give a file, `nao`, `rh0` or `teo`", shown(&name));
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
-    let Description::Robot(robot) = InputFile::read(file)?.description else {
+    let input = InputFile::read(file)?;
+    let file = &input.path;
+    let Description::Robot(robot) = input.description else {
         let text = "this describes no robot with links; a walk needs one, in URDF or TOML";
         return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     };
