@@ -24,3 +24,11 @@ mod spatial;
 mod template;
 mod watch;
 mod witness;
+
+use proptest::test_runner::{Config, FileFailurePersistence};
+
+/// So many cases of a property; inputs that fail are kept in `tests/regressions/` and come first from then on.
+fn cases(count: u32) -> Config {
+    let kept = FileFailurePersistence::SourceParallel("tests/regressions");
+    Config { cases: count, failure_persistence: Some(Box::new(kept)), ..Config::default() }
+}

@@ -4,6 +4,7 @@ mod asked;
 mod basis;
 mod check;
 mod codegen;
+mod committed;
 mod derive;
 mod explain;
 mod export;

@@ -228,12 +228,17 @@ fn every_stored_solver_is_cpp() {
         assert!(!text.contains("extern \"C\"") && !text.contains("#define JOINTS"), "{}", stored.name);
         let folder = folder(&stored.program, &Options::default());
         let alone = ["-std=c++17", "-fsyntax-only", "-x", "c++", "5_ikfast.cpp"];
-        if compile(folder.path(), &alone).is_none() {
+        // One of each kind is read twice.
+        let is_one = ["puma", "general_6r", "scara"].contains(&stored.name.as_str());
+        if is_one && compile(folder.path(), &alone).is_none() {
             return;
         }
         let library =
             ["-std=c++11", "-fsyntax-only", "-DIKFAST_CLIBRARY", "-DIKFAST_NO_MAIN", "-DIKFAST_DOUBLE_OPENRAVE"];
-        compile(folder.path(), &[&library[..], &["-DIKFAST_NAMESPACE=arm", "5_ikfast.cpp"]].concat());
+        let arguments = [&library[..], &["-DIKFAST_NAMESPACE=arm", "5_ikfast.cpp"]].concat();
+        if compile(folder.path(), &arguments).is_none() {
+            return;
+        }
     }
     assert!(printed >= 18, "{printed}");
 }

@@ -68,18 +68,8 @@ pub fn compare(program: &Program, count: usize) -> Option<Seen> {
 
 #[test]
 fn answers_of_single_precision_are_near_those_of_double_precision() {
-    for stored in named(&[
-        "puma",
-        "ur5",
-        "nao_left_leg",
-        "nao_left_arm",
-        "offset_wrist",
-        "spherical_wrist",
-        "scara",
-        "planar_3r",
-        "iiwa14",
-    ]) {
-        let Some(seen) = compare(&stored.program, 1500) else { return };
+    for stored in named(&["puma", "nao_left_leg", "offset_wrist", "spherical_wrist", "scara", "iiwa14"]) {
+        let Some(seen) = compare(&stored.program, 900) else { return };
         println!("{}: {seen:?}", stored.name);
         assert!(seen.farthest <= 1e-4, "{}: {seen:?}", stored.name);
         assert!(seen.found * 1000 >= seen.expected * 998, "{}: {seen:?}", stored.name);

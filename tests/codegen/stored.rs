@@ -20,17 +20,21 @@ pub fn all() -> Vec<Stored> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations");
     let mut folders: Vec<PathBuf> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
-    let stored = |folder: PathBuf| {
-        let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).ok()?).unwrap();
-        let chain = InputFile::read(&folder).unwrap().chain(&Default::default()).unwrap();
-        Some(Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain })
-    };
-    folders.into_iter().filter_map(stored).collect()
+    folders.iter().filter_map(|folder| stored(folder)).collect()
 }
 
-/// Some of them.
+/// Some of them, in the order of their names.
 pub fn named(names: &[&str]) -> Vec<Stored> {
-    all().into_iter().filter(|stored| names.contains(&stored.name.as_str())).collect()
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations");
+    let mut names = names.to_vec();
+    names.sort_unstable();
+    names.iter().map(|name| stored(&root.join(name)).unwrap_or_else(|| panic!("{name} has no program"))).collect()
+}
+
+fn stored(folder: &Path) -> Option<Stored> {
+    let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).ok()?).unwrap();
+    let chain = InputFile::read(folder).unwrap().chain(&Default::default()).unwrap();
+    Some(Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain })
 }
 
 /// Joint values: anywhere, and, for every third, with some at places where configurations are singular.

@@ -86,7 +86,7 @@ fn the_certificate_of_another_mechanism_proves_nothing() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::cases(60))]
 
     /// One character changed somewhere: either the text means the same, or it is refused; nothing panics.
     #[test]

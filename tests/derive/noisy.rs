@@ -67,7 +67,7 @@ fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4))]
+    #![proptest_config(crate::cases(4))]
 
     #[test]
     fn no_ordinary_pose_of_a_noisy_robot_is_lost(seed: u64, digits in 8i32..18) {

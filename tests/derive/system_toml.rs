@@ -253,6 +253,8 @@ fn files_are_read_with_their_name() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn noise_never_panics(text in "\\PC{0,60}", at in 0..ARM.len(), length in 0usize..30, noise in "[-\"a-z0-9=*/^()\\[\\]{}., \n]{0,10}") {
         let _ = System::from_toml(&text);

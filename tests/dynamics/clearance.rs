@@ -35,6 +35,8 @@ fn depth(robot: &Robot, q: &[f64]) -> Option<f64> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     /// The distance of two segments is the least between their points, here of a fine grid.
     #[test]
     fn capsules_are_as_deep_as_their_segments_are_near(

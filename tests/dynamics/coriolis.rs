@@ -54,6 +54,8 @@ fn the_printed_derivative_has_one_transpose_too_many() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn derivatives_of_the_inertia_matrix_by_adjoints(case in case()) {
         let found = case.arm.inertia_derivatives(&case.q).unwrap();

@@ -65,6 +65,8 @@ fn joints_bodies_and_values_are_checked() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn a_link_adds_its_kinetic_energy(case in case()) {
         for link in 0..case.q.len() {

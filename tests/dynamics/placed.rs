@@ -60,6 +60,8 @@ fn pose(numbers: [f64; 6]) -> Pose {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn momentum_is_that_of_the_points(
         at in prop::array::uniform6(-1.0..1.0), twist in prop::array::uniform6(-1.0..1.0),

@@ -29,7 +29,7 @@ fn map(pairs: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(crate::cases(32))]
 
     #[test]
     fn what_was_written_is_read_back(first in any::<Vec<u8>>(), second in any::<Vec<u8>>()) {

@@ -116,6 +116,8 @@ fn half_a_walk_ends_with_one_foot_ahead() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     /// A way to a goal ends there with level feet, turns by no more than it may, and no step leads further than a length.
     #[test]
     fn ways_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {

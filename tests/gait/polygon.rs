@@ -31,6 +31,8 @@ fn segments_points_and_nothing_are_polygons_too() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn a_hull_holds_its_points_and_only_their_mixtures(
         list in prop::collection::vec((-1.0..1.0, -1.0..1.0), 3..20), shares in prop::collection::vec(0.0..1.0f64, 20),

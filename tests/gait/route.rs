@@ -27,6 +27,8 @@ fn a_turn_is_shared_by_the_steps() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     /// The prints of a regular route stand at both sides of a way of equal sides, and end closed.
     #[test]
     fn regular_routes_close(steps in 1usize..30, length in -0.1..0.1f64, turn in -2.0..2.0f64, right: bool) {

@@ -194,7 +194,7 @@ fn is_covered(systems: &[Sparse]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::cases(40))]
 
     #[test]
     fn random_systems(systems in prop::collection::vec(sparse(4, 3, 2), 1..3)) {

@@ -58,7 +58,7 @@ fn agree(p: u64, order: Order, generators: &[Sparse]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(crate::cases(300))]
 
     #[test]
     fn equals_buchberger(

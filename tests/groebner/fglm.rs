@@ -251,7 +251,7 @@ fn build_system(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::cases(60))]
 
     #[test]
     fn a_change_of_order_equals_the_direct_computation(system in finite_system(), prime in 0usize..3, order in 0usize..4) {

@@ -136,7 +136,7 @@ fn exponents(degree: u32) -> impl Iterator<Item = [u32; 3]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::cases(60))]
 
     /// The definition: as many as the monomials of that degree that no lead divides; from some degree on a polynomial.
     #[test]

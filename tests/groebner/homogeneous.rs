@@ -98,7 +98,7 @@ fn degrees_are_filled_up_by_the_new_variable() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::cases(40))]
 
     /// In every order a basis of the homogenised system becomes one of the system.
     #[test]

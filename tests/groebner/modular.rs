@@ -83,7 +83,7 @@ fn agrees(order: Order, generators: &[Sparse], numbers: &[BigInt]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::cases(40))]
 
     #[test]
     fn random_ideals_have_the_basis_of_the_engine(generators in prop::collection::vec(sparse(3, 3, 2), 1..4), order in 0usize..4) {

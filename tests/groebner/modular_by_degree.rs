@@ -64,7 +64,7 @@ fn agrees(ring: &PolynomialRing<Rationals>, texts: &[String]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::cases(40))]
 
     #[test]
     fn multiple_points_have_the_basis_of_the_engine(n in prop::collection::vec(-3i64..4, 8), powers in prop::collection::vec(1u32..3, 4), names in 0usize..6, order in 0usize..4) {

@@ -235,7 +235,7 @@ fn functions_without_a_corner_on_the_axes_are_interpolated() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     #[test]
     fn random_functions_are_interpolated(functions in prop::collection::vec((sparse(3, 5, 4), sparse(3, 4, 3)), 1..4)) {

@@ -46,7 +46,7 @@ fn agree<F: Field>(field: F, order: Order, generators: &[Sparse]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::cases(40))]
 
     #[test]
     fn modulo_a_prime(generators in prop::collection::vec(sparse(3, 3, 2), 1..4), order in 0usize..4) {

@@ -83,7 +83,7 @@ fn roots(denominator: i64) -> impl Strategy<Value = Vec<(i64, i64, usize)>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     /// `p(x + a y) = q(y + b x) = 0`: a grid of points, each of the product of two multiplicities.
     #[test]

@@ -256,6 +256,8 @@ fn files_are_named_in_errors() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn damaged_files_never_panic(at in 0..FORM_A.len(), length in 0usize..40, patch in "\\PC{0,8}|[-0-9.e'\\[\\]{}=\\n]{0,8}") {
         let end = (at + length).min(FORM_A.len());

@@ -101,6 +101,8 @@ fn mistakes_have_a_line_and_a_name() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(40))]
+
     #[test]
     fn four_readers_of_one_robot_agree(q in prop::collection::vec(-6.3f64..6.3, 6)) {
         let [standard, modified] = [STANDARD, MODIFIED].map(|text| forward(&Chain::from_dh_toml(text).unwrap(), &q));

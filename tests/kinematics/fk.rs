@@ -109,6 +109,8 @@ fn quarters_of(pose: &Pose) -> [i32; 3] {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn the_two_link_leg_obeys_the_hand_formulas(q3 in -4.0..4.0f64, q4 in -4.0..4.0f64) {
         let pose = Chain::from_toml(&documented_example()).unwrap().forward(&[q3, q4]).unwrap();

@@ -134,7 +134,7 @@ fn a_tolerance_out_of_range_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(8))]
+    #![proptest_config(crate::cases(3))]
 
     /// Five decimals: 5e-6 at most in each coordinate, so that neighbours differ by less than 2e-5.
     #[test]

@@ -66,6 +66,8 @@ fn without_joints_nothing_moves() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn the_spatial_jacobian_is_the_velocity_in_the_base_frame((screws, q, tip) in arm()) {
         let found = jacobian::spatial(&screws, &q).unwrap();

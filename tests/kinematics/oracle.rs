@@ -78,7 +78,7 @@ fn the_same_question_has_the_same_answer() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::cases(200))]
 
     #[test]
     fn two_links(l1 in 0.3..1.0, l2 in 0.3..1.0, q1 in -PI..PI, q2 in 0.1..3.0) {

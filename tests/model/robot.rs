@@ -220,6 +220,8 @@ fn too_long_a_way_is_refused() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(40))]
+
     /// From hand to hand, up one arm and down the other, is the way over the torso.
     #[test]
     fn the_way_up_undoes_the_way_down(q in prop::collection::vec(-2.0f64..2.0, 10)) {

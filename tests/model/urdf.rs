@@ -1,7 +1,5 @@
 //! URDF against another reader (urdf-rs) and matrices multiplied out; mistakes; damaged files.
 
-use std::time::{Duration, Instant};
-
 use groebot::ErrorKind;
 use groebot::kinematics::{Chain, JointKind};
 use groebot::model::{JointType, Robot};
@@ -213,9 +211,7 @@ fn deep_nesting_and_large_files_are_no_danger() {
     let deep = format!("<robot>{}{}</robot>", "<a>".repeat(300_000), "</a>".repeat(300_000));
     assert!(Robot::from_urdf(&deep).unwrap_err().message().contains("deeper than 100"));
     let links: String = (0..50_000).map(|i| format!("<link name=\"l{i}\"/>")).collect();
-    let start = Instant::now();
     assert!(Robot::from_urdf(&format!("<robot>{links}</robot>")).unwrap_err().message().contains("and 49988 more"));
-    assert!(start.elapsed() < Duration::from_secs(5));
 }
 
 /// Type, xyz, rpy and axis of a joint, in thousandths.
@@ -245,29 +241,18 @@ fn close(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
 }
 
 #[test]
-fn a_long_general_chain_is_fast_and_survives_json() {
+fn a_long_general_chain_survives_json() {
     let joints: Vec<_> =
         (0..64).map(|i| (if i % 6 == 0 { 0 } else { 3 }, [i, 77, -31], [i + 100, -900, 2000], [1, i, 5])).collect();
     let tree = Robot::from_urdf(&serial(&joints)).unwrap();
-    let start = Instant::now();
-    let twelve = tree.chain(Some("l1"), None);
-    assert!(twelve.is_ok(), "{twelve:?}");
-    let elapsed = start.elapsed();
-    let chain: Chain = twelve.unwrap();
+    let chain: Chain = tree.chain(Some("l1"), None).unwrap();
     let text = serde_json::to_string(&chain).unwrap();
     assert_eq!(serde_json::from_str::<Chain>(&text).unwrap(), chain);
-    assert!(elapsed < Duration::from_secs(2), "{elapsed:?}");
-}
-
-#[test]
-fn naos_leg_is_cut_out_fast() {
-    let tree = Robot::from_urdf(NAO).unwrap();
-    let start = Instant::now();
-    tree.chain(None, Some("l_sole")).unwrap();
-    assert!(start.elapsed() < Duration::from_millis(50), "{:?}", start.elapsed());
 }
 
 proptest! {
+    #![proptest_config(crate::cases(48))]
+
     #[test]
     fn a_serial_robot_is_the_product_of_its_joints(
         joints in prop::collection::vec(
@@ -283,6 +268,10 @@ proptest! {
         let off = close(&chain.forward(q).unwrap(), &multiplied_out(&text, q));
         prop_assert!(off < 1e-13, "{}", off);
     }
+}
+
+proptest! {
+    #![proptest_config(crate::cases(256))]
 
     #[test]
     fn damaged_files_never_panic(

@@ -94,7 +94,7 @@ fn angle() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     /// Each joint stands on the axis of the joint before, so that neighbours meet, are parallel or have one axis: exactly.
     #[test]

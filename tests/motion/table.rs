@@ -66,6 +66,8 @@ fn mistakes_have_a_line() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     /// Whatever is read, nothing panics.
     #[test]
     fn damaged_tables_are_read_or_refused(at in 0usize..900, what in ".{0,4}", length in 0usize..30) {

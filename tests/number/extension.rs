@@ -16,6 +16,8 @@ fn root_of_two() -> Extension<Rationals> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn extensions_are_fields(a in any::<[u16; 6]>(), b in any::<(i32, i32)>()) {
         for field in finite() {

@@ -12,6 +12,8 @@ fn rational(n: i64, d: i64) -> BigRational {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn rationals_are_a_field(a in any::<(i64, i32)>(), b in any::<(i32, i32)>()) {
         let samples = [rational(a.0, i64::from(a.1) * 2 + 1), rational(b.0.into(), i64::from(b.1) * 2 + 1)];

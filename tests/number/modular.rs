@@ -31,6 +31,8 @@ fn image(q: &BigRational, chinese: &Chinese) -> BigInt {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn an_integer_is_its_residues(n in integers(12), count in 0usize..26) {
         let primes = primes(count);

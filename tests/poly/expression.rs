@@ -26,6 +26,8 @@ fn at_point(tree: &Expression) -> groebot::Result<BigRational> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn text_reads_back_as_an_equal_expression(tree in tree(true)) {
         let text = tree.to_string();

@@ -65,7 +65,7 @@ fn laws<F: Field>(field: F, parts: &[(Sparse, u32)]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     #[test]
     fn a_product_has_irreducible_factors(parts in prop::collection::vec((sparse(3, 4, 2), 1u32..3), 1..4)) {

@@ -94,7 +94,7 @@ pub fn gcd_laws<F: Field>(ring: &PolynomialRing<F>, parts: &[&Sparse; 3]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::cases(64))]
 
     #[test]
     fn a_gcd_divides_and_leaves_coprime_cofactors(f in sparse(3, 3, 2), g in sparse(3, 3, 2), h in sparse(3, 3, 2)) {

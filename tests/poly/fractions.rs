@@ -17,7 +17,7 @@ fn parts(variables: usize, count: usize) -> impl Strategy<Value = Vec<(Sparse, S
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(crate::cases(32))]
 
     #[test]
     fn rational_functions_are_a_field(parts in parts(2, 2)) {

@@ -56,7 +56,7 @@ fn a_small_field_is_extended_for_long_polynomials() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     #[test]
     fn long_products_have_their_gcd(f in sparse(4, 9, 3), g in sparse(4, 9, 3), h in sparse(4, 12, 3)) {

@@ -77,6 +77,8 @@ fn mistakes_name_their_column() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn names_read_back(name in "[A-Za-z_][A-Za-z0-9_]{0,8}") {
         prop_assert_eq!(parse_latex(&latex_name(&name)).unwrap(), Expression::Name(name));

@@ -100,7 +100,7 @@ fn compare_with_vectors(layout: &Layout, a: &[u32], b: &[u32]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(crate::cases(1000))]
 
     #[test]
     fn packed_monomials_are_exponent_vectors((a, b, order) in pair_and_order()) {

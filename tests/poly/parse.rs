@@ -140,6 +140,8 @@ fn the_deepest_tree_fits_a_small_stack() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn noise_never_panics(text in "\\PC*") {
         let _ = (parse(&text), parse_equation(&text));

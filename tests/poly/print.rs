@@ -33,6 +33,8 @@ fn combination<F: Field>(
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn over_the_rationals_and_prime_fields(f in sparse(4, 6, 12), denominators in prop::collection::vec(1i64..99, 6)) {
         let rationals = ring(Rationals);

@@ -27,7 +27,7 @@ fn axioms_over<F: Field>(field: &F, samples: &[Sparse]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::cases(48))]
 
     #[test]
     fn they_are_rings(samples in prop::collection::vec(sparse(3, 4, 3), 3)) {

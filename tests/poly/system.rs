@@ -206,7 +206,7 @@ impl Sample {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(crate::cases(96))]
 
     #[test]
     fn what_is_printed_is_read_back(sample in sample()) {

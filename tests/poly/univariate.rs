@@ -30,6 +30,8 @@ fn few_roots() -> impl Strategy<Value = Vec<i64>> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn they_are_a_ring(a in any_polynomial(), b in any_polynomial(), c in any_polynomial()) {
         laws::ring_axioms(&ring(), &[a, b, c]);

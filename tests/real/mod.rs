@@ -162,7 +162,7 @@ fn is_at(solution: &RealSolution, point: &[BigRational]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::cases(24))]
 
     #[test]
     fn two_links_have_both_elbows(a in 1i64..9, b in 1i64..9, s in (-9i64..9, 1i64..9), t in (-9i64..9, 1i64..9)) {

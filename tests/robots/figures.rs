@@ -140,6 +140,8 @@ fn by_links(name: &str, q: &[f64]) -> Matrix {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn chains_are_the_robots_of_their_sources(q in prop::array::uniform6(-4.0..4.0f64)) {
         for robot in robots::ALL {

@@ -36,6 +36,8 @@ fn same(a: &[f64; 3], b: &[f64; 3]) -> bool {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn both_formulations_are_one_robot(q in joints(-1.0..1.0)) {
         let by_table = denavit_hartenberg::forward(&q);

@@ -54,6 +54,8 @@ fn known_roots() -> impl Strategy<Value = Vec<(BigRational, usize)>> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn both_methods_agree_on_random_polynomials(p in polynomial(40), q in polynomial(3)) {
         let p = product(&[p, q.clone(), q]);

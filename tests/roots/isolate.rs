@@ -18,6 +18,8 @@ fn repeated(roots: &[(BigRational, usize)]) -> Vec<BigRational> {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn every_known_root_is_isolated(roots in known_roots(), pairs in 0usize..2, scale in 1i64..99) {
         let complex = vec![integers(&[2, 1, 1]); pairs];

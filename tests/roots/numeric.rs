@@ -71,7 +71,7 @@ fn integer_polynomial(largest: i64) -> impl Strategy<Value = Vec<BigRational>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+    #![proptest_config(crate::cases(500))]
 
     #[test]
     fn random_polynomials_have_the_roots_that_sturm_counts(p in integer_polynomial(1000)) {

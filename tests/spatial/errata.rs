@@ -80,6 +80,8 @@ fn printed_subproblems_answer_what_is_out_of_reach() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn the_printed_angle_loses_small_turns(n in direction(), k in 9..=16_i32) {
         let theta = 10_f64.powi(-k);

@@ -184,7 +184,7 @@ fn quaternions_of_any_length() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::cases(64))]
 
     #[test]
     fn any_angles_give_an_orthogonal_matrix_within_1e_15(

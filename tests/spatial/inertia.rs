@@ -31,6 +31,8 @@ fn points_rods_and_plates_are_bodies() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn the_generalised_inertia_gives_the_kinetic_energy(cloud in cloud(), x in twist()) {
         let velocity = |place: &Vector3<f64>| x.v + x.w.cross(place);

@@ -21,6 +21,8 @@ fn bad_spheres_are_not_met() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn a_line_meets_a_sphere_in_two_points_of_both(line in axis(), centre in vector(2.0), radius in 0.0..4.0_f64) {
         let centre = Point3::from(centre);

@@ -18,6 +18,8 @@ fn points_at_infinity_are_refused() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn a_skew_matrix_multiplies_as_the_cross_product(w in vector(3.0), x in vector(3.0)) {
         prop_assert_eq!(skew(&w) * x, w.cross(&x));

@@ -114,7 +114,7 @@ fn axes_without_direction_are_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::cases(2000))]
 
     #[test]
     fn wrapped_angles_lie_in_the_interval_on_the_same_ray(angle in -1e6..1e6_f64) {

@@ -55,7 +55,7 @@ fn matrices_that_are_no_rigid_transforms_are_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(crate::cases(4000))]
 
     #[test]
     fn exp_undoes_log(g in extreme()) {

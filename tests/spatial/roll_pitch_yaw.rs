@@ -29,7 +29,7 @@ fn angles() -> impl Strategy<Value = RollPitchYaw> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::cases(2000))]
 
     #[test]
     fn body_coordinates_are_a_position_and_three_turns(angles in angles(), at in prop::array::uniform3(-2.0..2.0_f64)) {

@@ -60,7 +60,7 @@ fn matrices_that_are_no_rotations_are_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(crate::cases(4000))]
 
     #[test]
     fn log_undoes_exp(n in direction(), theta in angles()) {

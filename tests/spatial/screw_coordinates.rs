@@ -34,6 +34,8 @@ fn pitch_and_magnitude_are_checked() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn a_screw_turns_about_its_axis_and_advances_along_it(screw in screw(), p in vector(2.0)) {
         let (axis, magnitude) = (screw.axis(), screw.magnitude());

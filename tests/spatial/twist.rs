@@ -33,6 +33,8 @@ fn the_size_of_a_twist_does_not_matter() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn the_bracket_is_the_commutator_of_matrices(x in twist(), y in twist()) {
         let expected = wedge(&x) * wedge(&y) - wedge(&y) * wedge(&x);

@@ -20,6 +20,8 @@ fn a_wrench_without_force_and_torque_has_no_axis() {
 }
 
 proptest! {
+    #![proptest_config(crate::cases(256))]
+
     #[test]
     fn power_does_not_depend_on_the_frame(g in pose(), force in wrench(), x in twist()) {
         let power = force.power(&x);

@@ -10,8 +10,6 @@ mod regular;
 mod robots;
 mod sliding;
 mod solver;
-mod split;
-mod study;
 
 use std::f64::consts::{PI, TAU};
 

@@ -196,5 +196,5 @@ fn the_counts_of_the_design() {
 }
 
 fn config(cases: u32) -> ProptestConfig {
-    ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases) }
+    ProptestConfig { failure_persistence: None, ..crate::cases(cases) }
 }

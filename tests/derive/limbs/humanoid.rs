@@ -117,7 +117,7 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
 fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()];
     let mut random = Random(12);
-    for pose in 0..100 {
+    for pose in 0..40 {
         let q = random.angles(11);
         let target = BOTH_POSES.reached(&q).unwrap();
         let answers = BOTH_POSES.program.solve_numbers(&target).unwrap();
@@ -139,7 +139,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
 fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
     let mut random = Random(13);
     let mut exact = 0;
-    for _ in 0..20 {
+    for _ in 0..8 {
         let q = random.angles(11);
         let mut other = q.clone();
         other[0] += 0.01;
@@ -154,7 +154,7 @@ fn two_poses_that_disagree_are_refused_by_the_motor_and_by_how_much() {
         assert!(disagreement.motor == "HipYawPitch" && disagreement.off().abs() <= 0.01 + 1e-9, "{disagreement:?}");
         exact += usize::from((disagreement.off() - 0.01).abs() < 1e-9);
     }
-    assert!(exact >= 18, "{exact} of 20");
+    assert!(exact >= 7, "{exact} of 8");
 }
 
 /// Both feet below the hips, soles level, knees bent: the foot's x axis and that of the hip's roll are parallel.

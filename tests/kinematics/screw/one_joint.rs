@@ -211,7 +211,7 @@ fn rh0_2_33_fails_at_the_ends() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { max_global_rejects: 20_000, ..crate::cases(20_000) })]
 
     #[test]
     fn the_angle_that_moved_the_point_is_found(axis in axis(), p in point(3.0), theta in -PI..PI) {

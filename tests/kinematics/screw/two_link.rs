@@ -198,7 +198,7 @@ fn the_base_is_approached_in_order() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(crate::cases(20_000))]
 
     #[test]
     fn the_angles_that_made_the_target_are_found(arm in arm(), q1 in -PI..PI, q2 in -PI..PI) {
@@ -244,7 +244,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(50))]
+    #![proptest_config(crate::cases(50))]
 
     #[test]
     fn the_oracle_finds_the_same_answers(arm in arm(), q1 in -PI..PI, q2 in -PI..PI) {
