@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::derive::lift::{self, Derived};
+use groebot::derive::sequential::{self, Derived};
 use groebot::derive::{Derivation, Ends, InputFile, Source, certificate};
 use groebot::kinematics::Chain;
 
@@ -47,8 +47,8 @@ fn prove_chain(c: &mut Criterion) {
     for name in CHAINS {
         let chain = chain(name);
         let derived = Derived::of_chain(&chain, &Watch::none()).expect("it derives");
-        let text = lift::certificate::write(&derived).expect("it prints");
-        group.bench_function(name, |b| b.iter(|| lift::certificate::prove(black_box(&chain), &text)));
+        let text = sequential::certificate::write(&derived).expect("it prints");
+        group.bench_function(name, |b| b.iter(|| sequential::certificate::prove(black_box(&chain), &text)));
     }
     group.finish();
 }

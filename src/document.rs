@@ -11,6 +11,8 @@
 //! # Ok::<(), groebot::Error>(())
 //! ```
 
+mod json;
+
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -21,6 +23,8 @@ use toml::de::{DeInteger, DeTable, DeValue};
 
 use crate::number::{BigInt, BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
+
+pub(crate) use json::JsonFormat;
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = 1_000_000;

@@ -8,6 +8,7 @@ mod corpus;
 mod derive;
 mod document;
 mod dynamics;
+mod eigenvalue;
 mod files;
 mod gait;
 mod groebner;
@@ -21,7 +22,6 @@ mod robots;
 mod roots;
 mod solver;
 mod spatial;
-mod template;
 mod watch;
 mod witness;
 

@@ -14,7 +14,7 @@
 //   Joint6
 //
 // A target has 32 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the family. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
@@ -77,11 +77,11 @@ typedef struct {
     double q[CRX_LIKE_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[CRX_LIKE_JOINTS];
 } crx_like_solution;
 
@@ -139,20 +139,20 @@ static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
 static const double SHORT = 1e-9;
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 static const double ALONE = 1e-13;
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 static const double ASIDE = 0.1;
 static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 static const double ARRIVED = 0.001;
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
@@ -531,7 +531,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -810,7 +810,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -839,8 +839,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -860,7 +860,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -910,15 +910,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1039,10 +1039,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1050,7 +1050,7 @@ static bool keep_member(const Parameters *p, size_t branch, size_t last, const d
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1325,7 +1325,7 @@ typedef struct {
     double slope;
 } SixPlace;
 
-/* A walk along curves all along which the target is nearly reached: next to a family, isolated answers may stand anywhere on them. Walks
+/* A walk along curves all along which the target is nearly reached: next to a self-motion, isolated answers may stand anywhere on them. Walks
  * begin at starts; those that another one has passed are left out. */
 typedef struct {
     const SixChain *chain;
@@ -2906,7 +2906,7 @@ static void six_begin(SixWalk *walk, const double *q)
 }
 
 /* Walks along the curves next to answers, and to candidates that led to none, both ways if they do not close, and adds answers where the
- * sixth equation changes its sign; of a curve that misses nothing, a family, one member. */
+ * sixth equation changes its sign; of a curve that misses nothing, a self-motion, one member. */
 static void six_walk(const SixChain *chain, const SixRigid *target, SixAnswers *answers)
 {
     SixWalk walk;
@@ -3235,8 +3235,8 @@ static const SixChain CHAIN_1 = {
     SIX_FORMULATIONS_1,
 };
 
-/* Chart 1: six axes. */
-static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1: six axes. */
+static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double target0[12] = {
         p->px, p->py, p->pz, p->r11_, p->r12_, p->r13_, p->r21_, p->r22_, p->r23_, p->r31_, p->r32_,
@@ -3264,7 +3264,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: all joints. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static double dot(const double *a, const double *b)

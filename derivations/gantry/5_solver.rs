@@ -50,11 +50,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -215,7 +215,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -255,7 +255,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -363,20 +363,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -386,7 +386,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 1] = [[false, false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -443,7 +443,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -455,7 +455,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, d1: 0.0, d2: 0.0, d3: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -467,15 +467,15 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = p.px - 0.12 * p.r13_;
     let shared = &Shared1 { r1 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r1: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let d1 = shared.r1;
     let next = Known { branch: 0, last: 1, close: false, d1, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -486,15 +486,15 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = p.py - 0.12 * p.r23_;
     let shared = &Shared2 { r1 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r1: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let d2 = shared.r1;
     let next = Known { branch: known.branch, last: known.last, close: known.close, d2, ..*known };
     block_3(p, &next, answers);
@@ -505,15 +505,15 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = p.pz - 0.12 * p.r33_ - 0.9;
     let shared = &Shared3 { r2 };
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r2: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let d3 = shared.r2;
     let next = Known { branch: known.branch, last: known.last, close: known.close, d3, ..*known };
     block_4(p, &next, answers);
@@ -523,14 +523,14 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates;
-    chart_4_1(p, known, answers);
-    chart_4_2(p, known, before, answers);
+    case_4_1(p, known, answers);
+    case_4_2(p, known, before, answers);
 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = p.r23_ * p.r23_; let r1 = p.r13_ * p.r13_; let r2 = r0 + r1;
     if !is_away(r2, 32.0) {
         return;
@@ -543,10 +543,10 @@ fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristYaw.
-fn chart_4_2(p: &Parameters, known: &Known, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, before: usize, answers: &mut Answers<'_>) {
     if !is_near(p.r23_ * p.r23_ + p.r13_ * p.r13_, 2.0000000000000002e-7, NEAR) || (answers.suffice_since(p, before) && !is_near(p.r23_ * p.r23_ + p.r13_ * p.r13_, 2.0000000000000002e-7, BESIDE)) {
         return;
     }
@@ -561,22 +561,22 @@ fn chart_4_2(p: &Parameters, known: &Known, before: usize, answers: &mut Answers
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r2 = p.r13_ * known.c4 + p.r23_ * known.s4;
     let shared = &Shared5 { r2 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r2: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r6 = f64::max(p.r33_ * p.r33_ + shared.r2 * shared.r2, 0.0).sqrt(); let r7 = 1.0 / r6;
     let c5 = 0.0 - p.r33_ * r7; let s5 = 0.0 - shared.r2 * r7;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
@@ -589,15 +589,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r0 = p.r22_ * known.c4; let r1 = p.r12_ * known.s4; let r2 = p.r21_ * known.c4;
     let r3 = p.r11_ * known.s4;
     let shared = &Shared6 { r0, r1, r2, r3 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r0: f64, r1: f64, r2: f64, r3: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r4 = shared.r3 - shared.r2; let r5 = shared.r1 - shared.r0;
     let r10 = 1.0 / f64::max(r5 * r5 + r4 * r4, 0.0).sqrt(); let c6 = r5 * r10; let s6 = r4 * r10;
     let at = [known.d1, known.d2, known.d3, known.c4, known.s4, known.c5, known.s5, c6, s6];
@@ -725,7 +725,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -742,7 +742,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -807,9 +807,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -956,12 +956,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -973,9 +973,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -994,7 +994,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1035,7 +1035,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1234,7 +1234,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

@@ -15,7 +15,7 @@
 //   A7
 //
 // A target has 23 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the family. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
@@ -78,11 +78,11 @@ typedef struct {
     double q[IIWA14_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[IIWA14_JOINTS];
 } iiwa14_solution;
 
@@ -140,20 +140,20 @@ static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
 static const double SHORT = 1e-9;
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 static const double ALONE = 1e-13;
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 static const double ASIDE = 0.1;
 static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 static const double ARRIVED = 0.001;
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
@@ -452,7 +452,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false, false, false, false}, {false, true, false, false, false, false, false}, {false, false, false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
@@ -587,7 +587,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -871,7 +871,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -900,8 +900,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -921,7 +921,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -971,15 +971,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1100,10 +1100,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1122,7 +1122,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1141,7 +1141,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1313,7 +1313,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1325,7 +1325,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1333,13 +1333,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 7 share. */
+/* What the cases of block 7 share. */
 typedef struct {
     double r46, r47;
 } Shared7;
 
-/* Chart 1 of block 7: generic. */
-static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+/* Case 1 of block 7: generic. */
+static void case_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r50 = shared->r46 * shared->r46 + shared->r47 * shared->r47;
     const double r52 = 1.0 / sqrt(larger(r50, 0.0)), c7 = shared->r46 * r52, s7 = shared->r47 * r52;
@@ -1372,16 +1372,16 @@ static void block_7(const Parameters *p, const Known *known, Answers *answers)
     const double r44 = known->c5 * (known->c3_ * r34 - known->s3_ * r32), r46 = r21 - known->s5 * (r16 + r18);
     const double r47 = r44 - known->s5 * (r39 + r41);
     const Shared7 own = { r46, r47 }, *const shared = &own;
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r25, r26;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r29 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
     const double r31 = 1.0 / sqrt(larger(r29, 0.0)), c6 = shared->r25 * r31, s6 = shared->r26 * r31;
@@ -1399,23 +1399,23 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r24 = known->s5 * (known->c3_ * r11 - known->s3_ * r9);
     const double r25 = known->c4 * r17 - known->s4 * r15, r26 = r22 + r24;
     const Shared6 own = { r25, r26 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* Block 6 behind a chart that hardly ever runs. */
+/* Block 6 behind a case that hardly ever runs. */
 static void again_6(const Parameters *p, const Known *known, Answers *answers)
 {
     block_6(p, known, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r19, r20;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
+/* Case 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r21 = shared->r19 * shared->r19, r22 = shared->r20 * shared->r20, r23 = r21 + r22;
     if (!is_away(r23, 28240.0)) {
@@ -1432,10 +1432,10 @@ static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *sh
     }
 }
 
-/* Chart 2 of block 5: A = 0, B = 0, C = 0.
+/* Case 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: A5. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
+static void case_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
     if (!is_near(r23, 0.0001765, NEAR) || (suffice_since(answers, before) && !is_near(r23, 0.0001765, BESIDE))) {
@@ -1459,24 +1459,24 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r18 = known->s4 * (p->r33_ * known->c2 + known->s2 * r4);
     const double r19 = known->s3_ * r9 - known->c3_ * r11, r20 = r16 + r18;
     const Shared5 own = { r19, r20 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r8, r9, r12, r13, r17, r18;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
     if (!is_away(r21, 1667.8719999999998)) {
@@ -1490,10 +1490,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     block_5(p, &next, answers);
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: A2. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r21 = shared->r8 * shared->r8 + shared->r9 * shared->r9;
     if (!(is_near(r21, 1.04242e-5, NEAR) && is_near(shared->r13, 0.01 * shared->r18, NEAR) && is_near(shared->r12, 0.01 * shared->r17, NEAR)) || (suffice_since(answers, before) && !(is_near(r21, 1.04242e-5, BESIDE) && is_near(shared->r13, 0.01 * shared->r18, BESIDE) && is_near(shared->r12, 0.01 * shared->r17, BESIDE)))) {
@@ -1517,24 +1517,24 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r13 = known->c1 * (p->px - 0.126 * p->r13_) + known->s1 * (p->py - 0.126 * p->r23_);
     const double r17 = fabs(p->magnitude + 2.846), r18 = fabs(2.0 * p->magnitude + 4.972);
     const Shared4 own = { r8, r9, r12, r13, r17, r18 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r2, r4, r5, r6, r8;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r9 = shared->r2 * shared->r2, r10 = shared->r4 * shared->r4, r11 = r9 + r10;
     const double r12 = shared->r8 * shared->r8, r13 = r12 + r12;
@@ -1553,10 +1553,10 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, C = 0.
+/* Case 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: A1. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r2 * shared->r2 + shared->r4 * shared->r4, r12 = shared->r8 * shared->r8;
     if (!(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), NEAR) && is_near(shared->r6, 0.0196, NEAR)) || (suffice_since(answers, before) && !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), BESIDE) && is_near(shared->r6, 0.0196, BESIDE)))) {
@@ -1578,17 +1578,17 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r2 = 0.126 * p->r23_ - p->py, r4 = p->px - 0.126 * p->r13_;
     const double r5 = 0.4 * (known->s3_ * known->s4), r6 = 0.0 - r5, r8 = fabs(p->magnitude + 2.486);
     const Shared3 own = { r2, r4, r5, r6, r8 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r24;
 } Shared2;
 
-/* Chart 1 of block 2: generic. */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+/* Case 1 of block 2: generic. */
+static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r26 = shared->r24 * shared->r24 - 0.11289600000000001;
     const Roots roots0 = square_roots(r26, 1.4142135623730951);
@@ -1609,11 +1609,11 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r19 = r16 - p->px * p->px - p->py * p->py - p->pz * p->pz;
     const double r24 = 0.190924 - (r19 - 0.72 * p->pz + 0.09072 * p->r33_);
     const Shared2 own = { r24 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/* Chart 1 of block 1: given. */
-static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1 of block 1: given. */
+static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN; next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
@@ -1623,7 +1623,7 @@ static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: A3. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static double dot(const double *a, const double *b)

@@ -51,11 +51,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -216,7 +216,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -256,7 +256,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -364,20 +364,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -387,7 +387,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 3] = [[true, false, false, false, false, false, false], [false, true, false, false, false, false, false], [false, false, false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -448,7 +448,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -461,7 +461,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, c3_: 0.0, s3_: 0.0, c4: 0.0, s4: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c5: 0.0, s5: 0.0, c6: 0.0, s6: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -471,12 +471,12 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: A3.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
-/// Chart 1 of block 1: given.
+/// Case 1 of block 1: given.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let c3_ = p.c3; let s3_ = p.s3;
     let next = Known { branch: 0, last: 1, close: false, c3_, s3_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -489,15 +489,15 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = r14 + 2.0 * (p.pz * (p.pz - 0.126 * p.r33_)) - p.px * p.px;
     let r21 = r17 - p.py * p.py - p.pz * p.pz - 0.72 * p.pz; let r24 = 0.190924 - (r21 + 0.09072 * p.r33_);
     let shared = &Shared2 { r24 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r24: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r26 = shared.r24 * shared.r24 - 0.11289600000000001;
     let roots0 = square_roots(r26, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
@@ -514,17 +514,17 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates; let r2 = 0.126 * p.r23_ - p.py; let r4 = p.px - 0.126 * p.r13_;
     let r5 = 0.4 * (known.s3_ * known.s4); let r6 = 0.0 - r5; let r8 = f64::abs(p.magnitude + 2.486);
     let shared = &Shared3 { r2, r4, r5, r6, r8 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r2: f64, r4: f64, r5: f64, r6: f64, r8: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r9 = shared.r2 * shared.r2; let r10 = shared.r4 * shared.r4; let r11 = r9 + r10;
     let r12 = shared.r8 * shared.r8; let r13 = r12 + r12;
     if !is_away(r11, 16.0 * r13) {
@@ -539,10 +539,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, C = 0.
+/// Case 2 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: A1.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r2 * shared.r2 + shared.r4 * shared.r4; let r12 = shared.r8 * shared.r8;
     if !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), NEAR) && is_near(shared.r6, 0.0196, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r11, 1.0000000000000001e-7 * (r12 + r12), BESIDE) && is_near(shared.r6, 0.0196, BESIDE))) {
         return;
@@ -562,24 +562,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r13 = known.c1 * (p.px - 0.126 * p.r13_) + known.s1 * (p.py - 0.126 * p.r23_);
     let r17 = f64::abs(p.magnitude + 2.846); let r18 = f64::abs(2.0 * p.magnitude + 4.972);
     let shared = &Shared4 { r8, r9, r12, r13, r17, r18 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r8: f64, r9: f64, r12: f64, r13: f64, r17: f64, r18: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
     if !is_away(r21, 1667.8719999999998) {
         return;
@@ -591,10 +591,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     block_5(p, &next, answers);
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: A2.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r21 = shared.r8 * shared.r8 + shared.r9 * shared.r9;
     if !(is_near(r21, 1.04242e-5, NEAR) && is_near(shared.r13, 0.01 * shared.r18, NEAR) && is_near(shared.r12, 0.01 * shared.r17, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r21, 1.04242e-5, BESIDE) && is_near(shared.r13, 0.01 * shared.r18, BESIDE) && is_near(shared.r12, 0.01 * shared.r17, BESIDE))) {
         return;
@@ -615,24 +615,24 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = known.s4 * (p.r33_ * known.c2 + known.s2 * r4); let r19 = known.s3_ * r9 - known.c3_ * r11;
     let r20 = r16 + r18;
     let shared = &Shared5 { r19, r20 };
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r20: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r21 = shared.r19 * shared.r19; let r22 = shared.r20 * shared.r20; let r23 = r21 + r22;
     if !is_away(r23, 28240.0) {
         return;
@@ -645,10 +645,10 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 5: A = 0, B = 0, C = 0.
+/// Case 2 of block 5: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: A5.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
+fn case_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
     if !is_near(r23, 0.0001765, NEAR) || (answers.suffice_since(p, before) && !is_near(r23, 0.0001765, BESIDE)) {
         return;
@@ -667,22 +667,22 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = p.r33_ * known.c2 + known.s2 * r4; let r24 = known.s5 * (known.c3_ * r11 - known.s3_ * r9);
     let r25 = known.c4 * r17 - known.s4 * r15; let r26 = known.c5 * (known.c4 * r15 + known.s4 * r17) + r24;
     let shared = &Shared6 { r25, r26 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// Block 6 behind a chart that hardly ever runs.
+/// Block 6 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_6(p, known, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r25: f64, r26: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r29 = shared.r25 * shared.r25 + shared.r26 * shared.r26; let r31 = 1.0 / f64::max(r29, 0.0).sqrt();
     let c6 = shared.r25 * r31; let s6 = shared.r26 * r31;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c6, s6, ..*known };
@@ -702,15 +702,15 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r44 = known.c5 * (known.c3_ * r34 - known.s3_ * r32); let r46 = r21 - known.s5 * (r16 + r18);
     let r47 = r44 - known.s5 * (r39 + r41);
     let shared = &Shared7 { r46, r47 };
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/// What the charts of block 7 share.
+/// What the cases of block 7 share.
 struct Shared7 { r46: f64, r47: f64 }
 
-/// Chart 1 of block 7: generic.
+/// Case 1 of block 7: generic.
 #[inline(always)]
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r50 = shared.r46 * shared.r46 + shared.r47 * shared.r47; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
     let c7 = shared.r46 * r52; let s7 = shared.r47 * r52;
     let at = [
@@ -876,7 +876,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -893,7 +893,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -958,9 +958,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1107,12 +1107,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1124,9 +1124,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1145,7 +1145,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1186,7 +1186,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1383,7 +1383,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

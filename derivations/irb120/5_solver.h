@@ -53,11 +53,11 @@ typedef struct {
     double q[IRB120_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[IRB120_JOINTS];
 } irb120_solution;
 
@@ -107,7 +107,7 @@ size_t irb120_count_turns(const double *q, const double *limits);
 void irb120_turn(const double *q, const double *limits, size_t index, double *out);
 
 /* As irb120_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
+ * a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
 int irb120_solve_within(const double *target, const double *limits, irb120_solution *out);
 
 /* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when

@@ -97,20 +97,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -494,7 +494,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false, false, false}, {false, true, false, false, false, false}, {false, false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
@@ -881,7 +881,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -1167,7 +1167,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -1196,8 +1196,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -1217,7 +1217,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1267,15 +1267,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1396,10 +1396,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1445,7 +1445,7 @@ static void twin(const Parameters *p, size_t branch, size_t last, const double *
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1464,7 +1464,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1659,7 +1659,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1671,7 +1671,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[16][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
     {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
@@ -1683,13 +1683,13 @@ static const double SAMPLES_1[16][2] = {
     {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r34, r35;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r38 = shared->r35 * shared->r35 + shared->r34 * shared->r34;
     const double r40 = 1.0 / sqrt(larger(r38, 0.0)), c6 = shared->r35 * r40, s6 = shared->r34 * r40;
@@ -1720,16 +1720,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r31 = known->c4 * (p->r22_ * known->c1 - p->r12_ * known->s1);
     const double r34 = r14 + known->s4 * (r11 + r12), r35 = r31 + known->s4 * (r28 + r29);
     const Shared6 own = { r34, r35 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r19, r20;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r23 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
     const double r25 = 1.0 / sqrt(larger(r23, 0.0)), c5 = shared->r19 * r25, s5 = shared->r20 * r25;
@@ -1746,23 +1746,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r18 = known->s4 * (p->r23_ * known->c1 - p->r13_ * known->s1);
     const double r19 = known->c3 * r9 - known->s3 * r11, r20 = r18 - r17;
     const Shared5 own = { r19, r20 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r13, r14;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r15 = shared->r13 * shared->r13, r16 = shared->r14 * shared->r14, r17 = r15 + r16;
     if (!is_away(r17, 6784.0)) {
@@ -1780,10 +1780,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: joint_4. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
     if (!is_near(r17, 0.016959999998869338, NEAR) || (suffice_since(answers, before) && !is_near(r17, 0.016959999998869338, BESIDE))) {
@@ -1806,24 +1806,24 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r12 = known->s3 * (known->c2 * r4 - p->r33_ * known->s2);
     const double r13 = p->r13_ * known->s1 - p->r23_ * known->c1, r14 = r11 + r12;
     const Shared4 own = { r13, r14 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r9, r12, r15, r17, r21, r22;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r25 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
     if (!is_away(r25, 950.3684312981517)) {
@@ -1837,10 +1837,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     block_4(p, &next, answers);
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: joint_2. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r25 = shared->r9 * shared->r9 + shared->r12 * shared->r12;
     if (!(is_near(r25, 0.002375921078086985, NEAR) && is_near(shared->r17, 0.19999999999333334 * shared->r22, NEAR) && is_near(shared->r15, 0.19999999999333334 * shared->r21, NEAR)) || (suffice_since(answers, before) && !(is_near(r25, 0.002375921078086985, BESIDE) && is_near(shared->r17, 0.19999999999333334 * shared->r22, BESIDE) && is_near(shared->r15, 0.19999999999333334 * shared->r21, BESIDE)))) {
@@ -1865,17 +1865,17 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r17 = r16 - 0.175, r21 = fabs(p->magnitude + 6.0400164);
     const double r22 = fabs(2.0 * p->magnitude + 11.2650328);
     const Shared3 own = { r9, r12, r15, r17, r21, r22 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r36;
 } Shared2;
 
-/* Chart 1 of block 2: generic. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+/* Case 1 of block 2: generic. */
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r38 = shared->r36 * shared->r36 - 0.09922500000000001;
     const double r41 = 1414.2135623495249 * (2.443781909572889 * known->f1);
@@ -1900,23 +1900,23 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r31 = r27 - 2e-5 * (known->c1 * r4) + 2e-5 * (known->s1 * r1);
     const double r36 = 1.46836574406724 - (r31 - 0.99 * p->pz + 0.13365 * p->r33_);
     const Shared2 own = { r36 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/* Block 2 behind a chart that hardly ever runs. */
+/* Block 2 behind a case that hardly ever runs. */
 COLD static void again_2(const Parameters *p, const Known *known, Answers *answers)
 {
     block_2(p, known, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r1, r3, r5;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
+/* Case 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
     const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
@@ -1934,10 +1934,10 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     }
 }
 
-/* Chart 2 of block 1: A = 0, B = 0, C = 0.
+/* Case 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: joint_1. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     if (!is_near(r8, 3.999999999733334e-5 * (r9 + r9), NEAR) || (suffice_since(answers, before) && !is_near(r8, 3.999999999733334e-5 * (r9 + r9), BESIDE))) {
@@ -1959,8 +1959,8 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r1 = 0.135 * p->r23_ - p->py, r3 = p->px - 0.135 * p->r13_;
     const double r5 = fabs(p->magnitude + 5.5450164);
     const Shared1 own = { r1, r3, r5 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, before, answers);
+    case_1_1(p, shared, answers);
+    case_1_2(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2216,7 +2216,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

@@ -521,7 +521,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough)
 {
@@ -1106,9 +1106,9 @@ static bool is_away(double value, double scale)
     return fabs(value) > TINY * scale;
 }
 
-/* Chart 1: generic.
+/* Case 1: generic.
  * It runs where pz is not zero and py^2 + pz^2 is not zero. */
-INLINE static void chart_1_1(const Parameters *p, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->py * p->py, r1 = p->pz * p->pz;
     if (!(is_away(p->pz, p->magnitude) && is_away(r0 + r1, 2.0 * (p->magnitude * p->magnitude)))) {
@@ -1129,9 +1129,9 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
     }
 }
 
-/* Chart 2: pz = 0.
+/* Case 2: pz = 0.
  * It runs where pz is near zero and py is not zero. */
-static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
+static void case_1_2(const Parameters *p, size_t before, Answers *answers)
 {
     if (!(is_near(p->pz, p->magnitude, NEAR) && is_away(p->py, p->magnitude)) || (suffice_since(answers, before) && !(is_near(p->pz, p->magnitude, BESIDE) && is_away(p->py, p->magnitude)))) {
         return;
@@ -1152,8 +1152,8 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 static void block_1(const Parameters *p, Answers *answers)
 {
     const size_t before = answers->candidates;
-    chart_1_1(p, answers);
-    chart_1_2(p, before, answers);
+    case_1_1(p, answers);
+    case_1_2(p, before, answers);
 }
 
 static bool all_finite(const double *target)

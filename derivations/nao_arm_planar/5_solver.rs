@@ -45,11 +45,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -341,14 +341,14 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 /// Block 1: nao_arm_planar.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let before = answers.candidates;
-    chart_1_1(p, answers);
-    chart_1_2(p, before, answers);
+    case_1_1(p, answers);
+    case_1_2(p, before, answers);
 }
 
-/// Chart 1: generic.
+/// Case 1: generic.
 /// It runs where pz is not zero and py^2 + pz^2 is not zero.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.py * p.py; let r1 = p.pz * p.pz;
     if !(is_away(p.pz, p.magnitude) && is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude))) {
         return;
@@ -366,9 +366,9 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     }
 }
 
-/// Chart 2: pz = 0.
+/// Case 2: pz = 0.
 /// It runs where pz is near zero and py is not zero.
-fn chart_1_2(p: &Parameters, before: usize, answers: &mut Answers<'_>) {
+fn case_1_2(p: &Parameters, before: usize, answers: &mut Answers<'_>) {
     if !(is_near(p.pz, p.magnitude, NEAR) && is_away(p.py, p.magnitude)) || (answers.suffice_since(p, before) && !(is_near(p.pz, p.magnitude, BESIDE) && is_away(p.py, p.magnitude))) {
         return;
     }
@@ -840,7 +840,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64) -> Option<([f64
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0)?;

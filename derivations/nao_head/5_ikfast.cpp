@@ -10,7 +10,7 @@
 //   HeadPitch
 //
 // A target has 6 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the family. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
@@ -73,11 +73,11 @@ typedef struct {
     double q[NAO_HEAD_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_HEAD_JOINTS];
 } nao_head_solution;
 
@@ -135,20 +135,20 @@ static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
 static const double SHORT = 1e-9;
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 static const double ALONE = 1e-13;
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 static const double ASIDE = 0.1;
 static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 static const double ARRIVED = 0.001;
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
@@ -373,7 +373,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[1][JOINTS] = { {true, false} };
 
 /* Rows of the equations and of the damping. */
@@ -508,7 +508,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -787,7 +787,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -816,8 +816,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -837,7 +837,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -887,15 +887,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1016,10 +1016,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1038,7 +1038,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1057,7 +1057,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 1 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1224,7 +1224,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1236,7 +1236,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1244,13 +1244,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r2;
 } Shared2;
 
-/* Chart 1 of block 2: generic. */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+/* Case 1 of block 2: generic. */
+static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r6 = sqrt(larger(shared->r2 * shared->r2 + p->dz * p->dz, 0.0)), r7 = 1.0 / r6;
     const double c2 = shared->r2 * r7, s2 = 0.0 - p->dz * r7;
@@ -1267,18 +1267,18 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
     const double r2 = p->dx * known->c1 + p->dy * known->s1;
     const Shared2 own = { r2 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/* Block 2 behind a chart that hardly ever runs. */
+/* Block 2 behind a case that hardly ever runs. */
 static void again_2(const Parameters *p, const Known *known, Answers *answers)
 {
     block_2(p, known, answers);
 }
 
-/* Chart 1 of block 1: generic.
+/* Case 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_1_1(const Parameters *p, Answers *answers)
+static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->dy * p->dy, r1 = p->dx * p->dx, r2 = r0 + r1;
     if (!is_away(r2, 32.0)) {
@@ -1294,10 +1294,10 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     }
 }
 
-/* Chart 2 of block 1: A = 0, B = 0, C = 0.
+/* Case 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HeadYaw. */
-static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
+static void case_1_2(const Parameters *p, size_t before, Answers *answers)
 {
     if (!is_near(p->dy * p->dy + p->dx * p->dx, 2.0000000000000002e-7, NEAR) || (suffice_since(answers, before) && !is_near(p->dy * p->dy + p->dx * p->dx, 2.0000000000000002e-7, BESIDE))) {
         return;
@@ -1314,8 +1314,8 @@ static void chart_1_2(const Parameters *p, size_t before, Answers *answers)
 static void block_1(const Parameters *p, Answers *answers)
 {
     const size_t before = answers->candidates;
-    chart_1_1(p, answers);
-    chart_1_2(p, before, answers);
+    case_1_1(p, answers);
+    case_1_2(p, before, answers);
 }
 
 static double dot(const double *a, const double *b)

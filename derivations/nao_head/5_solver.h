@@ -48,11 +48,11 @@ typedef struct {
     double q[NAO_HEAD_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_HEAD_JOINTS];
 } nao_head_solution;
 
@@ -98,7 +98,7 @@ size_t nao_head_count_turns(const double *q, const double *limits);
 void nao_head_turn(const double *q, const double *limits, size_t index, double *out);
 
 /* As nao_head_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
+ * a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
 int nao_head_solve_within(const double *target, const double *limits, nao_head_solution *out);
 
 /* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when

@@ -79,20 +79,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
@@ -346,7 +346,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false}, {false, true, false, false}, {false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -481,7 +481,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -765,7 +765,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -794,8 +794,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -815,7 +815,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -865,15 +865,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -994,10 +994,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1016,7 +1016,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1035,7 +1035,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1252,7 +1252,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1262,7 +1262,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1270,14 +1270,14 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r7, r9, r10, r11, r15, r16;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
     if (!is_away(r19, 139.93004580640002)) {
@@ -1292,10 +1292,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     finish(p, 2 * known->branch, 2 * known->last, known->close, at, known->free, answers);
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: ShoulderRoll. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r19 = shared->r7 * shared->r7 + shared->r9 * shared->r9;
     if (!(is_near(r19, 8.745627862900002e-7, NEAR) && is_near(shared->r11, 0.01 * shared->r16, NEAR) && is_near(shared->r10, 0.01 * shared->r15, NEAR)) || (suffice_since(answers, before) && !(is_near(r19, 8.745627862900002e-7, BESIDE) && is_near(shared->r11, 0.01 * shared->r16, BESIDE) && is_near(shared->r10, 0.01 * shared->r15, BESIDE)))) {
@@ -1320,24 +1320,24 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r11 = known->s1 * (p->pz - 0.1) - p->px * known->c1, r15 = fabs(p->magnitude + 0.098);
     const double r16 = fabs(2.0 * p->magnitude + 0.1);
     const Shared4 own = { r7, r9, r10, r11, r15, r16 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r1, r4, r6;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r7 = shared->r1 * shared->r1, r8 = p->px * p->px, r9 = r7 + r8;
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
@@ -1355,10 +1355,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, C = 0.
+/* Case 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ShoulderPitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r12 = shared->r6 * shared->r6 + p->magnitude * p->magnitude;
     if (!(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12, NEAR) && is_near(shared->r4, 0.0173877, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r1 * shared->r1 + p->px * p->px, 1.0000000000000001e-7 * r12, BESIDE) && is_near(shared->r4, 0.0173877, BESIDE)))) {
@@ -1379,24 +1379,24 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r1 = 0.1 - p->pz, r4 = 0.1137 * (known->s3_ * known->s4) - 0.01231 * known->c3_;
     const double r6 = fabs(p->magnitude + 0.1);
     const Shared3 own = { r1, r4, r6 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r3, r12;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r13 = shared->r3 * shared->r3, r14 = r13 + 0.0005701111289999999;
     if (!is_away(r14, 32.0)) {
@@ -1414,10 +1414,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ElbowRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r14 = shared->r3 * shared->r3 + 0.0005701111289999999;
     if (!(is_near(r14, 2.0000000000000002e-7, NEAR) && is_near(shared->r12, 0.01, NEAR)) || (suffice_since(answers, before) && !(is_near(r14, 2.0000000000000002e-7, BESIDE) && is_near(shared->r12, 0.01, BESIDE)))) {
@@ -1439,12 +1439,12 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r3 = 0.003411 * known->c3_, r6 = 0.0003693 * known->s3_ - p->px * p->px - p->py * p->py;
     const double r11 = r6 - p->pz * p->pz + 0.196 * p->py + 0.2 * p->pz, r12 = r11 + 0.0047252261;
     const Shared2 own = { r3, r12 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* Chart 1 of block 1: given. */
-INLINE static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1 of block 1: given. */
+INLINE static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double c3_ = p->c3, s3_ = p->s3;
     Known next = NOTHING_KNOWN; next.last = 1; next.c3_ = c3_; next.s3_ = s3_;
@@ -1454,7 +1454,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: ElbowYaw. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static bool all_finite(const double *target)
@@ -1639,7 +1639,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

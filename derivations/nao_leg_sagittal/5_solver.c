@@ -513,7 +513,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough)
 {
@@ -1012,9 +1012,9 @@ static bool is_away(double value, double scale)
     return fabs(value) > TINY * scale;
 }
 
-/* Chart 1: generic.
+/* Case 1: generic.
  * It runs where px^2 + pz^2 is not zero. */
-INLINE static void chart_1_1(const Parameters *p, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double r0 = p->px * p->px, r1 = p->pz * p->pz;
     if (!is_away(r0 + r1, 2.0 * (p->magnitude * p->magnitude))) {
@@ -1039,7 +1039,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: nao_leg_sagittal. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static bool all_finite(const double *target)

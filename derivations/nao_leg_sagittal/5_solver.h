@@ -48,11 +48,11 @@ typedef struct {
     double q[NAO_LEG_SAGITTAL_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_LEG_SAGITTAL_JOINTS];
 } nao_leg_sagittal_solution;
 

@@ -45,11 +45,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -316,13 +316,13 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 
 /// Block 1: nao_leg_sagittal.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
-/// Chart 1: generic.
+/// Case 1: generic.
 /// It runs where px^2 + pz^2 is not zero.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r0 = p.px * p.px; let r1 = p.pz * p.pz;
     if !is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude)) {
         return;
@@ -775,7 +775,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64) -> Option<([f64
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0)?;

@@ -2,7 +2,7 @@
  *
  * Task: left: pose; right: ray of [0, 0, 1]
  * Solutions: up to 64 at a generic target
- * Hash of the input: 4db789cf7eefd3e6
+ * Hash of the input: 92ee52052837e6de
  *
  * Target, in order:
  *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -88,20 +88,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -557,7 +557,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[6][JOINTS] = { {true, false, false, false, false, false, false, false, false, false, false}, {false, false, false, false, true, false, false, false, false, false, false}, {false, false, false, false, false, true, false, false, false, false, false}, {false, false, false, false, false, false, true, false, false, false, false}, {false, false, false, false, false, false, false, true, false, false, false}, {false, false, false, false, false, false, false, false, false, true, false} };
 
 /* Rows of the equations and of the damping. */
@@ -692,7 +692,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -983,7 +983,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -1012,8 +1012,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -1033,7 +1033,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1083,15 +1083,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1212,10 +1212,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1234,7 +1234,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1253,7 +1253,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 6 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1498,7 +1498,7 @@ static size_t greatest(const double *claims, size_t length)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1512,7 +1512,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1520,8 +1520,8 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* Chart 1 of block 13: generic. */
-INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 13: generic. */
+INLINE static void case_13_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double at[PLACES] = {
         known->left_c1, known->left_s1, known->left_c2, known->left_s2, known->left_c3, known->left_s3,
@@ -1544,16 +1544,16 @@ INLINE static void chart_13_1(const Parameters *p, const Known *known, Answers *
 /* Block 13: turn about the ray. */
 INLINE static void block_13(const Parameters *p, const Known *known, Answers *answers)
 {
-    chart_13_1(p, known, answers);
+    case_13_1(p, known, answers);
 }
 
-/* What the charts of block 12 share. */
+/* What the cases of block 12 share. */
 typedef struct {
     double r38, r39;
 } Shared12;
 
-/* Chart 1 of block 12: generic. */
-INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+/* Case 1 of block 12: generic. */
+INLINE static void case_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r42 = shared->r39 * shared->r39 + shared->r38 * shared->r38;
     const double r44 = 1.0 / sqrt(larger(r42, 0.0)), right_c6 = shared->r39 * r44;
@@ -1578,23 +1578,23 @@ INLINE static void block_12(const Parameters *p, const Known *known, Answers *an
     const double r38 = known->right_c2 * r13 + known->right_s2 * r17;
     const double r39 = known->right_c5 * r35 + known->right_s5 * r34;
     const Shared12 own = { r38, r39 }, *const shared = &own;
-    chart_12_1(p, known, shared, answers);
+    case_12_1(p, known, shared, answers);
 }
 
-/* Block 12 behind a chart that hardly ever runs. */
+/* Block 12 behind a case that hardly ever runs. */
 COLD static void again_12(const Parameters *p, const Known *known, Answers *answers)
 {
     block_12(p, known, answers);
 }
 
-/* What the charts of block 11 share. */
+/* What the cases of block 11 share. */
 typedef struct {
     double r32, r33;
 } Shared11;
 
-/* Chart 1 of block 11: generic.
+/* Case 1 of block 11: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+INLINE static void case_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r34 = shared->r32 * shared->r32, r35 = shared->r33 * shared->r33, r36 = r34 + r35;
     if (!is_away(r36, 36992.0)) {
@@ -1612,10 +1612,10 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     }
 }
 
-/* Chart 2 of block 11: A = 0, B = 0, C = 0.
+/* Case 2 of block 11: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: right_AnklePitch. */
-static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
+static void case_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r36 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
     if (!is_near(r36, 0.0002312, NEAR) || (suffice_since(answers, before) && !is_near(r36, 0.0002312, BESIDE))) {
@@ -1644,24 +1644,24 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r32 = known->right_s4 * r28 - known->right_c4 * r26;
     const double r33 = known->right_c4 * r28 + known->right_s4 * r26;
     const Shared11 own = { r32, r33 }, *const shared = &own;
-    chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, before, answers);
+    case_11_1(p, known, shared, answers);
+    case_11_2(p, known, shared, before, answers);
 }
 
-/* Block 11 behind a chart that hardly ever runs. */
+/* Block 11 behind a case that hardly ever runs. */
 COLD static void again_11(const Parameters *p, const Known *known, Answers *answers)
 {
     block_11(p, known, answers);
 }
 
-/* What the charts of block 10 share. */
+/* What the cases of block 10 share. */
 typedef struct {
     double r19, r30, r32, r33, r38, r39;
 } Shared10;
 
-/* Chart 1 of block 10: generic.
+/* Case 1 of block 10: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+INLINE static void case_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
     if (!is_away(r42, 12.40855712)) {
@@ -1676,10 +1676,10 @@ INLINE static void chart_10_1(const Parameters *p, const Known *known, const Sha
     block_11(p, &next, answers);
 }
 
-/* Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_HipPitch. */
-static void chart_10_2(const Parameters *p, const Known *known, const Shared10 *shared, size_t before, Answers *answers)
+static void case_10_2(const Parameters *p, const Known *known, const Shared10 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r30 * shared->r30 + shared->r32 * shared->r32;
     if (!(is_near(r42, 7.755348200000001e-8, NEAR) && is_near(shared->r33, 0.01 * shared->r39, NEAR) && is_near(shared->r19, 0.01 * shared->r38, NEAR)) || (suffice_since(answers, before) && !(is_near(r42, 7.755348200000001e-8, BESIDE) && is_near(shared->r33, 0.01 * shared->r39, BESIDE) && is_near(shared->r19, 0.01 * shared->r38, BESIDE)))) {
@@ -1708,17 +1708,17 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r32 = 0.1029 * known->right_c4 + 0.1, r33 = known->right_s2 * r26 - known->right_c2 * r27;
     const double r38 = fabs(3.0 * p->magnitude + 2.29797), r39 = fabs(8.0 * p->magnitude + 6.61292);
     const Shared10 own = { r19, r30, r32, r33, r38, r39 }, *const shared = &own;
-    chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, before, answers);
+    case_10_1(p, known, shared, answers);
+    case_10_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 9 share. */
+/* What the cases of block 9 share. */
 typedef struct {
     double r28;
 } Shared9;
 
-/* Chart 1 of block 9: generic. */
-INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+/* Case 1 of block 9: generic. */
+INLINE static void case_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951 * known->right_f2);
@@ -1742,23 +1742,23 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_dy;
     const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_dz, r28 = 0.0088212739 - r27;
     const Shared9 own = { r28 }, *const shared = &own;
-    chart_9_1(p, known, shared, answers);
+    case_9_1(p, known, shared, answers);
 }
 
-/* Block 9 behind a chart that hardly ever runs. */
+/* Block 9 behind a case that hardly ever runs. */
 COLD static void again_9(const Parameters *p, const Known *known, Answers *answers)
 {
     block_9(p, known, answers);
 }
 
-/* What the charts of block 8 share. */
+/* What the cases of block 8 share. */
 typedef struct {
     double r20, r21, r25, r26;
 } Shared8;
 
-/* Chart 1 of block 8: generic.
+/* Case 1 of block 8: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+INLINE static void case_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r27 = shared->r20 * shared->r20, r28 = shared->r21 * shared->r21, r29 = r27 + r28;
     const double r32 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
@@ -1777,10 +1777,10 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 8: A = 0, B = 0, C = 0.
+/* Case 2 of block 8: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: right_HipRoll. */
-static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
+static void case_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r29 = shared->r20 * shared->r20 + shared->r21 * shared->r21;
     const double r32 = shared->r25 * shared->r25 + shared->r26 * shared->r26;
@@ -1808,46 +1808,46 @@ static void block_8(const Parameters *p, const Known *known, Answers *answers)
     const double r21 = r9 + (r16 + known->left_c1 * (r5 - r9 + 0.085)), r22 = 4.0 * p->magnitude;
     const double r25 = fabs(r22 + 3.16896), r26 = fabs(r22 + 3.27396);
     const Shared8 own = { r20, r21, r25, r26 }, *const shared = &own;
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, before, answers);
+    case_8_1(p, known, shared, answers);
+    case_8_2(p, known, shared, before, answers);
 }
 
-/* Chart 1 of block 7: across x. */
-static void chart_7_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 7: across x. */
+static void case_7_1(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
     block_8(p, &next, answers);
 }
 
-/* The pivot of chart 1 of block 7; -1 where it does not run. */
+/* The pivot of case 1 of block 7; -1 where it does not run. */
 static double claim_7_1(const Parameters *p)
 {
     const double r2 = p->right_dy * p->right_dy + p->right_dz * p->right_dz;
     return fabs(r2);
 }
 
-/* Chart 2 of block 7: across y. */
-static void chart_7_2(const Parameters *p, const Known *known, Answers *answers)
+/* Case 2 of block 7: across y. */
+static void case_7_2(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
     block_8(p, &next, answers);
 }
 
-/* The pivot of chart 2 of block 7; -1 where it does not run. */
+/* The pivot of case 2 of block 7; -1 where it does not run. */
 static double claim_7_2(const Parameters *p)
 {
     const double r2 = p->right_dz * p->right_dz + p->right_dx * p->right_dx;
     return fabs(r2);
 }
 
-/* Chart 3 of block 7: across z. */
-static void chart_7_3(const Parameters *p, const Known *known, Answers *answers)
+/* Case 3 of block 7: across z. */
+static void case_7_3(const Parameters *p, const Known *known, Answers *answers)
 {
     Known next = *known;
     block_8(p, &next, answers);
 }
 
-/* The pivot of chart 3 of block 7; -1 where it does not run. */
+/* The pivot of case 3 of block 7; -1 where it does not run. */
 static double claim_7_3(const Parameters *p)
 {
     const double r2 = p->right_dx * p->right_dx + p->right_dy * p->right_dy;
@@ -1860,26 +1860,26 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double claims0[] = { claim_7_1(p), claim_7_2(p), claim_7_3(p) };
     switch (greatest(claims0, 3)) {
     case 0:
-        chart_7_1(p, known, answers);
+        case_7_1(p, known, answers);
         break;
     case 1:
-        chart_7_2(p, known, answers);
+        case_7_2(p, known, answers);
         break;
     case 2:
-        chart_7_3(p, known, answers);
+        case_7_3(p, known, answers);
         break;
     default:
         break;
     }
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r59, r62;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
@@ -1909,16 +1909,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
     const Shared6 own = { r59, r62 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r19, r21;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
     const double r26 = 1.0 / sqrt(larger(r24, 0.0)), left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
@@ -1936,23 +1936,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
     const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
     const Shared5 own = { r19, r21 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r6, r10;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
     if (!is_away(r13, 191.99999999999997)) {
@@ -1969,10 +1969,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
     if (!is_near(r13, 1.2e-6, NEAR) || (suffice_since(answers, before) && !is_near(r13, 1.2e-6, BESIDE))) {
@@ -1995,24 +1995,24 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r9 = p->left_r22 * known->left_c6 + r7 - p->left_r23 * known->left_s6;
     const double r10 = 0.7071067811865475 * r9;
     const Shared4 own = { r6, r10 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r41, r50, r67, r68, r69, r83, r84, r85;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -2028,10 +2028,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     block_4(p, &next, answers);
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -2073,24 +2073,24 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r11, r18, r22, r23;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
@@ -2109,10 +2109,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
@@ -2138,17 +2138,17 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r17 = r15 - p->left_py * p->left_r23 - p->left_pz * p->left_r33, r18 = r17 - 0.04519;
     const double r19 = 3.0 * p->magnitude, r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
     const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r28;
 } Shared1;
 
-/* Chart 1 of block 1: generic. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+/* Case 1 of block 1: generic. */
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
@@ -2172,7 +2172,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
     const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
     const Shared1 own = { r28 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2427,7 +2427,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

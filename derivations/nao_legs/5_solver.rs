@@ -2,7 +2,7 @@
 //!
 //! - Task: left: pose; right: ray of [0, 0, 1]
 //! - Solutions: up to 64 at a generic target
-//! - Hash of the input: 4db789cf7eefd3e6
+//! - Hash of the input: 92ee52052837e6de
 //!
 //! Target, in order:
 //! `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -56,11 +56,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -201,7 +201,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -241,7 +241,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -349,20 +349,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -372,7 +372,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 6] = [[true, false, false, false, false, false, false, false, false, false, false], [false, false, false, false, true, false, false, false, false, false, false], [false, false, false, false, false, true, false, false, false, false, false], [false, false, false, false, false, false, true, false, false, false, false], [false, false, false, false, false, false, false, true, false, false, false], [false, false, false, false, false, false, false, false, false, true, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -447,7 +447,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -462,7 +462,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, left_c4: 0.0, left_s4: 0.0, left_c6: 0.0, left_s6: 0.0, left_f6: 0.0, left_c5: 0.0, left_s5: 0.0, left_f5: 0.0, left_c1: 0.0, left_s1: 0.0, left_c2: 0.0, left_s2: 0.0, left_c3: 0.0, left_s3: 0.0, right_c2: 0.0, right_s2: 0.0, right_f2: 0.0, right_c4: 0.0, right_s4: 0.0, right_c3: 0.0, right_s3: 0.0, right_f3: 0.0, right_c5: 0.0, right_s5: 0.0, right_c6: 0.0, right_s6: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -480,15 +480,15 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
     let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared1 { r28 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r28: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
@@ -508,17 +508,17 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r17 = r15 - p.left_py * p.left_r23 - p.left_pz * p.left_r33; let r18 = r17 - 0.04519;
     let r19 = 3.0 * p.magnitude; let r22 = f64::abs(r19 + 0.235); let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r24 = shared.r11 * shared.r11; let r25 = shared.r18 * shared.r18; let r26 = r24 + r25;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_away(r26, 16.0 * r29) {
@@ -533,10 +533,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
+/// Case 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
+fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (answers.suffice_since(p, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE)) {
@@ -573,24 +573,24 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
     let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// Block 3 behind a chart that hardly ever runs.
+/// Block 3 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_3(p, known, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !is_away(r88, 16.0 * r91) {
@@ -604,10 +604,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
@@ -627,24 +627,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r7 = p.left_r32 * known.left_c6 - p.left_r33 * known.left_s6;
     let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6; let r10 = 0.7071067811865475 * r9;
     let shared = &Shared4 { r6, r10 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r6: f64, r10: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r11 = shared.r6 * shared.r6; let r12 = shared.r10 * shared.r10; let r13 = r11 + r12;
     if !is_away(r13, 191.99999999999997) {
         return;
@@ -659,10 +659,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
     if !is_near(r13, 1.2e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r13, 1.2e-6, BESIDE)) {
         return;
@@ -682,22 +682,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = 0.7071067811865475 * (known.left_s1 * r11);
     let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5))); let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
     let shared = &Shared5 { r19, r21 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r21: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
     let left_c2 = shared.r21 * r26; let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
@@ -722,15 +722,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared6 { r59, r62 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r59: f64, r62: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
     let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let left_c3 = r64 * r69;
     let left_s3 = 0.0 - r63 * r69;
@@ -742,44 +742,44 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
 #[inline(always)]
 fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     match greatest(&[claim_7_1(p), claim_7_2(p), claim_7_3(p)]) {
-        0 => chart_7_1(p, known, answers),
-        1 => chart_7_2(p, known, answers),
-        2 => chart_7_3(p, known, answers),
+        0 => case_7_1(p, known, answers),
+        1 => case_7_2(p, known, answers),
+        2 => case_7_3(p, known, answers),
         _ => {}
     }
 }
 
-/// Chart 1 of block 7: across x.
-fn chart_7_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Case 1 of block 7: across x.
+fn case_7_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
     block_8(p, &next, answers);
 }
 
-/// The pivot of chart 1 of block 7; -1 where it does not run.
+/// The pivot of case 1 of block 7; -1 where it does not run.
 fn claim_7_1(p: &Parameters) -> f64 {
     let r2 = p.right_dy * p.right_dy + p.right_dz * p.right_dz;
     f64::abs(r2)
 }
 
-/// Chart 2 of block 7: across y.
-fn chart_7_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Case 2 of block 7: across y.
+fn case_7_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
     block_8(p, &next, answers);
 }
 
-/// The pivot of chart 2 of block 7; -1 where it does not run.
+/// The pivot of case 2 of block 7; -1 where it does not run.
 fn claim_7_2(p: &Parameters) -> f64 {
     let r2 = p.right_dz * p.right_dz + p.right_dx * p.right_dx;
     f64::abs(r2)
 }
 
-/// Chart 3 of block 7: across z.
-fn chart_7_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+/// Case 3 of block 7: across z.
+fn case_7_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
     block_8(p, &next, answers);
 }
 
-/// The pivot of chart 3 of block 7; -1 where it does not run.
+/// The pivot of case 3 of block 7; -1 where it does not run.
 fn claim_7_3(p: &Parameters) -> f64 {
     let r2 = p.right_dx * p.right_dx + p.right_dy * p.right_dy;
     f64::abs(r2)
@@ -794,17 +794,17 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r21 = r9 + (r16 + known.left_c1 * (r5 - r9 + 0.085)); let r22 = 4.0 * p.magnitude;
     let r25 = f64::abs(r22 + 3.16896); let r26 = f64::abs(r22 + 3.27396);
     let shared = &Shared8 { r20, r21, r25, r26 };
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, before, answers);
+    case_8_1(p, known, shared, answers);
+    case_8_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 8 share.
+/// What the cases of block 8 share.
 struct Shared8 { r20: f64, r21: f64, r25: f64, r26: f64 }
 
-/// Chart 1 of block 8: generic.
+/// Case 1 of block 8: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r27 = shared.r20 * shared.r20; let r28 = shared.r21 * shared.r21; let r29 = r27 + r28;
     let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
     if !is_away(r29, 16.0 * r32) {
@@ -819,10 +819,10 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 8: A = 0, B = 0, C = 0.
+/// Case 2 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_HipRoll.
-fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
+fn case_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r29 = shared.r20 * shared.r20 + shared.r21 * shared.r21;
     let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
     if !is_near(r29, 1.0000000000000001e-7 * r32, NEAR) || (answers.suffice_since(p, before) && !is_near(r29, 1.0000000000000001e-7 * r32, BESIDE)) {
@@ -846,22 +846,22 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_dy;
     let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_dz; let r28 = 0.0088212739 - r27;
     let shared = &Shared9 { r28 };
-    chart_9_1(p, known, shared, answers);
+    case_9_1(p, known, shared, answers);
 }
 
-/// Block 9 behind a chart that hardly ever runs.
+/// Block 9 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_9(p, known, answers);
 }
 
-/// What the charts of block 9 share.
+/// What the cases of block 9 share.
 struct Shared9 { r28: f64 }
 
-/// Chart 1 of block 9: generic.
+/// Case 1 of block 9: generic.
 #[inline(always)]
-fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951 * known.right_f2);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
@@ -884,17 +884,17 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r32 = 0.1029 * known.right_c4 + 0.1; let r33 = known.right_s2 * r26 - known.right_c2 * r27;
     let r38 = f64::abs(3.0 * p.magnitude + 2.29797); let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
     let shared = &Shared10 { r19, r30, r32, r33, r38, r39 };
-    chart_10_1(p, known, shared, answers);
-    chart_10_2(p, known, shared, before, answers);
+    case_10_1(p, known, shared, answers);
+    case_10_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 10 share.
+/// What the cases of block 10 share.
 struct Shared10 { r19: f64, r30: f64, r32: f64, r33: f64, r38: f64, r39: f64 }
 
-/// Chart 1 of block 10: generic.
+/// Case 1 of block 10: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
     if !is_away(r42, 12.40855712) {
         return;
@@ -907,10 +907,10 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
     block_11(p, &next, answers);
 }
 
-/// Chart 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_HipPitch.
-fn chart_10_2(p: &Parameters, known: &Known, shared: &Shared10, before: usize, answers: &mut Answers<'_>) {
+fn case_10_2(p: &Parameters, known: &Known, shared: &Shared10, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
     if !(is_near(r42, 7.755348200000001e-8, NEAR) && is_near(shared.r33, 0.01 * shared.r39, NEAR) && is_near(shared.r19, 0.01 * shared.r38, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r42, 7.755348200000001e-8, BESIDE) && is_near(shared.r33, 0.01 * shared.r39, BESIDE) && is_near(shared.r19, 0.01 * shared.r38, BESIDE))) {
         return;
@@ -935,24 +935,24 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r32 = known.right_s4 * r28 - known.right_c4 * r26;
     let r33 = known.right_c4 * r28 + known.right_s4 * r26;
     let shared = &Shared11 { r32, r33 };
-    chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, before, answers);
+    case_11_1(p, known, shared, answers);
+    case_11_2(p, known, shared, before, answers);
 }
 
-/// Block 11 behind a chart that hardly ever runs.
+/// Block 11 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_11(p, known, answers);
 }
 
-/// What the charts of block 11 share.
+/// What the cases of block 11 share.
 struct Shared11 { r32: f64, r33: f64 }
 
-/// Chart 1 of block 11: generic.
+/// Case 1 of block 11: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn case_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r34 = shared.r32 * shared.r32; let r35 = shared.r33 * shared.r33; let r36 = r34 + r35;
     if !is_away(r36, 36992.0) {
         return;
@@ -967,10 +967,10 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     }
 }
 
-/// Chart 2 of block 11: A = 0, B = 0, C = 0.
+/// Case 2 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: right_AnklePitch.
-fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
+fn case_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r36 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !is_near(r36, 0.0002312, NEAR) || (answers.suffice_since(p, before) && !is_near(r36, 0.0002312, BESIDE)) {
         return;
@@ -996,22 +996,22 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r37 = known.right_s5 * (known.right_c4 * r28 - known.right_s4 * r30);
     let r38 = known.right_c2 * r13 + known.right_s2 * r17; let r39 = r36 + r37;
     let shared = &Shared12 { r38, r39 };
-    chart_12_1(p, known, shared, answers);
+    case_12_1(p, known, shared, answers);
 }
 
-/// Block 12 behind a chart that hardly ever runs.
+/// Block 12 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_12(p, known, answers);
 }
 
-/// What the charts of block 12 share.
+/// What the cases of block 12 share.
 struct Shared12 { r38: f64, r39: f64 }
 
-/// Chart 1 of block 12: generic.
+/// Case 1 of block 12: generic.
 #[inline(always)]
-fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+fn case_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
     let r42 = shared.r39 * shared.r39 + shared.r38 * shared.r38; let r44 = 1.0 / f64::max(r42, 0.0).sqrt();
     let right_c6 = shared.r39 * r44; let right_s6 = 0.0 - shared.r38 * r44;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c6, right_s6, ..*known };
@@ -1021,12 +1021,12 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
 /// Block 13: turn about the ray.
 #[inline(always)]
 fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    chart_13_1(p, known, answers);
+    case_13_1(p, known, answers);
 }
 
-/// Chart 1 of block 13: generic.
+/// Case 1 of block 13: generic.
 #[inline(always)]
-fn chart_13_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_13_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let at = [
         known.left_c1, known.left_s1, known.left_c2, known.left_s2, known.left_c3, known.left_s3,
         known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
@@ -1350,7 +1350,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -1367,7 +1367,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -1432,9 +1432,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1581,12 +1581,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1598,9 +1598,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1619,7 +1619,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1660,7 +1660,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1861,7 +1861,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

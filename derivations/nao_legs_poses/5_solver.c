@@ -2,7 +2,7 @@
  *
  * Task: left: pose; right: pose
  * Solutions: up to 32 at a generic target
- * Hash of the input: 065ce0fa72de0de2
+ * Hash of the input: 4ba417e6b5d43b66
  *
  * Target, in order:
  *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -90,20 +90,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -597,7 +597,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[5][JOINTS] = { {true, false, false, false, false, false, false, false, false, false, false}, {false, false, false, false, true, false, false, false, false, false, false}, {false, false, false, false, false, true, false, false, false, false, false}, {false, false, false, false, false, false, false, false, false, true, false}, {false, false, false, false, false, false, false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -732,7 +732,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -1023,7 +1023,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -1052,8 +1052,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -1073,7 +1073,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1123,15 +1123,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1252,10 +1252,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1274,7 +1274,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1293,7 +1293,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 5 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1486,7 +1486,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1497,7 +1497,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1505,13 +1505,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 11 share. */
+/* What the cases of block 11 share. */
 typedef struct {
     double r59, r62;
 } Shared11;
 
-/* Chart 1 of block 11: generic. */
-INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+/* Case 1 of block 11: generic. */
+INLINE static void case_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), right_c3 = r64 * r69;
@@ -1546,16 +1546,16 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r61 = 0.07071067811865475 * (known->left_s1 * (r55 - p->right_r23 * r38));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
     const Shared11 own = { r59, r62 }, *const shared = &own;
-    chart_11_1(p, known, shared, answers);
+    case_11_1(p, known, shared, answers);
 }
 
-/* What the charts of block 10 share. */
+/* What the cases of block 10 share. */
 typedef struct {
     double r19, r21;
 } Shared10;
 
-/* Chart 1 of block 10: generic. */
-INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+/* Case 1 of block 10: generic. */
+INLINE static void case_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
     const double r26 = 1.0 / sqrt(larger(r24, 0.0)), right_c2 = shared->r21 * r26;
@@ -1574,23 +1574,23 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r18 = 0.7071067811865475 * (known->left_s1 * r11);
     const double r19 = r9 + known->left_c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->left_c1 * (r6 - r9) - r18;
     const Shared10 own = { r19, r21 }, *const shared = &own;
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/* Block 10 behind a chart that hardly ever runs. */
+/* Block 10 behind a case that hardly ever runs. */
 COLD static void again_10(const Parameters *p, const Known *known, Answers *answers)
 {
     block_10(p, known, answers);
 }
 
-/* What the charts of block 9 share. */
+/* What the cases of block 9 share. */
 typedef struct {
     double r41, r50, r67, r68, r69, r83, r84, r85;
 } Shared9;
 
-/* Chart 1 of block 9: generic.
+/* Case 1 of block 9: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+INLINE static void case_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1606,10 +1606,10 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     block_10(p, &next, answers);
 }
 
-/* Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_AnklePitch. */
-static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, size_t before, Answers *answers)
+static void case_9_2(const Parameters *p, const Known *known, const Shared9 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1650,24 +1650,24 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared9 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
-    chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, before, answers);
+    case_9_1(p, known, shared, answers);
+    case_9_2(p, known, shared, before, answers);
 }
 
-/* Block 9 behind a chart that hardly ever runs. */
+/* Block 9 behind a case that hardly ever runs. */
 COLD static void again_9(const Parameters *p, const Known *known, Answers *answers)
 {
     block_9(p, known, answers);
 }
 
-/* What the charts of block 8 share. */
+/* What the cases of block 8 share. */
 typedef struct {
     double r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41;
 } Shared8;
 
-/* Chart 1 of block 8: generic.
+/* Case 1 of block 8: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+INLINE static void case_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     if (!is_away(shared->r36 - shared->r34, 16.0 * shared->r40)) {
         return;
@@ -1678,9 +1678,9 @@ INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shar
     block_9(p, &next, answers);
 }
 
-/* Chart 2 of block 8: generic.
+/* Case 2 of block 8: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
+static void case_8_2(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r17 * shared->r17, r43 = shared->r24 * shared->r24, r44 = r42 + r43;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
@@ -1697,10 +1697,10 @@ static void chart_8_2(const Parameters *p, const Known *known, const Shared8 *sh
     }
 }
 
-/* Chart 3 of block 8: A = 0, B = 0, C = 0.
+/* Case 3 of block 8: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
+static void case_8_3(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r44 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
     const double r47 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
@@ -1715,9 +1715,9 @@ static void chart_8_3(const Parameters *p, const Known *known, const Shared8 *sh
     }
 }
 
-/* Chart 4 of block 8: generic.
+/* Case 4 of block 8: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
+static void case_8_4(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r42 = shared->r26 * shared->r26, r43 = shared->r28 * shared->r28, r44 = r42 + r43;
     if (!(is_near(shared->r37, shared->r41, NEAR) && is_away(r44, 288.0)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_away(r44, 288.0)))) {
@@ -1733,10 +1733,10 @@ static void chart_8_4(const Parameters *p, const Known *known, const Shared8 *sh
     }
 }
 
-/* Chart 5 of block 8: A = 0, B = 0, C = 0.
+/* Case 5 of block 8: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_8_5(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
+static void case_8_5(const Parameters *p, const Known *known, const Shared8 *shared, size_t before, Answers *answers)
 {
     const double r44 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
     if (!(is_near(shared->r37, shared->r41, NEAR) && is_near(r44, 1.8000000000000001e-6, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r37, shared->r41, BESIDE) && is_near(r44, 1.8000000000000001e-6, BESIDE)))) {
@@ -1765,20 +1765,20 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r32 = fabs(r29 + 0.235), r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26;
     const double r36 = 0.0 - r35, r37 = r34 + r35, r40 = 3.0 * r32 + 3.0 * r33, r41 = 0.001 * r40;
     const Shared8 own = { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 }, *const shared = &own;
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, before, answers);
-    chart_8_3(p, known, shared, before, answers);
-    chart_8_4(p, known, shared, before, answers);
-    chart_8_5(p, known, shared, before, answers);
+    case_8_1(p, known, shared, answers);
+    case_8_2(p, known, shared, before, answers);
+    case_8_3(p, known, shared, before, answers);
+    case_8_4(p, known, shared, before, answers);
+    case_8_5(p, known, shared, before, answers);
 }
 
-/* What the charts of block 7 share. */
+/* What the cases of block 7 share. */
 typedef struct {
     double r28;
 } Shared7;
 
-/* Chart 1 of block 7: generic. */
-INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+/* Case 1 of block 7: generic. */
+INLINE static void case_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
@@ -1802,16 +1802,16 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r23 = r19 + 0.1 * p->right_py + 0.004519 * p->right_r23;
     const double r27 = r23 + 0.17 * p->right_pz + 0.0076823 * p->right_r33, r28 = 0.0088212739 - r27;
     const Shared7 own = { r28 }, *const shared = &own;
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r59, r62;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), left_c3 = r64 * r69;
@@ -1841,16 +1841,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r61 = 0.07071067811865475 * (known->left_s1 * (p->left_r23 * r38 + r55));
     const double r62 = 0.1 * (known->left_c1 * r50) - r61;
     const Shared6 own = { r59, r62 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r19, r21;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
     const double r26 = 1.0 / sqrt(larger(r24, 0.0)), left_c2 = shared->r21 * r26, left_s2 = shared->r19 * r26;
@@ -1868,23 +1868,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r19 = r18 - (r9 - known->left_c1 * (r9 + (r4 - r5)));
     const double r21 = r18 + (r9 + known->left_c1 * (r6 - r9));
     const Shared5 own = { r19, r21 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r41, r50, r67, r68, r69, r83, r84, r85;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1900,10 +1900,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     block_5(p, &next, answers);
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1944,24 +1944,24 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared4 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     if (!is_away(shared->r35 - shared->r34, 16.0 * shared->r39)) {
         return;
@@ -1972,9 +1972,9 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     block_4(p, &next, answers);
 }
 
-/* Chart 2 of block 3: generic.
+/* Case 2 of block 3: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r41 = shared->r17 * shared->r17, r42 = shared->r24 * shared->r24, r43 = r41 + r42;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
@@ -1991,10 +1991,10 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* Chart 3 of block 3: A = 0, B = 0, C = 0.
+/* Case 3 of block 3: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_3(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r43 = shared->r17 * shared->r17 + shared->r24 * shared->r24;
     const double r46 = shared->r32 * shared->r32 + shared->r33 * shared->r33;
@@ -2009,9 +2009,9 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* Chart 4 of block 3: generic.
+/* Case 4 of block 3: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_4(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r41 = shared->r26 * shared->r26, r42 = shared->r28 * shared->r28, r43 = r41 + r42;
     if (!(is_near(shared->r36, shared->r40, NEAR) && is_away(r43, 288.0)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_away(r43, 288.0)))) {
@@ -2027,10 +2027,10 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* Chart 5 of block 3: A = 0, B = 0, C = 0.
+/* Case 5 of block 3: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_5(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r43 = shared->r26 * shared->r26 + shared->r28 * shared->r28;
     if (!(is_near(shared->r36, shared->r40, NEAR) && is_near(r43, 1.8000000000000001e-6, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r36, shared->r40, BESIDE) && is_near(r43, 1.8000000000000001e-6, BESIDE)))) {
@@ -2059,20 +2059,20 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r33 = fabs(r29 + 0.75599), r34 = r17 * r28, r35 = r24 * r26, r36 = r34 - r35;
     const double r39 = 3.0 * r32 + 3.0 * r33, r40 = 0.001 * r39;
     const Shared3 own = { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
-    chart_3_3(p, known, shared, before, answers);
-    chart_3_4(p, known, shared, before, answers);
-    chart_3_5(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
+    case_3_3(p, known, shared, before, answers);
+    case_3_4(p, known, shared, before, answers);
+    case_3_5(p, known, shared, before, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r28;
 } Shared2;
 
-/* Chart 1 of block 2: generic. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+/* Case 1 of block 2: generic. */
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
@@ -2096,23 +2096,23 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r23 = r19 - 0.1 * p->left_py - 0.004519 * p->left_r23;
     const double r27 = r23 + 0.17 * p->left_pz + 0.0076823 * p->left_r33, r28 = 0.0088212739 - r27;
     const Shared2 own = { r28 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/* Block 2 behind a chart that hardly ever runs. */
+/* Block 2 behind a case that hardly ever runs. */
 COLD static void again_2(const Parameters *p, const Known *known, Answers *answers)
 {
     block_2(p, known, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
+/* Case 1 of block 1: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     if (!is_away(shared->r63 - shared->r61, 16.0 * shared->r66)) {
         return;
@@ -2122,9 +2122,9 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     block_2(p, &next, answers);
 }
 
-/* Chart 2 of block 1: generic.
+/* Case 2 of block 1: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r68 = shared->r19 * shared->r19, r69 = shared->r32 * shared->r32, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
@@ -2141,10 +2141,10 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before,
     }
 }
 
-/* Chart 3 of block 1: A = 0, B = 0, C = 0.
+/* Case 3 of block 1: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_1_3(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_3(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r70 = shared->r19 * shared->r19 + shared->r32 * shared->r32;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
@@ -2159,9 +2159,9 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, size_t before,
     }
 }
 
-/* Chart 4 of block 1: generic.
+/* Case 4 of block 1: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_1_4(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_4(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r68 = shared->r41 * shared->r41, r69 = shared->r54 * shared->r54, r70 = r68 + r69;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
@@ -2178,10 +2178,10 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, size_t before,
     }
 }
 
-/* Chart 5 of block 1: A = 0, B = 0, C = 0.
+/* Case 5 of block 1: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_1_5(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_5(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r70 = shared->r41 * shared->r41 + shared->r54 * shared->r54;
     const double r73 = shared->r59 * shared->r59 + shared->r60 * shared->r60;
@@ -2222,11 +2222,11 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r59 = fabs(2.0 * p->magnitude + 1.39599), r60 = fabs(r58), r61 = r19 * r54, r62 = r32 * r41;
     const double r63 = 0.0 - r62, r64 = r61 + r62, r65 = r59 * r60, r66 = r65 + r65, r67 = 0.001 * r66;
     const Shared1 own = { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, before, answers);
-    chart_1_3(p, shared, before, answers);
-    chart_1_4(p, shared, before, answers);
-    chart_1_5(p, shared, before, answers);
+    case_1_1(p, shared, answers);
+    case_1_2(p, shared, before, answers);
+    case_1_3(p, shared, before, answers);
+    case_1_4(p, shared, before, answers);
+    case_1_5(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2469,7 +2469,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

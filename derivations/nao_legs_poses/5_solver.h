@@ -2,7 +2,7 @@
  *
  * Task: left: pose; right: pose
  * Solutions: up to 32 at a generic target
- * Hash of the input: 065ce0fa72de0de2
+ * Hash of the input: 4ba417e6b5d43b66
  *
  * Target, in order:
  *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -61,11 +61,11 @@ typedef struct {
     double q[NAO_LEGS_POSES_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_LEGS_POSES_JOINTS];
 } nao_legs_poses_solution;
 
@@ -111,7 +111,7 @@ size_t nao_legs_poses_count_turns(const double *q, const double *limits);
 void nao_legs_poses_turn(const double *q, const double *limits, size_t index, double *out);
 
 /* As nao_legs_poses_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
+ * a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
 int nao_legs_poses_solve_within(const double *target, const double *limits, nao_legs_poses_solution *out);
 
 /* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when

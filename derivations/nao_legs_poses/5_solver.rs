@@ -2,7 +2,7 @@
 //!
 //! - Task: left: pose; right: pose
 //! - Solutions: up to 32 at a generic target
-//! - Hash of the input: 065ce0fa72de0de2
+//! - Hash of the input: 4ba417e6b5d43b66
 //!
 //! Target, in order:
 //! `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -58,11 +58,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -202,7 +202,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -242,7 +242,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -350,20 +350,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -373,7 +373,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 5] = [[true, false, false, false, false, false, false, false, false, false, false], [false, false, false, false, true, false, false, false, false, false, false], [false, false, false, false, false, true, false, false, false, false, false], [false, false, false, false, false, false, false, false, false, true, false], [false, false, false, false, false, false, false, false, false, false, true]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -442,7 +442,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -455,7 +455,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c6: 0.0, left_s6: 0.0, left_c5: 0.0, left_s5: 0.0, left_c2: 0.0, left_s2: 0.0, left_c3: 0.0, left_s3: 0.0, right_c4: 0.0, right_s4: 0.0, right_c6: 0.0, right_s6: 0.0, right_c5: 0.0, right_s5: 0.0, right_c2: 0.0, right_s2: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -487,21 +487,21 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r62 = r32 * r41; let r63 = 0.0 - r62; let r64 = r61 + r62; let r65 = r59 * r60; let r66 = r65 + r65;
     let r67 = 0.001 * r66;
     let shared = &Shared1 { r19, r32, r41, r54, r59, r60, r61, r63, r64, r66, r67 };
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, before, answers);
-    chart_1_3(p, shared, before, answers);
-    chart_1_4(p, shared, before, answers);
-    chart_1_5(p, shared, before, answers);
+    case_1_1(p, shared, answers);
+    case_1_2(p, shared, before, answers);
+    case_1_3(p, shared, before, answers);
+    case_1_4(p, shared, before, answers);
+    case_1_5(p, shared, before, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r19: f64, r32: f64, r41: f64, r54: f64, r59: f64, r60: f64, r61: f64, r63: f64, r64: f64,
     r66: f64, r67: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     if !is_away(shared.r63 - shared.r61, 16.0 * shared.r66) {
         return;
     }
@@ -510,9 +510,9 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     block_2(p, &next, answers);
 }
 
-/// Chart 2 of block 1: generic.
+/// Case 2 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r68 = shared.r19 * shared.r19; let r69 = shared.r32 * shared.r32; let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
@@ -527,10 +527,10 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
     }
 }
 
-/// Chart 3 of block 1: A = 0, B = 0, C = 0.
+/// Case 3 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_1_3(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_3(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r70 = shared.r19 * shared.r19 + shared.r32 * shared.r32;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE))) {
@@ -542,9 +542,9 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
     }
 }
 
-/// Chart 4 of block 1: generic.
+/// Case 4 of block 1: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_1_4(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_4(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r68 = shared.r41 * shared.r41; let r69 = shared.r54 * shared.r54; let r70 = r68 + r69;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_away(r70, 16.0 * r73)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_away(r70, 16.0 * r73))) {
@@ -559,10 +559,10 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answ
     }
 }
 
-/// Chart 5 of block 1: A = 0, B = 0, C = 0.
+/// Case 5 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_1_5(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_5(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r70 = shared.r41 * shared.r41 + shared.r54 * shared.r54;
     let r73 = shared.r59 * shared.r59 + shared.r60 * shared.r60;
     if !(is_near(shared.r64, shared.r67, NEAR) && is_near(r70, 1.0000000000000001e-7 * r73, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r64, shared.r67, BESIDE) && is_near(r70, 1.0000000000000001e-7 * r73, BESIDE))) {
@@ -585,22 +585,22 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
     let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared2 { r28 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// Block 2 behind a chart that hardly ever runs.
+/// Block 2 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_2(p, known, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r28: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
@@ -625,21 +625,21 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r33 = f64::abs(r29 + 0.75599); let r34 = r17 * r28; let r35 = r24 * r26; let r36 = r34 - r35;
     let r39 = 3.0 * r32 + 3.0 * r33; let r40 = 0.001 * r39;
     let shared = &Shared3 { r17, r24, r26, r28, r32, r33, r34, r35, r36, r39, r40 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
-    chart_3_3(p, known, shared, before, answers);
-    chart_3_4(p, known, shared, before, answers);
-    chart_3_5(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
+    case_3_3(p, known, shared, before, answers);
+    case_3_4(p, known, shared, before, answers);
+    case_3_5(p, known, shared, before, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r17: f64, r24: f64, r26: f64, r28: f64, r32: f64, r33: f64, r34: f64, r35: f64, r36: f64,
     r39: f64, r40: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     if !is_away(shared.r35 - shared.r34, 16.0 * shared.r39) {
         return;
     }
@@ -648,9 +648,9 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: generic.
+/// Case 2 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r41 = shared.r17 * shared.r17; let r42 = shared.r24 * shared.r24; let r43 = r41 + r42;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 16.0 * r46)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 16.0 * r46))) {
@@ -665,10 +665,10 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
     }
 }
 
-/// Chart 3 of block 3: A = 0, B = 0, C = 0.
+/// Case 3 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_3(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r43 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
     let r46 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_near(r43, 1.0000000000000001e-7 * r46, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_near(r43, 1.0000000000000001e-7 * r46, BESIDE))) {
@@ -680,9 +680,9 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
     }
 }
 
-/// Chart 4 of block 3: generic.
+/// Case 4 of block 3: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_4(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r41 = shared.r26 * shared.r26; let r42 = shared.r28 * shared.r28; let r43 = r41 + r42;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_away(r43, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_away(r43, 288.0))) {
         return;
@@ -696,10 +696,10 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, before: usize, ans
     }
 }
 
-/// Chart 5 of block 3: A = 0, B = 0, C = 0.
+/// Case 5 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_5(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r43 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
     if !(is_near(shared.r36, shared.r40, NEAR) && is_near(r43, 1.8000000000000001e-6, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r36, shared.r40, BESIDE) && is_near(r43, 1.8000000000000001e-6, BESIDE))) {
         return;
@@ -734,24 +734,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
     let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared4 { r41, r50, r67, r68, r69, r83, r84, r85 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !is_away(r88, 16.0 * r91) {
@@ -765,10 +765,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     block_5(p, &next, answers);
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 4: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
@@ -789,22 +789,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = 0.7071067811865475 * (known.left_s1 * r11);
     let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5))); let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
     let shared = &Shared5 { r19, r21 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r21: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
     let left_c2 = shared.r21 * r26; let left_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
@@ -829,15 +829,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared6 { r59, r62 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r59: f64, r62: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
     let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let left_c3 = r64 * r69;
     let left_s3 = 0.0 - r63 * r69;
@@ -856,15 +856,15 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_r23;
     let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_r33; let r28 = 0.0088212739 - r27;
     let shared = &Shared7 { r28 };
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/// What the charts of block 7 share.
+/// What the cases of block 7 share.
 struct Shared7 { r28: f64 }
 
-/// Chart 1 of block 7: generic.
+/// Case 1 of block 7: generic.
 #[inline(always)]
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
@@ -890,21 +890,21 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r33 = f64::abs(r29 + 0.75599); let r34 = r17 * r28; let r35 = r24 * r26; let r36 = 0.0 - r35;
     let r37 = r34 + r35; let r40 = 3.0 * r32 + 3.0 * r33; let r41 = 0.001 * r40;
     let shared = &Shared8 { r17, r24, r26, r28, r32, r33, r34, r36, r37, r40, r41 };
-    chart_8_1(p, known, shared, answers);
-    chart_8_2(p, known, shared, before, answers);
-    chart_8_3(p, known, shared, before, answers);
-    chart_8_4(p, known, shared, before, answers);
-    chart_8_5(p, known, shared, before, answers);
+    case_8_1(p, known, shared, answers);
+    case_8_2(p, known, shared, before, answers);
+    case_8_3(p, known, shared, before, answers);
+    case_8_4(p, known, shared, before, answers);
+    case_8_5(p, known, shared, before, answers);
 }
 
-/// What the charts of block 8 share.
+/// What the cases of block 8 share.
 struct Shared8 { r17: f64, r24: f64, r26: f64, r28: f64, r32: f64, r33: f64, r34: f64, r36: f64, r37: f64,
     r40: f64, r41: f64 }
 
-/// Chart 1 of block 8: generic.
+/// Case 1 of block 8: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     if !is_away(shared.r36 - shared.r34, 16.0 * shared.r40) {
         return;
     }
@@ -913,9 +913,9 @@ fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answ
     block_9(p, &next, answers);
 }
 
-/// Chart 2 of block 8: generic.
+/// Case 2 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
+fn case_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r17 * shared.r17; let r43 = shared.r24 * shared.r24; let r44 = r42 + r43;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 16.0 * r47)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 16.0 * r47))) {
@@ -930,10 +930,10 @@ fn chart_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, ans
     }
 }
 
-/// Chart 3 of block 8: A = 0, B = 0, C = 0.
+/// Case 3 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
+fn case_8_3(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r44 = shared.r17 * shared.r17 + shared.r24 * shared.r24;
     let r47 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_near(r44, 1.0000000000000001e-7 * r47, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_near(r44, 1.0000000000000001e-7 * r47, BESIDE))) {
@@ -945,9 +945,9 @@ fn chart_8_3(p: &Parameters, known: &Known, shared: &Shared8, before: usize, ans
     }
 }
 
-/// Chart 4 of block 8: generic.
+/// Case 4 of block 8: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
+fn case_8_4(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r42 = shared.r26 * shared.r26; let r43 = shared.r28 * shared.r28; let r44 = r42 + r43;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_away(r44, 288.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_away(r44, 288.0))) {
         return;
@@ -961,10 +961,10 @@ fn chart_8_4(p: &Parameters, known: &Known, shared: &Shared8, before: usize, ans
     }
 }
 
-/// Chart 5 of block 8: A = 0, B = 0, C = 0.
+/// Case 5 of block 8: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_8_5(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
+fn case_8_5(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
     let r44 = shared.r26 * shared.r26 + shared.r28 * shared.r28;
     if !(is_near(shared.r37, shared.r41, NEAR) && is_near(r44, 1.8000000000000001e-6, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r37, shared.r41, BESIDE) && is_near(r44, 1.8000000000000001e-6, BESIDE))) {
         return;
@@ -1000,24 +1000,24 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
     let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared9 { r41, r50, r67, r68, r69, r83, r84, r85 };
-    chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, before, answers);
+    case_9_1(p, known, shared, answers);
+    case_9_2(p, known, shared, before, answers);
 }
 
-/// Block 9 behind a chart that hardly ever runs.
+/// Block 9 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_9(p, known, answers);
 }
 
-/// What the charts of block 9 share.
+/// What the cases of block 9 share.
 struct Shared9 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
-/// Chart 1 of block 9: generic.
+/// Case 1 of block 9: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !is_away(r88, 16.0 * r91) {
@@ -1031,10 +1031,10 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     block_10(p, &next, answers);
 }
 
-/// Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
-fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, answers: &mut Answers<'_>) {
+fn case_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
@@ -1055,22 +1055,22 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = 0.7071067811865475 * (known.left_s1 * r11); let r19 = r9 + known.left_c1 * (r4 - r5 - r9) + r18;
     let r21 = r9 + known.left_c1 * (r6 - r9) - r18;
     let shared = &Shared10 { r19, r21 };
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/// Block 10 behind a chart that hardly ever runs.
+/// Block 10 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_10(p, known, answers);
 }
 
-/// What the charts of block 10 share.
+/// What the cases of block 10 share.
 struct Shared10 { r19: f64, r21: f64 }
 
-/// Chart 1 of block 10: generic.
+/// Case 1 of block 10: generic.
 #[inline(always)]
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
     let right_c2 = shared.r21 * r26; let right_s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c2, right_s2, ..*known };
@@ -1096,15 +1096,15 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
     let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
     let shared = &Shared11 { r59, r62 };
-    chart_11_1(p, known, shared, answers);
+    case_11_1(p, known, shared, answers);
 }
 
-/// What the charts of block 11 share.
+/// What the cases of block 11 share.
 struct Shared11 { r59: f64, r62: f64 }
 
-/// Chart 1 of block 11: generic.
+/// Case 1 of block 11: generic.
 #[inline(always)]
-fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn case_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
     let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let right_c3 = r64 * r69;
     let right_s3 = 0.0 - r63 * r69;
@@ -1446,7 +1446,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -1463,7 +1463,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -1528,9 +1528,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1657,12 +1657,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1674,9 +1674,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1695,7 +1695,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1736,7 +1736,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1937,7 +1937,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

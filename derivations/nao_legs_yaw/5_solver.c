@@ -2,7 +2,7 @@
  *
  * Task: left: pose, TorsoPitch, TorsoRoll given; right: pose, TorsoPitch, TorsoRoll given
  * Solutions: up to 128 at a generic target
- * Hash of the input: 97304683922ba4ba
+ * Hash of the input: 7edd7e8ec315dc18
  *
  * Target, in order:
  *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -93,20 +93,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -999,7 +999,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[6][JOINTS] = { {true, false, false, false, false, false, false, false, false, false, false, false, false, false}, {false, false, false, true, false, false, false, false, false, false, false, false, false, false}, {false, false, false, false, false, false, false, true, false, false, false, false, false, false}, {false, false, false, false, false, false, false, false, true, false, false, false, false, false}, {false, false, false, false, false, false, false, false, false, false, false, false, true, false}, {false, false, false, false, false, false, false, false, false, false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -1134,7 +1134,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -1428,7 +1428,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -1457,8 +1457,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -1478,7 +1478,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1528,15 +1528,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1657,10 +1657,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1679,7 +1679,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1698,7 +1698,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 6 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1911,7 +1911,7 @@ static size_t greatest(const double *claims, size_t length)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1923,7 +1923,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[16][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
     {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
@@ -1935,7 +1935,7 @@ static const double SAMPLES_1[16][2] = {
     {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_2[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1943,13 +1943,13 @@ static const double SAMPLES_2[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 14 share. */
+/* What the cases of block 14 share. */
 typedef struct {
     double r95, r98;
 } Shared14;
 
-/* Chart 1 of block 14: generic. */
-INLINE static void chart_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
+/* Case 1 of block 14: generic. */
+INLINE static void case_14_1(const Parameters *p, const Known *known, const Shared14 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(larger(r100 * r100 + r99 * r99, 0.0)), right_c6 = r100 * r105;
@@ -1996,16 +1996,16 @@ INLINE static void block_14(const Parameters *p, const Known *known, Answers *an
     const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
     const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
     const Shared14 own = { r95, r98 }, *const shared = &own;
-    chart_14_1(p, known, shared, answers);
+    case_14_1(p, known, shared, answers);
 }
 
-/* What the charts of block 13 share. */
+/* What the cases of block 13 share. */
 typedef struct {
     double r44, r47;
 } Shared13;
 
-/* Chart 1 of block 13: generic. */
-INLINE static void chart_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
+/* Case 1 of block 13: generic. */
+INLINE static void case_13_1(const Parameters *p, const Known *known, const Shared13 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44;
     const double r52 = 1.0 / sqrt(larger(r50, 0.0)), right_c5 = shared->r47 * r52;
@@ -2030,23 +2030,23 @@ INLINE static void block_13(const Parameters *p, const Known *known, Answers *an
     const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r40 + r41 + r43;
     const double r45 = 0.5 * (known->left_c4 * (r23 + (r19 + r21 - r22))), r47 = r40 + r45 - r43;
     const Shared13 own = { r44, r47 }, *const shared = &own;
-    chart_13_1(p, known, shared, answers);
+    case_13_1(p, known, shared, answers);
 }
 
-/* Block 13 behind a chart that hardly ever runs. */
+/* Block 13 behind a case that hardly ever runs. */
 COLD static void again_13(const Parameters *p, const Known *known, Answers *answers)
 {
     block_13(p, known, answers);
 }
 
-/* What the charts of block 12 share. */
+/* What the cases of block 12 share. */
 typedef struct {
     double r77, r89, r91, r92, r95;
 } Shared12;
 
-/* Chart 1 of block 12: generic.
+/* Case 1 of block 12: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
+INLINE static void case_12_1(const Parameters *p, const Known *known, const Shared12 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!is_away(r98, 16.0 * (r99 + r99))) {
@@ -2061,10 +2061,10 @@ INLINE static void chart_12_1(const Parameters *p, const Known *known, const Sha
     block_13(p, &next, answers);
 }
 
-/* Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: right_AnklePitch. */
-static void chart_12_2(const Parameters *p, const Known *known, const Shared12 *shared, size_t before, Answers *answers)
+static void case_12_2(const Parameters *p, const Known *known, const Shared12 *shared, size_t before, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared->r92, 0.004729, NEAR) && is_near(shared->r91, 0.011129, NEAR)) || (suffice_since(answers, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared->r92, 0.004729, BESIDE) && is_near(shared->r91, 0.011129, BESIDE)))) {
@@ -2105,24 +2105,24 @@ INLINE static void block_12(const Parameters *p, const Known *known, Answers *an
     const double r89 = p->right_pz * r38 + r88, r91 = 0.1029 * known->right_c7 + 0.1;
     const double r92 = 0.1029 * known->right_s7, r95 = fabs(15.0 * p->magnitude + 8.72179);
     const Shared12 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
-    chart_12_1(p, known, shared, answers);
-    chart_12_2(p, known, shared, before, answers);
+    case_12_1(p, known, shared, answers);
+    case_12_2(p, known, shared, before, answers);
 }
 
-/* Block 12 behind a chart that hardly ever runs. */
+/* Block 12 behind a case that hardly ever runs. */
 COLD static void again_12(const Parameters *p, const Known *known, Answers *answers)
 {
     block_12(p, known, answers);
 }
 
-/* What the charts of block 11 share. */
+/* What the cases of block 11 share. */
 typedef struct {
     double r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85;
 } Shared11;
 
-/* Chart 1 of block 11: generic.
+/* Case 1 of block 11: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
+INLINE static void case_11_1(const Parameters *p, const Known *known, const Shared11 *shared, Answers *answers)
 {
     if (!is_away(shared->r80 - shared->r78, 16.0 * shared->r84)) {
         return;
@@ -2133,9 +2133,9 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, const Sha
     block_12(p, &next, answers);
 }
 
-/* Chart 2 of block 11: generic.
+/* Case 2 of block 11: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
+static void case_11_2(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r86 = shared->r57 * shared->r57, r87 = shared->r68 * shared->r68, r88 = r86 + r87;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
@@ -2152,10 +2152,10 @@ static void chart_11_2(const Parameters *p, const Known *known, const Shared11 *
     }
 }
 
-/* Chart 3 of block 11: A = 0, B = 0, C = 0.
+/* Case 3 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
+static void case_11_3(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
     const double r91 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
@@ -2170,9 +2170,9 @@ static void chart_11_3(const Parameters *p, const Known *known, const Shared11 *
     }
 }
 
-/* Chart 4 of block 11: generic.
+/* Case 4 of block 11: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
+static void case_11_4(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r86 = shared->r70 * shared->r70, r87 = shared->r72 * shared->r72, r88 = r86 + r87;
     if (!(is_near(shared->r81, shared->r85, NEAR) && is_away(r88, 43808.0)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_away(r88, 43808.0)))) {
@@ -2188,10 +2188,10 @@ static void chart_11_4(const Parameters *p, const Known *known, const Shared11 *
     }
 }
 
-/* Chart 5 of block 11: A = 0, B = 0, C = 0.
+/* Case 5 of block 11: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: right_AnkleRoll. */
-static void chart_11_5(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
+static void case_11_5(const Parameters *p, const Known *known, const Shared11 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
     if (!(is_near(shared->r81, shared->r85, NEAR) && is_near(r88, 0.00027380000000000004, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r81, shared->r85, BESIDE) && is_near(r88, 0.00027380000000000004, BESIDE)))) {
@@ -2233,20 +2233,20 @@ INLINE static void block_11(const Parameters *p, const Known *known, Answers *an
     const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = 0.0 - r79, r81 = r78 + r79;
     const double r84 = 37.0 * r76 + 37.0 * r77, r85 = 0.001 * r84;
     const Shared11 own = { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 }, *const shared = &own;
-    chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, before, answers);
-    chart_11_3(p, known, shared, before, answers);
-    chart_11_4(p, known, shared, before, answers);
-    chart_11_5(p, known, shared, before, answers);
+    case_11_1(p, known, shared, answers);
+    case_11_2(p, known, shared, before, answers);
+    case_11_3(p, known, shared, before, answers);
+    case_11_4(p, known, shared, before, answers);
+    case_11_5(p, known, shared, before, answers);
 }
 
-/* What the charts of block 10 share. */
+/* What the cases of block 10 share. */
 typedef struct {
     double r41;
 } Shared10;
 
-/* Chart 1 of block 10: generic. */
-INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+/* Case 1 of block 10: generic. */
+INLINE static void case_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r43, 1.4142135623730951);
@@ -2273,16 +2273,16 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
     const double r41 = 0.0088212739 - r40;
     const Shared10 own = { r41 }, *const shared = &own;
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/* What the charts of block 9 share. */
+/* What the cases of block 9 share. */
 typedef struct {
     double r95, r98;
 } Shared9;
 
-/* Chart 1 of block 9: generic. */
-INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+/* Case 1 of block 9: generic. */
+INLINE static void case_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r99 = 0.1 * shared->r95, r100 = 0.1 * shared->r98;
     const double r105 = 1.0 / sqrt(larger(r100 * r100 + r99 * r99, 0.0)), left_c6 = r100 * r105;
@@ -2323,16 +2323,16 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r94 = 0.7071067811865475 * (known->left_s4 * (r47 + 0.035)), r95 = known->left_c4 * r43 - r94;
     const double r98 = 0.1 * (known->left_c4 * r88) - 0.07071067811865475 * (known->left_s4 * r92);
     const Shared9 own = { r95, r98 }, *const shared = &own;
-    chart_9_1(p, known, shared, answers);
+    case_9_1(p, known, shared, answers);
 }
 
-/* What the charts of block 8 share. */
+/* What the cases of block 8 share. */
 typedef struct {
     double r44, r47;
 } Shared8;
 
-/* Chart 1 of block 8: generic. */
-INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+/* Case 1 of block 8: generic. */
+INLINE static void case_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r50 = shared->r47 * shared->r47 + shared->r44 * shared->r44;
     const double r52 = 1.0 / sqrt(larger(r50, 0.0)), left_c5 = shared->r47 * r52, left_s5 = shared->r44 * r52;
@@ -2356,23 +2356,23 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r43 = 0.7071067811865475 * (known->left_s4 * r24), r44 = r43 - (r40 - r41);
     const double r45 = 0.5 * (known->left_c4 * (r22 + (r19 + r21) - r23)), r47 = r43 + (r40 + r45);
     const Shared8 own = { r44, r47 }, *const shared = &own;
-    chart_8_1(p, known, shared, answers);
+    case_8_1(p, known, shared, answers);
 }
 
-/* Block 8 behind a chart that hardly ever runs. */
+/* Block 8 behind a case that hardly ever runs. */
 COLD static void again_8(const Parameters *p, const Known *known, Answers *answers)
 {
     block_8(p, known, answers);
 }
 
-/* What the charts of block 7 share. */
+/* What the cases of block 7 share. */
 typedef struct {
     double r77, r89, r91, r92, r95;
 } Shared7;
 
-/* Chart 1 of block 7: generic.
+/* Case 1 of block 7: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+INLINE static void case_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!is_away(r98, 16.0 * (r99 + r99))) {
@@ -2387,10 +2387,10 @@ INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shar
     block_8(p, &next, answers);
 }
 
-/* Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: left_AnklePitch. */
-static void chart_7_2(const Parameters *p, const Known *known, const Shared7 *shared, size_t before, Answers *answers)
+static void case_7_2(const Parameters *p, const Known *known, const Shared7 *shared, size_t before, Answers *answers)
 {
     const double r98 = shared->r77 * shared->r77 + shared->r89 * shared->r89, r99 = shared->r95 * shared->r95;
     if (!(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared->r92, 0.004729, NEAR) && is_near(shared->r91, 0.011129, NEAR)) || (suffice_since(answers, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared->r92, 0.004729, BESIDE) && is_near(shared->r91, 0.011129, BESIDE)))) {
@@ -2430,24 +2430,24 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r91 = 0.1029 * known->left_c7 + 0.1, r92 = 0.1029 * known->left_s7;
     const double r95 = fabs(15.0 * p->magnitude + 8.72179);
     const Shared7 own = { r77, r89, r91, r92, r95 }, *const shared = &own;
-    chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, before, answers);
+    case_7_1(p, known, shared, answers);
+    case_7_2(p, known, shared, before, answers);
 }
 
-/* Block 7 behind a chart that hardly ever runs. */
+/* Block 7 behind a case that hardly ever runs. */
 COLD static void again_7(const Parameters *p, const Known *known, Answers *answers)
 {
     block_7(p, known, answers);
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
+/* Case 1 of block 6: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     if (!is_away(shared->r79 - shared->r78, 16.0 * shared->r83)) {
         return;
@@ -2458,9 +2458,9 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     block_7(p, &next, answers);
 }
 
-/* Chart 2 of block 6: generic.
+/* Case 2 of block 6: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
+static void case_6_2(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r85 = shared->r57 * shared->r57, r86 = shared->r68 * shared->r68, r87 = r85 + r86;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
@@ -2477,10 +2477,10 @@ static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *sh
     }
 }
 
-/* Chart 3 of block 6: A = 0, B = 0, C = 0.
+/* Case 3 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
+static void case_6_3(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r87 = shared->r57 * shared->r57 + shared->r68 * shared->r68;
     const double r90 = shared->r76 * shared->r76 + shared->r77 * shared->r77;
@@ -2495,9 +2495,9 @@ static void chart_6_3(const Parameters *p, const Known *known, const Shared6 *sh
     }
 }
 
-/* Chart 4 of block 6: generic.
+/* Case 4 of block 6: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
+static void case_6_4(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r85 = shared->r70 * shared->r70, r86 = shared->r72 * shared->r72, r87 = r85 + r86;
     if (!(is_near(shared->r80, shared->r84, NEAR) && is_away(r87, 43808.0)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_away(r87, 43808.0)))) {
@@ -2513,10 +2513,10 @@ static void chart_6_4(const Parameters *p, const Known *known, const Shared6 *sh
     }
 }
 
-/* Chart 5 of block 6: A = 0, B = 0, C = 0.
+/* Case 5 of block 6: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: left_AnkleRoll. */
-static void chart_6_5(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
+static void case_6_5(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r87 = shared->r70 * shared->r70 + shared->r72 * shared->r72;
     if (!(is_near(shared->r80, shared->r84, NEAR) && is_near(r87, 0.00027380000000000004, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r80, shared->r84, BESIDE) && is_near(r87, 0.00027380000000000004, BESIDE)))) {
@@ -2558,20 +2558,20 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r77 = fabs(r73 + 2.10599), r78 = r57 * r72, r79 = r68 * r70, r80 = r78 - r79;
     const double r83 = 37.0 * r76 + 37.0 * r77, r84 = 0.001 * r83;
     const Shared6 own = { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, before, answers);
-    chart_6_3(p, known, shared, before, answers);
-    chart_6_4(p, known, shared, before, answers);
-    chart_6_5(p, known, shared, before, answers);
+    case_6_1(p, known, shared, answers);
+    case_6_2(p, known, shared, before, answers);
+    case_6_3(p, known, shared, before, answers);
+    case_6_4(p, known, shared, before, answers);
+    case_6_5(p, known, shared, before, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r41;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r43 = shared->r41 * shared->r41 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r43, 1.4142135623730951);
@@ -2598,23 +2598,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r40 = r36 + 0.17 * (known->left_c3_ * r21) - 0.17 * (known->left_s3_ * r19);
     const double r41 = 0.0088212739 - r40;
     const Shared5 own = { r41 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where B*E - A*F is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     if (!is_away(shared->r139 + shared->r141, 16.0 * shared->r144)) {
         return;
@@ -2625,9 +2625,9 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     block_5(p, &next, answers);
 }
 
-/* Chart 2 of block 4: generic.
+/* Case 2 of block 4: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r146 = shared->r98 * shared->r98, r147 = shared->r110 * shared->r110, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
@@ -2644,10 +2644,10 @@ static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *sh
     }
 }
 
-/* Chart 3 of block 4: A = 0, B = 0, C = 0.
+/* Case 3 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_3(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r148 = shared->r98 * shared->r98 + shared->r110 * shared->r110;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
@@ -2662,9 +2662,9 @@ static void chart_4_3(const Parameters *p, const Known *known, const Shared4 *sh
     }
 }
 
-/* Chart 4 of block 4: generic.
+/* Case 4 of block 4: generic.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is not zero. */
-static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_4(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r146 = shared->r120 * shared->r120, r147 = shared->r132 * shared->r132, r148 = r146 + r147;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
@@ -2682,10 +2682,10 @@ static void chart_4_4(const Parameters *p, const Known *known, const Shared4 *sh
     }
 }
 
-/* Chart 5 of block 4: A = 0, B = 0, C = 0.
+/* Case 5 of block 4: A = 0, B = 0, C = 0.
  * It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_5(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_5(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r148 = shared->r120 * shared->r120 + shared->r132 * shared->r132;
     const double r151 = shared->r137 * shared->r137 + shared->r138 * shared->r138;
@@ -2748,27 +2748,27 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r141 = r110 * r120, r142 = 0.0 - r139 - r141, r143 = r137 * r138, r144 = r143 + r143;
     const double r145 = 0.001 * r144;
     const Shared4 own = { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
-    chart_4_3(p, known, shared, before, answers);
-    chart_4_4(p, known, shared, before, answers);
-    chart_4_5(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
+    case_4_3(p, known, shared, before, answers);
+    case_4_4(p, known, shared, before, answers);
+    case_4_5(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r175, r184, r192, r200, r207, r299, r300, r301, r302, r303;
 } Shared3;
 
-/* Chart 1 of block 3: half angle.
+/* Case 1 of block 3: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r200;
     const double r313 = 0.0 - 4.0 * shared->r184 - 2.0 * shared->r207, r315 = shared->r192 - shared->r207;
@@ -2796,7 +2796,7 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* The pivot of chart 1 of block 3; -1 where it does not run. */
+/* The pivot of case 1 of block 3; -1 where it does not run. */
 static double claim_3_1(const Shared3 *shared)
 {
     const double r315 = shared->r192 - shared->r207;
@@ -2804,9 +2804,9 @@ static double claim_3_1(const Shared3 *shared)
     return is_away(r315, 1000000000000.0 * (shared->r303 + r318)) ? fabs(r315) : -1.0;
 }
 
-/* Chart 2 of block 3: half angle.
+/* Case 2 of block 3: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r175, r308 = 2.0 * shared->r192;
     const double r315 = shared->r207 + (shared->r184 - shared->r200);
@@ -2836,7 +2836,7 @@ static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* The pivot of chart 2 of block 3; -1 where it does not run. */
+/* The pivot of case 2 of block 3; -1 where it does not run. */
 static double claim_3_2(const Shared3 *shared)
 {
     const double r315 = shared->r207 + (shared->r184 - shared->r200);
@@ -2844,9 +2844,9 @@ static double claim_3_2(const Shared3 *shared)
     return is_away(r315, 1000000000000.0 * (shared->r303 + r318)) ? fabs(r315) : -1.0;
 }
 
-/* Chart 3 of block 3: half angle.
+/* Case 3 of block 3: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_3(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r305 = 2.0 * shared->r175, r306 = 2.0 * shared->r200, r313 = shared->r192 + shared->r207;
     const double r316 = shared->r302 + (shared->r301 + (shared->r299 + shared->r300));
@@ -2873,7 +2873,7 @@ static void chart_3_3(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* The pivot of chart 3 of block 3; -1 where it does not run. */
+/* The pivot of case 3 of block 3; -1 where it does not run. */
 static double claim_3_3(const Shared3 *shared)
 {
     const double r313 = shared->r192 + shared->r207;
@@ -2881,9 +2881,9 @@ static double claim_3_3(const Shared3 *shared)
     return is_away(r313, 1000000000000.0 * (shared->r303 + r316)) ? fabs(r313) : -1.0;
 }
 
-/* Chart 4 of block 3: half angle.
+/* Case 4 of block 3: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_4(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r306 = 2.0 * shared->r192, r307 = 2.0 * shared->r175;
     const double r314 = shared->r207 + (shared->r184 + shared->r200);
@@ -2913,7 +2913,7 @@ static void chart_3_4(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* The pivot of chart 4 of block 3; -1 where it does not run. */
+/* The pivot of case 4 of block 3; -1 where it does not run. */
 static double claim_3_4(const Shared3 *shared)
 {
     const double r314 = shared->r207 + (shared->r184 + shared->r200);
@@ -2921,9 +2921,9 @@ static double claim_3_4(const Shared3 *shared)
     return is_away(r314, 1000000000000.0 * (shared->r303 + r317)) ? fabs(r314) : -1.0;
 }
 
-/* Chart 5 of block 3: half angle.
+/* Case 5 of block 3: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_5(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r305 = shared->r175 + 1.3333333333333333 * shared->r184, r306 = 1.25 * shared->r192;
     const double r308 = 1.6666666666666667 * shared->r200, r310 = 2.0833333333333335 * shared->r207;
@@ -2966,7 +2966,7 @@ static void chart_3_5(const Parameters *p, const Known *known, const Shared3 *sh
     }
 }
 
-/* The pivot of chart 5 of block 3; -1 where it does not run. */
+/* The pivot of case 5 of block 3; -1 where it does not run. */
 static double claim_3_5(const Shared3 *shared)
 {
     const double r305 = shared->r175 + 1.3333333333333333 * shared->r184;
@@ -2976,10 +2976,10 @@ static double claim_3_5(const Shared3 *shared)
     return is_away(r329, 1000000000000.0 * (shared->r303 + r332)) ? fabs(r329) : -1.0;
 }
 
-/* Chart 6 of block 3: A = B = C = D = E = 0.
+/* Case 6 of block 3: A = B = C = D = E = 0.
  * It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
  * Free: TorsoYaw. */
-static void chart_3_6(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_6(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     if (!(is_near(shared->r175, 0.01 * shared->r299, NEAR) && is_near(shared->r184, 0.01 * shared->r300, NEAR) && is_near(shared->r192, 0.01 * shared->r301, NEAR) && is_near(shared->r200, 0.01 * shared->r302, NEAR) && is_near(shared->r207, 0.01 * shared->r303, NEAR)) || (suffice_since(answers, before) && !(is_near(shared->r175, 0.01 * shared->r299, BESIDE) && is_near(shared->r184, 0.01 * shared->r300, BESIDE) && is_near(shared->r192, 0.01 * shared->r301, BESIDE) && is_near(shared->r200, 0.01 * shared->r302, BESIDE) && is_near(shared->r207, 0.01 * shared->r303, BESIDE)))) {
         return;
@@ -3068,28 +3068,28 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double claims0[] = { claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared) };
     switch (greatest(claims0, 5)) {
     case 0:
-        chart_3_1(p, known, shared, answers);
+        case_3_1(p, known, shared, answers);
         break;
     case 1:
-        chart_3_2(p, known, shared, answers);
+        case_3_2(p, known, shared, answers);
         break;
     case 2:
-        chart_3_3(p, known, shared, answers);
+        case_3_3(p, known, shared, answers);
         break;
     case 3:
-        chart_3_4(p, known, shared, answers);
+        case_3_4(p, known, shared, answers);
         break;
     case 4:
-        chart_3_5(p, known, shared, answers);
+        case_3_5(p, known, shared, answers);
         break;
     default:
         break;
     }
-    chart_3_6(p, known, shared, before, answers);
+    case_3_6(p, known, shared, before, answers);
 }
 
-/* Chart 1 of block 2: given. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 2: given. */
+INLINE static void case_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double left_c3_ = p->left_c3, left_s3_ = p->left_s3;
     Known next = *known; next.left_c3_ = left_c3_; next.left_s3_ = left_s3_;
@@ -3099,11 +3099,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *a
 /* Block 2: TorsoRoll. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    chart_2_1(p, known, answers);
+    case_2_1(p, known, answers);
 }
 
-/* Chart 1 of block 1: given. */
-INLINE static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1 of block 1: given. */
+INLINE static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double left_c2_ = p->left_c2, left_s2_ = p->left_s2;
     Known next = NOTHING_KNOWN; next.last = 1; next.left_c2_ = left_c2_; next.left_s2_ = left_s2_;
@@ -3113,7 +3113,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: TorsoPitch. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -3357,7 +3357,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

@@ -2,7 +2,7 @@
  *
  * Task: left: pose, TorsoPitch, TorsoRoll given; right: pose, TorsoPitch, TorsoRoll given
  * Solutions: up to 128 at a generic target
- * Hash of the input: 97304683922ba4ba
+ * Hash of the input: 7edd7e8ec315dc18
  *
  * Target, in order:
  *   `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -64,11 +64,11 @@ typedef struct {
     double q[NAO_LEGS_YAW_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_LEGS_YAW_JOINTS];
 } nao_legs_yaw_solution;
 
@@ -114,7 +114,7 @@ size_t nao_legs_yaw_count_turns(const double *q, const double *limits);
 void nao_legs_yaw_turn(const double *q, const double *limits, size_t index, double *out);
 
 /* As nao_legs_yaw_solve, for the solutions that have a turn within limits: each is moved there by as few turns of each angle as can be. A member of
- * a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
+ * a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself. */
 int nao_legs_yaw_solve_within(const double *target, const double *limits, nao_legs_yaw_solution *out);
 
 /* Of a list of solutions, the index of the one that can come nearest to a reference by turns within limits, the first of equals; -1 when

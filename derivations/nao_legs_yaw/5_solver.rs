@@ -2,7 +2,7 @@
 //!
 //! - Task: left: pose, TorsoPitch, TorsoRoll given; right: pose, TorsoPitch, TorsoRoll given
 //! - Solutions: up to 128 at a generic target
-//! - Hash of the input: 97304683922ba4ba
+//! - Hash of the input: 7edd7e8ec315dc18
 //!
 //! Target, in order:
 //! `left_px` (m), `left_py` (m), `left_pz` (m), `left_r11` (1), `left_r12` (1), `left_r13` (1),
@@ -61,11 +61,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -205,7 +205,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -245,7 +245,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -353,20 +353,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -376,7 +376,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 6] = [[true, false, false, false, false, false, false, false, false, false, false, false, false, false], [false, false, false, true, false, false, false, false, false, false, false, false, false, false], [false, false, false, false, false, false, false, true, false, false, false, false, false, false], [false, false, false, false, false, false, false, false, true, false, false, false, false, false], [false, false, false, false, false, false, false, false, false, false, false, false, true, false], [false, false, false, false, false, false, false, false, false, false, false, false, false, true]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -448,7 +448,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -462,7 +462,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 16] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.7019254526931687, -0.7122504186460616],
     [-0.37592812418099103, -0.926648825310733], [0.007300853440810815, -0.9999733484143644],
@@ -474,7 +474,7 @@ const SAMPLES_1: [[f64; 2]; 16] = [
     [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_2: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -484,12 +484,12 @@ const SAMPLES_2: [[f64; 2]; 8] = [
 
 /// Block 1: TorsoPitch.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
-/// Chart 1 of block 1: given.
+/// Case 1 of block 1: given.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let left_c2_ = p.left_c2; let left_s2_ = p.left_s2;
     let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -498,12 +498,12 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: TorsoRoll.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    chart_2_1(p, known, answers);
+    case_2_1(p, known, answers);
 }
 
-/// Chart 1 of block 2: given.
+/// Case 1 of block 2: given.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let left_c3_ = p.left_c3; let left_s3_ = p.left_s3;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, ..*known };
     block_3(p, &next, answers);
@@ -574,23 +574,23 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r302 = f64::abs(r288 + r218 * r222); let r303 = f64::abs(r296 + r218 * r221);
     let shared = &Shared3 { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
     match greatest(&[claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared)]) {
-        0 => chart_3_1(p, known, shared, answers),
-        1 => chart_3_2(p, known, shared, answers),
-        2 => chart_3_3(p, known, shared, answers),
-        3 => chart_3_4(p, known, shared, answers),
-        4 => chart_3_5(p, known, shared, answers),
+        0 => case_3_1(p, known, shared, answers),
+        1 => case_3_2(p, known, shared, answers),
+        2 => case_3_3(p, known, shared, answers),
+        3 => case_3_4(p, known, shared, answers),
+        4 => case_3_5(p, known, shared, answers),
         _ => {}
     }
-    chart_3_6(p, known, shared, before, answers);
+    case_3_6(p, known, shared, before, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r175: f64, r184: f64, r192: f64, r200: f64, r207: f64, r299: f64, r300: f64, r301: f64,
     r302: f64, r303: f64 }
 
-/// Chart 1 of block 3: half angle.
+/// Case 1 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r200; let r315 = shared.r192 - shared.r207;
     let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
@@ -615,15 +615,15 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// The pivot of chart 1 of block 3; -1 where it does not run.
+/// The pivot of case 1 of block 3; -1 where it does not run.
 fn claim_3_1(shared: &Shared3) -> f64 {
     let r315 = shared.r192 - shared.r207; let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
 }
 
-/// Chart 2 of block 3: half angle.
+/// Case 2 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r192;
     let r315 = shared.r207 + (shared.r184 - shared.r200);
     let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
@@ -648,16 +648,16 @@ fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// The pivot of chart 2 of block 3; -1 where it does not run.
+/// The pivot of case 2 of block 3; -1 where it does not run.
 fn claim_3_2(shared: &Shared3) -> f64 {
     let r315 = shared.r207 + (shared.r184 - shared.r200);
     let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
 }
 
-/// Chart 3 of block 3: half angle.
+/// Case 3 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r305 = 2.0 * shared.r175; let r306 = 2.0 * shared.r200; let r313 = shared.r192 + shared.r207;
     let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if !is_away(r313, 1000000000000.0 * (shared.r303 + r316)) {
@@ -680,15 +680,15 @@ fn chart_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// The pivot of chart 3 of block 3; -1 where it does not run.
+/// The pivot of case 3 of block 3; -1 where it does not run.
 fn claim_3_3(shared: &Shared3) -> f64 {
     let r313 = shared.r192 + shared.r207; let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r313, 1000000000000.0 * (shared.r303 + r316)) { f64::abs(r313) } else { -1.0 }
 }
 
-/// Chart 4 of block 3: half angle.
+/// Case 4 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r306 = 2.0 * shared.r192; let r307 = 2.0 * shared.r175;
     let r314 = shared.r207 + (shared.r184 + shared.r200);
     let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
@@ -713,16 +713,16 @@ fn chart_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// The pivot of chart 4 of block 3; -1 where it does not run.
+/// The pivot of case 4 of block 3; -1 where it does not run.
 fn claim_3_4(shared: &Shared3) -> f64 {
     let r314 = shared.r207 + (shared.r184 + shared.r200);
     let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
     if is_away(r314, 1000000000000.0 * (shared.r303 + r317)) { f64::abs(r314) } else { -1.0 }
 }
 
-/// Chart 5 of block 3: half angle.
+/// Case 5 of block 3: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r305 = shared.r175 + 1.3333333333333333 * shared.r184; let r306 = 1.25 * shared.r192;
     let r308 = 1.6666666666666667 * shared.r200; let r310 = 2.0833333333333335 * shared.r207;
     let r312 = 4.0 * shared.r184; let r313 = 1.1666666666666667 * shared.r175;
@@ -758,7 +758,7 @@ fn chart_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// The pivot of chart 5 of block 3; -1 where it does not run.
+/// The pivot of case 5 of block 3; -1 where it does not run.
 fn claim_3_5(shared: &Shared3) -> f64 {
     let r305 = shared.r175 + 1.3333333333333333 * shared.r184;
     let r328 = r305 - 1.25 * shared.r192 - 1.6666666666666667 * shared.r200;
@@ -767,10 +767,10 @@ fn claim_3_5(shared: &Shared3) -> f64 {
     if is_away(r329, 1000000000000.0 * (shared.r303 + r332)) { f64::abs(r329) } else { -1.0 }
 }
 
-/// Chart 6 of block 3: A = B = C = D = E = 0.
+/// Case 6 of block 3: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: TorsoYaw.
-fn chart_3_6(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_6(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     if !(is_near(shared.r175, 0.01 * shared.r299, NEAR) && is_near(shared.r184, 0.01 * shared.r300, NEAR) && is_near(shared.r192, 0.01 * shared.r301, NEAR) && is_near(shared.r200, 0.01 * shared.r302, NEAR) && is_near(shared.r207, 0.01 * shared.r303, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r175, 0.01 * shared.r299, BESIDE) && is_near(shared.r184, 0.01 * shared.r300, BESIDE) && is_near(shared.r192, 0.01 * shared.r301, BESIDE) && is_near(shared.r200, 0.01 * shared.r302, BESIDE) && is_near(shared.r207, 0.01 * shared.r303, BESIDE))) {
         return;
     }
@@ -821,28 +821,28 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r141 = r110 * r120; let r142 = 0.0 - r139 - r141; let r143 = r137 * r138; let r144 = r143 + r143;
     let r145 = 0.001 * r144;
     let shared = &Shared4 { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
-    chart_4_3(p, known, shared, before, answers);
-    chart_4_4(p, known, shared, before, answers);
-    chart_4_5(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
+    case_4_3(p, known, shared, before, answers);
+    case_4_4(p, known, shared, before, answers);
+    case_4_5(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r98: f64, r110: f64, r120: f64, r132: f64, r137: f64, r138: f64, r139: f64, r141: f64, r142: f64,
     r144: f64, r145: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     if !is_away(shared.r139 + shared.r141, 16.0 * shared.r144) {
         return;
     }
@@ -851,9 +851,9 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     block_5(p, &next, answers);
 }
 
-/// Chart 2 of block 4: generic.
+/// Case 2 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r146 = shared.r98 * shared.r98; let r147 = shared.r110 * shared.r110; let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
@@ -868,10 +868,10 @@ fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
     }
 }
 
-/// Chart 3 of block 4: A = 0, B = 0, C = 0.
+/// Case 3 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r148 = shared.r98 * shared.r98 + shared.r110 * shared.r110;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
@@ -883,9 +883,9 @@ fn chart_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
     }
 }
 
-/// Chart 4 of block 4: generic.
+/// Case 4 of block 4: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r146 = shared.r120 * shared.r120; let r147 = shared.r132 * shared.r132; let r148 = r146 + r147;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
@@ -900,10 +900,10 @@ fn chart_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, ans
     }
 }
 
-/// Chart 5 of block 4: A = 0, B = 0, C = 0.
+/// Case 5 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_5(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_5(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r148 = shared.r120 * shared.r120 + shared.r132 * shared.r132;
     let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
     if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
@@ -929,22 +929,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
     let r41 = 0.0088212739 - r40;
     let shared = &Shared5 { r41 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r41: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
@@ -979,21 +979,21 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = r78 - r79;
     let r83 = 37.0 * r76 + 37.0 * r77; let r84 = 0.001 * r83;
     let shared = &Shared6 { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
-    chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, before, answers);
-    chart_6_3(p, known, shared, before, answers);
-    chart_6_4(p, known, shared, before, answers);
-    chart_6_5(p, known, shared, before, answers);
+    case_6_1(p, known, shared, answers);
+    case_6_2(p, known, shared, before, answers);
+    case_6_3(p, known, shared, before, answers);
+    case_6_4(p, known, shared, before, answers);
+    case_6_5(p, known, shared, before, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r79: f64, r80: f64,
     r83: f64, r84: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     if !is_away(shared.r79 - shared.r78, 16.0 * shared.r83) {
         return;
     }
@@ -1002,9 +1002,9 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     block_7(p, &next, answers);
 }
 
-/// Chart 2 of block 6: generic.
+/// Case 2 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
+fn case_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r85 = shared.r57 * shared.r57; let r86 = shared.r68 * shared.r68; let r87 = r85 + r86;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 16.0 * r90)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 16.0 * r90))) {
@@ -1019,10 +1019,10 @@ fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, ans
     }
 }
 
-/// Chart 3 of block 6: A = 0, B = 0, C = 0.
+/// Case 3 of block 6: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
+fn case_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r87 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
     let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 1.0000000000000001e-7 * r90, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 1.0000000000000001e-7 * r90, BESIDE))) {
@@ -1034,9 +1034,9 @@ fn chart_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, ans
     }
 }
 
-/// Chart 4 of block 6: generic.
+/// Case 4 of block 6: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
+fn case_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r85 = shared.r70 * shared.r70; let r86 = shared.r72 * shared.r72; let r87 = r85 + r86;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 43808.0))) {
         return;
@@ -1050,10 +1050,10 @@ fn chart_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, ans
     }
 }
 
-/// Chart 5 of block 6: A = 0, B = 0, C = 0.
+/// Case 5 of block 6: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: left_AnkleRoll.
-fn chart_6_5(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
+fn case_6_5(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r87 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
     if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 0.00027380000000000004, BESIDE))) {
         return;
@@ -1089,24 +1089,24 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r91 = 0.1029 * known.left_c7 + 0.1; let r92 = 0.1029 * known.left_s7;
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared7 { r77, r89, r91, r92, r95 };
-    chart_7_1(p, known, shared, answers);
-    chart_7_2(p, known, shared, before, answers);
+    case_7_1(p, known, shared, answers);
+    case_7_2(p, known, shared, before, answers);
 }
 
-/// Block 7 behind a chart that hardly ever runs.
+/// Block 7 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_7(p, known, answers);
 }
 
-/// What the charts of block 7 share.
+/// What the cases of block 7 share.
 struct Shared7 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 
-/// Chart 1 of block 7: generic.
+/// Case 1 of block 7: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
@@ -1119,10 +1119,10 @@ fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answ
     block_8(p, &next, answers);
 }
 
-/// Chart 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: left_AnklePitch.
-fn chart_7_2(p: &Parameters, known: &Known, shared: &Shared7, before: usize, answers: &mut Answers<'_>) {
+fn case_7_2(p: &Parameters, known: &Known, shared: &Shared7, before: usize, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
@@ -1149,22 +1149,22 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r44 = r43 - (r40 - r41); let r45 = 0.5 * (known.left_c4 * (r22 + (r19 + r21) - r23));
     let r47 = r43 + (r40 + r45);
     let shared = &Shared8 { r44, r47 };
-    chart_8_1(p, known, shared, answers);
+    case_8_1(p, known, shared, answers);
 }
 
-/// Block 8 behind a chart that hardly ever runs.
+/// Block 8 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_8(p, known, answers);
 }
 
-/// What the charts of block 8 share.
+/// What the cases of block 8 share.
 struct Shared8 { r44: f64, r47: f64 }
 
-/// Chart 1 of block 8: generic.
+/// Case 1 of block 8: generic.
 #[inline(always)]
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
     let left_c5 = shared.r47 * r52; let left_s5 = shared.r44 * r52;
     let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, ..*known };
@@ -1198,15 +1198,15 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r95 = r44 - 0.7071067811865475 * r49;
     let r97 = 0.07071067811865475 * (known.left_s4 * (known.left_s3_ * r84 + r91)); let r98 = 0.1 * r89 - r97;
     let shared = &Shared9 { r95, r98 };
-    chart_9_1(p, known, shared, answers);
+    case_9_1(p, known, shared, answers);
 }
 
-/// What the charts of block 9 share.
+/// What the cases of block 9 share.
 struct Shared9 { r95: f64, r98: f64 }
 
-/// Chart 1 of block 9: generic.
+/// Case 1 of block 9: generic.
 #[inline(always)]
-fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
     let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104; let left_c6 = r100 * r105;
     let left_s6 = 0.0 - r99 * r105;
@@ -1228,15 +1228,15 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
     let r41 = 0.0088212739 - r40;
     let shared = &Shared10 { r41 };
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/// What the charts of block 10 share.
+/// What the cases of block 10 share.
 struct Shared10 { r41: f64 }
 
-/// Chart 1 of block 10: generic.
+/// Case 1 of block 10: generic.
 #[inline(always)]
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
     let roots0 = square_roots(r43, 1.4142135623730951);
     for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
@@ -1271,21 +1271,21 @@ fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = 0.0 - r79;
     let r81 = r78 + r79; let r84 = 37.0 * r76 + 37.0 * r77; let r85 = 0.001 * r84;
     let shared = &Shared11 { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
-    chart_11_1(p, known, shared, answers);
-    chart_11_2(p, known, shared, before, answers);
-    chart_11_3(p, known, shared, before, answers);
-    chart_11_4(p, known, shared, before, answers);
-    chart_11_5(p, known, shared, before, answers);
+    case_11_1(p, known, shared, answers);
+    case_11_2(p, known, shared, before, answers);
+    case_11_3(p, known, shared, before, answers);
+    case_11_4(p, known, shared, before, answers);
+    case_11_5(p, known, shared, before, answers);
 }
 
-/// What the charts of block 11 share.
+/// What the cases of block 11 share.
 struct Shared11 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r80: f64, r81: f64,
     r84: f64, r85: f64 }
 
-/// Chart 1 of block 11: generic.
+/// Case 1 of block 11: generic.
 /// It runs where B*E - A*F is not zero.
 #[inline(always)]
-fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
+fn case_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
     if !is_away(shared.r80 - shared.r78, 16.0 * shared.r84) {
         return;
     }
@@ -1294,9 +1294,9 @@ fn chart_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut An
     block_12(p, &next, answers);
 }
 
-/// Chart 2 of block 11: generic.
+/// Case 2 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
+fn case_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r86 = shared.r57 * shared.r57; let r87 = shared.r68 * shared.r68; let r88 = r86 + r87;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 16.0 * r91)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 16.0 * r91))) {
@@ -1311,10 +1311,10 @@ fn chart_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
     }
 }
 
-/// Chart 3 of block 11: A = 0, B = 0, C = 0.
+/// Case 3 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
+fn case_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
     let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 1.0000000000000001e-7 * r91, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 1.0000000000000001e-7 * r91, BESIDE))) {
@@ -1326,9 +1326,9 @@ fn chart_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
     }
 }
 
-/// Chart 4 of block 11: generic.
+/// Case 4 of block 11: generic.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
+fn case_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r86 = shared.r70 * shared.r70; let r87 = shared.r72 * shared.r72; let r88 = r86 + r87;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 43808.0))) {
         return;
@@ -1342,10 +1342,10 @@ fn chart_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, a
     }
 }
 
-/// Chart 5 of block 11: A = 0, B = 0, C = 0.
+/// Case 5 of block 11: A = 0, B = 0, C = 0.
 /// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
 /// Free: right_AnkleRoll.
-fn chart_11_5(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
+fn case_11_5(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
     if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 0.00027380000000000004, BESIDE))) {
         return;
@@ -1380,24 +1380,24 @@ fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r91 = 0.1029 * known.right_c7 + 0.1; let r92 = 0.1029 * known.right_s7;
     let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
     let shared = &Shared12 { r77, r89, r91, r92, r95 };
-    chart_12_1(p, known, shared, answers);
-    chart_12_2(p, known, shared, before, answers);
+    case_12_1(p, known, shared, answers);
+    case_12_2(p, known, shared, before, answers);
 }
 
-/// Block 12 behind a chart that hardly ever runs.
+/// Block 12 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_12(p, known, answers);
 }
 
-/// What the charts of block 12 share.
+/// What the cases of block 12 share.
 struct Shared12 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
 
-/// Chart 1 of block 12: generic.
+/// Case 1 of block 12: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
+fn case_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !is_away(r98, 16.0 * (r99 + r99)) {
         return;
@@ -1410,10 +1410,10 @@ fn chart_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut An
     block_13(p, &next, answers);
 }
 
-/// Chart 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: right_AnklePitch.
-fn chart_12_2(p: &Parameters, known: &Known, shared: &Shared12, before: usize, answers: &mut Answers<'_>) {
+fn case_12_2(p: &Parameters, known: &Known, shared: &Shared12, before: usize, answers: &mut Answers<'_>) {
     let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
     if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
         return;
@@ -1440,22 +1440,22 @@ fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r44 = r40 + r41 + r43; let r45 = 0.5 * (known.left_c4 * (r23 + (r19 + r21 - r22)));
     let r47 = r40 + r45 - r43;
     let shared = &Shared13 { r44, r47 };
-    chart_13_1(p, known, shared, answers);
+    case_13_1(p, known, shared, answers);
 }
 
-/// Block 13 behind a chart that hardly ever runs.
+/// Block 13 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_13(p, known, answers);
 }
 
-/// What the charts of block 13 share.
+/// What the cases of block 13 share.
 struct Shared13 { r44: f64, r47: f64 }
 
-/// Chart 1 of block 13: generic.
+/// Case 1 of block 13: generic.
 #[inline(always)]
-fn chart_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
+fn case_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
     let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
     let right_c5 = shared.r47 * r52; let right_s5 = shared.r44 * r52;
     let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, ..*known };
@@ -1490,15 +1490,15 @@ fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r95 = r44 - 0.7071067811865475 * r49;
     let r97 = 0.07071067811865475 * (known.left_s4 * (r91 - known.left_s3_ * r84)); let r98 = 0.1 * r89 - r97;
     let shared = &Shared14 { r95, r98 };
-    chart_14_1(p, known, shared, answers);
+    case_14_1(p, known, shared, answers);
 }
 
-/// What the charts of block 14 share.
+/// What the cases of block 14 share.
 struct Shared14 { r95: f64, r98: f64 }
 
-/// Chart 1 of block 14: generic.
+/// Case 1 of block 14: generic.
 #[inline(always)]
-fn chart_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
+fn case_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
     let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
     let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104;
     let right_c6 = r100 * r105; let right_s6 = 0.0 - r99 * r105;
@@ -1863,7 +1863,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -1880,7 +1880,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -1945,9 +1945,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -2074,12 +2074,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -2091,9 +2091,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -2112,7 +2112,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -2153,7 +2153,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -2357,7 +2357,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

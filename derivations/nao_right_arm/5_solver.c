@@ -80,20 +80,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -362,7 +362,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[2][JOINTS] = { {true, false, false, false, false}, {false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
@@ -497,7 +497,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -782,7 +782,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -811,8 +811,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -832,7 +832,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -882,15 +882,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1011,10 +1011,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1033,7 +1033,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1052,7 +1052,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 2 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1285,7 +1285,7 @@ static size_t greatest(const double *claims, size_t length)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1297,7 +1297,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1305,13 +1305,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 7 share. */
+/* What the cases of block 7 share. */
 typedef struct {
     double r34, r36;
 } Shared7;
 
-/* Chart 1 of block 7: generic. */
-INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+/* Case 1 of block 7: generic. */
+INLINE static void case_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r37 = 0.01231 * shared->r36, r38 = 0.01231 * shared->r34;
     const double r43 = 1.0 / sqrt(larger(r38 * r38 + r37 * r37, 0.0)), c5 = 0.0 - r38 * r43;
@@ -1342,16 +1342,16 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r32 = known->c3 * (known->c1 * r22 + known->s1 * r20), r34 = r12 - r13;
     const double r36 = 0.01231 * (r32 - known->s3 * (known->c2 * r27 - r29));
     const Shared7 own = { r34, r36 }, *const shared = &own;
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r13, r14;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r17 = shared->r13 * shared->r13 + shared->r14 * shared->r14;
     const double r19 = 1.0 / sqrt(larger(r17, 0.0)), c4 = shared->r13 * r19, s4 = shared->r14 * r19;
@@ -1367,23 +1367,23 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r12 = known->s3 * (p->dz * known->c1 + p->dx * known->s1);
     const double r13 = known->c2 * r4 + p->dy * known->s2, r14 = r10 + r12;
     const Shared6 own = { r13, r14 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* Block 6 behind a chart that hardly ever runs. */
+/* Block 6 behind a case that hardly ever runs. */
 COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
 {
     block_6(p, known, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r7, r8;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
+/* Case 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
     if (!is_away(r11, 976.0)) {
@@ -1400,10 +1400,10 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 5: A = 0, B = 0, C = 0.
+/* Case 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ElbowYaw. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
+static void case_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
     if (!is_near(r11, 6.100000000000001e-6, NEAR) || (suffice_since(answers, before) && !is_near(r11, 6.100000000000001e-6, BESIDE))) {
@@ -1424,17 +1424,17 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r6 = known->s2 * (p->dx * known->c1 - p->dz * known->s1);
     const double r7 = p->dz * known->c1 + p->dx * known->s1, r8 = p->dy * known->c2 - r6;
     const Shared5 own = { r7, r8 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r27, r28;
 } Shared4;
 
-/* Chart 1 of block 4: generic. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+/* Case 1 of block 4: generic. */
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r31 = 0.105 * shared->r27 - 0.015 * shared->r28;
     const double r34 = 0.015 * shared->r27 + 0.105 * shared->r28;
@@ -1453,23 +1453,23 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r24 = p->py - 0.1137 * p->dy - 0.01231 * (known->sr * known->vy);
     const double r27 = r24 + 0.01231 * (known->cr * known->uy) + 0.098, r28 = known->s1 * r19 - r12;
     const Shared4 own = { r27, r28 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
+    case_4_1(p, known, shared, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r10, r16, r19, r20;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r21 = shared->r10 * shared->r10, r22 = shared->r16 * shared->r16, r23 = r21 + r22;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
@@ -1487,10 +1487,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, C = 0.
+/* Case 2 of block 3: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderPitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r23 = shared->r10 * shared->r10 + shared->r16 * shared->r16;
     const double r26 = shared->r19 * shared->r19 + shared->r20 * shared->r20;
@@ -1516,24 +1516,24 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r16 = r14 + 0.01231 * (known->cr * known->ux), r19 = fabs(p->magnitude + 2.73726);
     const double r20 = fabs(p->magnitude + 2.63726);
     const Shared3 own = { r10, r16, r19, r20 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r26, r35, r52, r53, r67, r68, r69;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r70 = shared->r26 * shared->r26, r71 = shared->r35 * shared->r35, r72 = r70 + r71;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
@@ -1552,10 +1552,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: ShoulderPitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r72 = shared->r26 * shared->r26 + shared->r35 * shared->r35;
     const double r75 = shared->r67 * shared->r67 + shared->r68 * shared->r68;
@@ -1591,12 +1591,12 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r67 = fabs(6.36654 * p->magnitude + 1.1545233044);
     const double r68 = fabs(2.48214 * p->magnitude + 0.32792888), r69 = fabs(r65 + 1.4594794227);
     const Shared2 own = { r26, r35, r52, r53, r67, r68, r69 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* Chart 1 of block 1: across x. */
-static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1 of block 1: across x. */
+static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(larger(p->dy * p->dy + p->dz * p->dz, 0.0)), r4 = p->dz / r3, r5 = p->dy / r3;
     const double ux = 0.0, uy = r4, uz = 0.0 - r5, vx = 0.0 - p->dy * r5 - p->dz * r4, vy = p->dx * r5;
@@ -1606,14 +1606,14 @@ static void chart_1_1(const Parameters *p, Answers *answers)
     block_2(p, &next, answers);
 }
 
-/* The pivot of chart 1 of block 1; -1 where it does not run. */
+/* The pivot of case 1 of block 1; -1 where it does not run. */
 static double claim_1_1(const Parameters *p)
 {
     return fabs(p->dy * p->dy + p->dz * p->dz);
 }
 
-/* Chart 2 of block 1: across y. */
-static void chart_1_2(const Parameters *p, Answers *answers)
+/* Case 2 of block 1: across y. */
+static void case_1_2(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(larger(p->dz * p->dz + p->dx * p->dx, 0.0)), r4 = p->dx / r3, r5 = p->dz / r3;
     const double ux = 0.0 - r5, uy = 0.0, uz = r4, vx = p->dy * r4, vy = 0.0 - p->dz * r5 - p->dx * r4;
@@ -1623,14 +1623,14 @@ static void chart_1_2(const Parameters *p, Answers *answers)
     block_2(p, &next, answers);
 }
 
-/* The pivot of chart 2 of block 1; -1 where it does not run. */
+/* The pivot of case 2 of block 1; -1 where it does not run. */
 static double claim_1_2(const Parameters *p)
 {
     return fabs(p->dz * p->dz + p->dx * p->dx);
 }
 
-/* Chart 3 of block 1: across z. */
-static void chart_1_3(const Parameters *p, Answers *answers)
+/* Case 3 of block 1: across z. */
+static void case_1_3(const Parameters *p, Answers *answers)
 {
     const double r3 = sqrt(larger(p->dx * p->dx + p->dy * p->dy, 0.0)), r4 = p->dy / r3, r5 = p->dx / r3;
     const double ux = r4, uy = 0.0 - r5, uz = 0.0, vx = p->dz * r5, vy = p->dz * r4;
@@ -1640,7 +1640,7 @@ static void chart_1_3(const Parameters *p, Answers *answers)
     block_2(p, &next, answers);
 }
 
-/* The pivot of chart 3 of block 1; -1 where it does not run. */
+/* The pivot of case 3 of block 1; -1 where it does not run. */
 static double claim_1_3(const Parameters *p)
 {
     return fabs(p->dx * p->dx + p->dy * p->dy);
@@ -1652,13 +1652,13 @@ static void block_1(const Parameters *p, Answers *answers)
     const double claims0[] = { claim_1_1(p), claim_1_2(p), claim_1_3(p) };
     switch (greatest(claims0, 3)) {
     case 0:
-        chart_1_1(p, answers);
+        case_1_1(p, answers);
         break;
     case 1:
-        chart_1_2(p, answers);
+        case_1_2(p, answers);
         break;
     case 2:
-        chart_1_3(p, answers);
+        case_1_3(p, answers);
         break;
     default:
         break;
@@ -1884,7 +1884,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

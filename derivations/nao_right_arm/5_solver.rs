@@ -48,11 +48,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -193,7 +193,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -233,7 +233,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -341,20 +341,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -364,7 +364,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 2] = [[true, false, false, false, false], [false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -411,7 +411,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -424,7 +424,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, ux: 0.0, uy: 0.0, uz: 0.0, vx: 0.0, vy: 0.0, vz: 0.0, cr: 0.0, sr: 0.0, fr: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, c3: 0.0, s3: 0.0, c4: 0.0, s4: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -435,15 +435,15 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 /// Block 1: directions across the ray.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     match greatest(&[claim_1_1(p), claim_1_2(p), claim_1_3(p)]) {
-        0 => chart_1_1(p, answers),
-        1 => chart_1_2(p, answers),
-        2 => chart_1_3(p, answers),
+        0 => case_1_1(p, answers),
+        1 => case_1_2(p, answers),
+        2 => case_1_3(p, answers),
         _ => {}
     }
 }
 
-/// Chart 1 of block 1: across x.
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+/// Case 1 of block 1: across x.
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dy * p.dy + p.dz * p.dz, 0.0).sqrt(); let r4 = p.dz / r3; let r5 = p.dy / r3;
     let ux = 0.0; let uy = r4; let uz = 0.0 - r5; let vx = 0.0 - p.dy * r5 - p.dz * r4; let vy = p.dx * r5;
     let vz = p.dx * r4;
@@ -451,13 +451,13 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     block_2(p, &next, answers);
 }
 
-/// The pivot of chart 1 of block 1; -1 where it does not run.
+/// The pivot of case 1 of block 1; -1 where it does not run.
 fn claim_1_1(p: &Parameters) -> f64 {
     f64::abs(p.dy * p.dy + p.dz * p.dz)
 }
 
-/// Chart 2 of block 1: across y.
-fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
+/// Case 2 of block 1: across y.
+fn case_1_2(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dz * p.dz + p.dx * p.dx, 0.0).sqrt(); let r4 = p.dx / r3; let r5 = p.dz / r3;
     let ux = 0.0 - r5; let uy = 0.0; let uz = r4; let vx = p.dy * r4; let vy = 0.0 - p.dz * r5 - p.dx * r4;
     let vz = p.dy * r5;
@@ -465,13 +465,13 @@ fn chart_1_2(p: &Parameters, answers: &mut Answers<'_>) {
     block_2(p, &next, answers);
 }
 
-/// The pivot of chart 2 of block 1; -1 where it does not run.
+/// The pivot of case 2 of block 1; -1 where it does not run.
 fn claim_1_2(p: &Parameters) -> f64 {
     f64::abs(p.dz * p.dz + p.dx * p.dx)
 }
 
-/// Chart 3 of block 1: across z.
-fn chart_1_3(p: &Parameters, answers: &mut Answers<'_>) {
+/// Case 3 of block 1: across z.
+fn case_1_3(p: &Parameters, answers: &mut Answers<'_>) {
     let r3 = f64::max(p.dx * p.dx + p.dy * p.dy, 0.0).sqrt(); let r4 = p.dy / r3; let r5 = p.dx / r3;
     let ux = r4; let uy = 0.0 - r5; let uz = 0.0; let vx = p.dz * r5; let vy = p.dz * r4;
     let vz = 0.0 - p.dx * r5 - p.dy * r4;
@@ -479,7 +479,7 @@ fn chart_1_3(p: &Parameters, answers: &mut Answers<'_>) {
     block_2(p, &next, answers);
 }
 
-/// The pivot of chart 3 of block 1; -1 where it does not run.
+/// The pivot of case 3 of block 1; -1 where it does not run.
 fn claim_1_3(p: &Parameters) -> f64 {
     f64::abs(p.dx * p.dx + p.dy * p.dy)
 }
@@ -499,17 +499,17 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r67 = f64::abs(6.36654 * p.magnitude + 1.1545233044);
     let r68 = f64::abs(2.48214 * p.magnitude + 0.32792888); let r69 = f64::abs(r65 + 1.4594794227);
     let shared = &Shared2 { r26, r35, r52, r53, r67, r68, r69 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r26: f64, r35: f64, r52: f64, r53: f64, r67: f64, r68: f64, r69: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r70 = shared.r26 * shared.r26; let r71 = shared.r35 * shared.r35; let r72 = r70 + r71;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
     if !is_away(r72, 16.0 * r75) {
@@ -524,10 +524,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
+/// Case 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: ShoulderPitch.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
+fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r72 = shared.r26 * shared.r26 + shared.r35 * shared.r35;
     let r75 = shared.r67 * shared.r67 + shared.r68 * shared.r68;
     if !(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared.r53, 0.01 * shared.r69, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared.r53, 0.01 * shared.r69, BESIDE))) {
@@ -549,24 +549,24 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r16 = r14 + 0.01231 * (known.cr * known.ux); let r19 = f64::abs(p.magnitude + 2.73726);
     let r20 = f64::abs(p.magnitude + 2.63726);
     let shared = &Shared3 { r10, r16, r19, r20 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// Block 3 behind a chart that hardly ever runs.
+/// Block 3 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_3(p, known, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r10: f64, r16: f64, r19: f64, r20: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r21 = shared.r10 * shared.r10; let r22 = shared.r16 * shared.r16; let r23 = r21 + r22;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
     if !is_away(r23, 16.0 * r26) {
@@ -580,10 +580,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, C = 0.
+/// Case 2 of block 3: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ShoulderPitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r23 = shared.r10 * shared.r10 + shared.r16 * shared.r16;
     let r26 = shared.r19 * shared.r19 + shared.r20 * shared.r20;
     if !is_near(r23, 1.0000000000000001e-7 * r26, NEAR) || (answers.suffice_since(p, before) && !is_near(r23, 1.0000000000000001e-7 * r26, BESIDE)) {
@@ -606,22 +606,22 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r24 = p.py - 0.1137 * p.dy - 0.01231 * (known.sr * known.vy);
     let r27 = r24 + 0.01231 * (known.cr * known.uy) + 0.098; let r28 = r20 - r12;
     let shared = &Shared4 { r27, r28 };
-    chart_4_1(p, known, shared, answers);
+    case_4_1(p, known, shared, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r27: f64, r28: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r31 = 0.105 * shared.r27 - 0.015 * shared.r28; let r34 = 0.015 * shared.r27 + 0.105 * shared.r28;
     let r39 = 1.0 / f64::max(r34 * r34 + r31 * r31, 0.0).sqrt(); let c2 = 0.0 - r34 * r39; let s2 = r31 * r39;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
@@ -634,17 +634,17 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates; let r6 = known.s2 * (p.dx * known.c1 - p.dz * known.s1);
     let r7 = p.dz * known.c1 + p.dx * known.s1; let r8 = p.dy * known.c2 - r6;
     let shared = &Shared5 { r7, r8 };
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r7: f64, r8: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r9 = shared.r7 * shared.r7; let r10 = shared.r8 * shared.r8; let r11 = r9 + r10;
     if !is_away(r11, 976.0) {
         return;
@@ -657,10 +657,10 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 5: A = 0, B = 0, C = 0.
+/// Case 2 of block 5: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: ElbowYaw.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
+fn case_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r11 = shared.r7 * shared.r7 + shared.r8 * shared.r8;
     if !is_near(r11, 6.100000000000001e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r11, 6.100000000000001e-6, BESIDE)) {
         return;
@@ -677,22 +677,22 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r4 = p.dx * known.c1 - p.dz * known.s1; let r12 = known.s3 * (p.dz * known.c1 + p.dx * known.s1);
     let r13 = known.c2 * r4 + p.dy * known.s2; let r14 = known.c3 * (p.dy * known.c2 - known.s2 * r4) + r12;
     let shared = &Shared6 { r13, r14 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// Block 6 behind a chart that hardly ever runs.
+/// Block 6 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_6(p, known, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r13: f64, r14: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14; let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
     let c4 = shared.r13 * r19; let s4 = shared.r14 * r19;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c4, s4, ..*known };
@@ -709,15 +709,15 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r34 = known.c3 * (known.c1 * r1 + p.px * known.s1) - known.s3 * (r9 + 0.015);
     let r35 = known.c3 * (known.c1 * r22 + known.s1 * r20) - known.s3 * r30; let r36 = 0.01231 * r35;
     let shared = &Shared7 { r34, r36 };
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/// What the charts of block 7 share.
+/// What the cases of block 7 share.
 struct Shared7 { r34: f64, r36: f64 }
 
-/// Chart 1 of block 7: generic.
+/// Case 1 of block 7: generic.
 #[inline(always)]
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r37 = 0.01231 * shared.r36; let r38 = 0.01231 * shared.r34;
     let r43 = 1.0 / f64::max(r38 * r38 + r37 * r37, 0.0).sqrt(); let c5 = 0.0 - r38 * r43;
     let s5 = 0.0 - r37 * r43;
@@ -865,7 +865,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -882,7 +882,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -947,9 +947,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1096,12 +1096,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1113,9 +1113,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1134,7 +1134,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1175,7 +1175,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1370,7 +1370,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

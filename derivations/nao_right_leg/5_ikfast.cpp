@@ -14,7 +14,7 @@
 //   AnkleRoll
 //
 // A target has 22 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the family. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
@@ -77,11 +77,11 @@ typedef struct {
     double q[NAO_RIGHT_LEG_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[NAO_RIGHT_LEG_JOINTS];
 } nao_right_leg_solution;
 
@@ -139,20 +139,20 @@ static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
 static const double SHORT = 1e-9;
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 static const double ALONE = 1e-13;
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 static const double ASIDE = 0.1;
 static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 static const double ARRIVED = 0.001;
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
@@ -487,7 +487,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false, false, false}, {false, false, false, false, true, false}, {false, false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -622,7 +622,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -905,7 +905,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -934,8 +934,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -955,7 +955,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1005,15 +1005,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1134,10 +1134,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1156,7 +1156,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1175,7 +1175,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1346,7 +1346,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1356,7 +1356,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1364,13 +1364,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r59, r62;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r63 = 0.1 * shared->r59, r64 = 0.1 * shared->r62;
     const double r69 = 1.0 / sqrt(larger(r64 * r64 + r63 * r63, 0.0)), c3 = r64 * r69, s3 = 0.0 - r63 * r69;
@@ -1397,16 +1397,16 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r59 = known->c1 * (p->r13_ * r5 + r16) - 0.7071067811865475 * (known->s1 * r30);
     const double r62 = 0.1 * (known->c1 * r50) - 0.07071067811865475 * (known->s1 * r56);
     const Shared6 own = { r59, r62 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r19, r21;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r24 = shared->r21 * shared->r21 + shared->r19 * shared->r19;
     const double r26 = 1.0 / sqrt(larger(r24, 0.0)), c2 = shared->r21 * r26, s2 = shared->r19 * r26;
@@ -1422,23 +1422,23 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r14 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6), r18 = 0.7071067811865475 * r14;
     const double r19 = r9 + known->c1 * (r4 - r5 - r9) + r18, r21 = r9 + known->c1 * (r6 - r9) - r18;
     const Shared5 own = { r19, r21 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r6, r10;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r11 = shared->r6 * shared->r6, r12 = shared->r10 * shared->r10, r13 = r11 + r12;
     if (!is_away(r13, 191.99999999999997)) {
@@ -1454,10 +1454,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYawPitch. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r13 = shared->r6 * shared->r6 + shared->r10 * shared->r10;
     if (!is_near(r13, 1.2e-6, NEAR) || (suffice_since(answers, before) && !is_near(r13, 1.2e-6, BESIDE))) {
@@ -1479,24 +1479,24 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r8 = p->r32_ * known->c6 - p->r33_ * known->s6 - p->r22_ * known->c6;
     const double r10 = 0.7071067811865475 * (p->r23_ * known->s6 + r8);
     const Shared4 own = { r6, r10 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r41, r50, r67, r68, r69, r83, r84, r85;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1511,10 +1511,10 @@ static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *sh
     block_4(p, &next, answers);
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: AnklePitch. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r88 = shared->r41 * shared->r41 + shared->r50 * shared->r50;
     const double r91 = shared->r83 * shared->r83 + shared->r84 * shared->r84;
@@ -1551,24 +1551,24 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r83 = fabs(8.0748 * p->magnitude + 1.918265982), r84 = fabs(8.5122 * p->magnitude + 0.383049);
     const double r85 = fabs(r81 + 3.1572666541);
     const Shared3 own = { r41, r50, r67, r68, r69, r83, r84, r85 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r11, r18, r22, r23;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r24 = shared->r11 * shared->r11, r25 = shared->r18 * shared->r18, r26 = r24 + r25;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
@@ -1586,10 +1586,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: AnkleRoll. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r26 = shared->r11 * shared->r11 + shared->r18 * shared->r18;
     const double r29 = shared->r22 * shared->r22 + shared->r23 * shared->r23;
@@ -1615,17 +1615,17 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r18 = p->pz * p->r33_ + (p->py * p->r23_ + r15) + 0.04519, r19 = 3.0 * p->magnitude;
     const double r22 = fabs(r19 + 0.235), r23 = fabs(r19 + 0.75599);
     const Shared2 own = { r11, r18, r22, r23 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r28;
 } Shared1;
 
-/* Chart 1 of block 1: generic. */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+/* Case 1 of block 1: generic. */
+static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r30 = shared->r28 * shared->r28 - 0.00042353640000000005;
     const Roots roots0 = square_roots(r30, 1.4142135623730951);
@@ -1647,7 +1647,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r25 = r19 + 0.1 * p->py + 0.004519 * p->r23_ + 0.17 * p->pz;
     const double r28 = 0.0088212739 - (r25 + 0.0076823 * p->r33_);
     const Shared1 own = { r28 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
 static double dot(const double *a, const double *b)

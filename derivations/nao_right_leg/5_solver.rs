@@ -50,11 +50,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -215,7 +215,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -255,7 +255,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -363,20 +363,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -386,7 +386,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 3] = [[true, false, false, false, false, false], [false, false, false, false, true, false], [false, false, false, false, false, true]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -446,7 +446,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -457,7 +457,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c4: 0.0, s4: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, f5: 0.0, c1: 0.0, s1: 0.0, c2: 0.0, s2: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -473,15 +473,15 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r25 = r19 + 0.1 * p.py + 0.004519 * p.r23_ + 0.17 * p.pz;
     let r28 = 0.0088212739 - (r25 + 0.0076823 * p.r33_);
     let shared = &Shared1 { r28 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r28: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
     let roots0 = square_roots(r30, 1.4142135623730951);
     for (i0, &w4) in roots0.as_slice().iter().enumerate() {
@@ -500,17 +500,17 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = p.pz * p.r33_ + (p.py * p.r23_ + r15) + 0.04519; let r19 = 3.0 * p.magnitude;
     let r22 = f64::abs(r19 + 0.235); let r23 = f64::abs(r19 + 0.75599);
     let shared = &Shared2 { r11, r18, r22, r23 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r24 = shared.r11 * shared.r11; let r25 = shared.r18 * shared.r18; let r26 = r24 + r25;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_away(r26, 16.0 * r29) {
@@ -524,10 +524,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
+/// Case 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
+fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
     let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
     if !is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (answers.suffice_since(p, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE)) {
@@ -561,24 +561,24 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
     let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
     let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// Block 3 behind a chart that hardly ever runs.
+/// Block 3 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_3(p, known, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !is_away(r88, 16.0 * r91) {
@@ -591,10 +591,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
     let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
     if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
@@ -614,24 +614,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r8 = p.r32_ * known.c6 - p.r33_ * known.s6 - p.r22_ * known.c6;
     let r10 = 0.7071067811865475 * (p.r23_ * known.s6 + r8);
     let shared = &Shared4 { r6, r10 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r6: f64, r10: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r11 = shared.r6 * shared.r6; let r12 = shared.r10 * shared.r10; let r13 = r11 + r12;
     if !is_away(r13, 191.99999999999997) {
         return;
@@ -644,10 +644,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipYawPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
     if !is_near(r13, 1.2e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r13, 1.2e-6, BESIDE)) {
         return;
@@ -666,22 +666,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = 0.7071067811865475 * r14; let r19 = r9 + known.c1 * (r4 - r5 - r9) + r18;
     let r21 = r9 + known.c1 * (r6 - r9) - r18;
     let shared = &Shared5 { r19, r21 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r21: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
     let c2 = shared.r21 * r26; let s2 = shared.r19 * r26;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
@@ -704,15 +704,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r59 = known.c1 * (p.r13_ * r5 + r16) - 0.7071067811865475 * (known.s1 * r30);
     let r62 = 0.1 * r51 - 0.07071067811865475 * r57;
     let shared = &Shared6 { r59, r62 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r59: f64, r62: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
     let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let c3 = r64 * r69; let s3 = 0.0 - r63 * r69;
     let at = [
@@ -910,7 +910,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -927,7 +927,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -992,9 +992,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1141,12 +1141,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1158,9 +1158,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1179,7 +1179,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1220,7 +1220,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1416,7 +1416,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

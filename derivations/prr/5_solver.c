@@ -446,7 +446,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough)
 {
@@ -997,7 +997,7 @@ static void sort(Answers *answers)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1006,13 +1006,13 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, 0.0, 0.0, 0.0 };
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r4, r5;
 } Shared3;
 
-/* Chart 1 of block 3: generic. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+/* Case 1 of block 3: generic. */
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5, r10 = 1.0 / sqrt(larger(r8, 0.0));
     const double c3 = shared->r4 * r10, s3 = shared->r5 * r10;
@@ -1026,16 +1026,16 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r4 = p->cphi * known->c2 + p->sphi * known->s2;
     const double r5 = p->sphi * known->c2 - p->cphi * known->s2;
     const Shared3 own = { r4, r5 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r1, r4;
 } Shared2;
 
-/* Chart 1 of block 2: generic. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+/* Case 1 of block 2: generic. */
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r5 = 0.45 * shared->r4, r6 = 0.45 * shared->r1;
     const double r11 = 1.0 / sqrt(larger(r6 * r6 + r5 * r5, 0.0)), c2 = 0.0 - r6 * r11, s2 = 0.0 - r5 * r11;
@@ -1048,16 +1048,16 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
 {
     const double r1 = p->pz + 0.3 * p->cphi, r4 = 0.3 * p->sphi - (known->d1 - p->px);
     const Shared2 own = { r1, r4 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r1, r13;
 } Shared1;
 
-/* Chart 1 of block 1: generic. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+/* Case 1 of block 1: generic. */
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const Roots roots0 = square_roots(shared->r13 - shared->r1 * shared->r1, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -1075,7 +1075,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r10 = 2.0 * (p->px * r1) + 2.0 * (p->pz * (p->pz + 0.3 * p->cphi));
     const double r13 = r10 - p->px * p->px - p->pz * p->pz - 0.1125;
     const Shared1 own = { r1, r13 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
 static bool all_finite(const double *target)

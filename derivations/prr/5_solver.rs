@@ -46,11 +46,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -335,7 +335,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -349,15 +349,15 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = p.px + 0.3 * p.sphi; let r10 = 2.0 * (p.px * r1) + 2.0 * (p.pz * (p.pz + 0.3 * p.cphi));
     let r13 = r10 - p.px * p.px - p.pz * p.pz - 0.1125;
     let shared = &Shared1 { r1, r13 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r1: f64, r13: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r13 - shared.r1 * shared.r1, 1.4142135623730951);
     for (i0, &w1) in roots0.as_slice().iter().enumerate() {
         let d1 = shared.r1 - w1;
@@ -371,15 +371,15 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r1 = p.pz + 0.3 * p.cphi; let r4 = 0.3 * p.sphi - (known.d1 - p.px);
     let shared = &Shared2 { r1, r4 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r1: f64, r4: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r5 = 0.45 * shared.r4; let r6 = 0.45 * shared.r1;
     let r11 = 1.0 / f64::max(r6 * r6 + r5 * r5, 0.0).sqrt(); let c2 = 0.0 - r6 * r11; let s2 = 0.0 - r5 * r11;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c2, s2, ..*known };
@@ -391,15 +391,15 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r4 = p.cphi * known.c2 + p.sphi * known.s2; let r5 = p.sphi * known.c2 - p.cphi * known.s2;
     let shared = &Shared3 { r4, r5 };
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r4: f64, r5: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5; let r10 = 1.0 / f64::max(r8, 0.0).sqrt();
     let c3 = shared.r4 * r10; let s3 = shared.r5 * r10; let at = [known.d1, known.c2, known.s2, c3, s3];
     answers.finish(p, known.branch, known.last, known.close, &at, NONE_FREE);
@@ -848,7 +848,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64) -> Option<([f64
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0)?;

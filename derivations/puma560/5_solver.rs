@@ -50,11 +50,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -215,7 +215,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -255,7 +255,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -363,20 +363,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -386,7 +386,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 2] = [[false, true, false, false, false, false], [false, false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -446,7 +446,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -459,7 +459,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, c1: 0.0, s1: 0.0, c3: 0.0, s3: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -471,16 +471,16 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r1 = f64::abs(p.magnitude + 2.0679);
     let shared = &Shared1 { r1 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r1: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r2 = p.py * p.py; let r3 = p.px * p.px; let r4 = r2 + r3; let r5 = shared.r1 * shared.r1;
     let r6 = r5 + r5;
     if !is_away(r4, 16.0 * r6) {
@@ -500,15 +500,15 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = 0.3958295725 - (p.pz * p.pz + (p.px * p.px + p.py * p.py));
     let shared = &Shared2 { r5 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r5: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r7 = shared.r5 * shared.r5 - 0.00030733876596640005;
     let roots0 = square_roots(r7 - 0.1390562595901504, 1.4142135623730951);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
@@ -528,17 +528,17 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r10 = 0.0 - r9; let r14 = f64::abs(p.magnitude + 2.0679);
     let r15 = f64::abs(2.0 * p.magnitude + 4.1358);
     let shared = &Shared3 { r4, r8, r9, r10, r14, r15 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r4: f64, r8: f64, r9: f64, r10: f64, r14: f64, r15: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r18 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
     if !is_away(r18, 76.55716384000002) {
         return;
@@ -550,10 +550,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r18 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
     if !(is_near(r18, 4.784822740000001e-7, NEAR) && is_near(shared.r10, 0.01 * shared.r15, NEAR) && is_near(p.pz, 0.01 * shared.r14, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r18, 4.784822740000001e-7, BESIDE) && is_near(shared.r10, 0.01 * shared.r15, BESIDE) && is_near(p.pz, 0.01 * shared.r14, BESIDE))) {
         return;
@@ -573,24 +573,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r12 = known.s3 * (p.r33_ * known.c2 - known.s2 * r4); let r13 = p.r23_ * known.c1 - p.r13_ * known.s1;
     let r14 = r10 + r12;
     let shared = &Shared4 { r13, r14 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r13: f64, r14: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 6784.0) {
         return;
@@ -603,10 +603,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: WristRoll.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
     if !is_near(r17, 4.24e-5, NEAR) || (answers.suffice_since(p, before) && !is_near(r17, 4.24e-5, BESIDE)) {
         return;
@@ -624,22 +624,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r11 = p.r33_ * known.c2 - known.s2 * r4; let r18 = known.s4 * (p.r23_ * known.c1 - p.r13_ * known.s1);
     let r19 = known.c3 * r11 - known.s3 * r9; let r20 = known.c4 * (known.c3 * r9 + known.s3 * r11) + r18;
     let shared = &Shared5 { r19, r20 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r20: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r23 = shared.r19 * shared.r19 + shared.r20 * shared.r20; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
     let c5 = shared.r19 * r25; let s5 = 0.0 - shared.r20 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
@@ -657,15 +657,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r32 = known.c4 * (p.r21_ * known.c1 - p.r11_ * known.s1); let r34 = r15 - known.s4 * (r10 + r12);
     let r35 = r32 - known.s4 * (r27 + r29);
     let shared = &Shared6 { r34, r35 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r34: f64, r35: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r38 = shared.r34 * shared.r34 + shared.r35 * shared.r35; let r40 = 1.0 / f64::max(r38, 0.0).sqrt();
     let c6 = shared.r34 * r40; let s6 = shared.r35 * r40;
     let at = [
@@ -823,7 +823,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -840,7 +840,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -905,9 +905,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1054,12 +1054,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1071,9 +1071,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1092,7 +1092,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1133,7 +1133,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1329,7 +1329,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

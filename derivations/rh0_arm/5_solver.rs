@@ -46,11 +46,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -199,7 +199,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -238,7 +238,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -346,20 +346,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
 const NEAR: f64 = 0.001;
@@ -367,7 +367,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 2] = [[true, false, false], [false, true, false]];
 
 /// Parameters of the equations.
@@ -388,7 +388,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -398,7 +398,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c16: 0.0, s16: 0.0, c14: 0.0, s14: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -410,15 +410,15 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r6 = p.pz * p.pz + (p.px * p.px + p.py * p.py) + 0.4 * p.px; let r9 = r6 - 0.6 * p.py + 0.024;
     let shared = &Shared1 { r9 };
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r9: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r9 * shared.r9 - 0.011151359999999999, 1.4142135623730951);
     for (i0, &w16) in roots0.as_slice().iter().enumerate() {
         let c16 = 89.67516069788797 * (0.1056 * shared.r9); let s16 = 89.67516069788797 * (0.1056 * w16);
@@ -433,17 +433,17 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates; let r0 = p.py - 0.3; let r1 = 0.24 * known.s16; let r2 = 0.0 - r1;
     let r4 = f64::abs(p.magnitude + 0.3);
     let shared = &Shared2 { r0, r1, r2, r4 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r0: f64, r1: f64, r2: f64, r4: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r5 = p.pz * p.pz; let r6 = shared.r0 * shared.r0; let r7 = r5 + r6;
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
     if !is_away(r7, 16.0 * r10) {
@@ -458,10 +458,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 2: A = 0, B = 0, C = 0.
+/// Case 2 of block 2: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero and C is near zero.
 /// Free: Clavicle.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
+fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r10 = p.magnitude * p.magnitude + shared.r4 * shared.r4;
     if !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10, NEAR) && is_near(shared.r2, 0.0024, NEAR)) || (answers.suffice_since(p, before) && !(is_near(p.pz * p.pz + shared.r0 * shared.r0, 1.0000000000000001e-7 * r10, BESIDE) && is_near(shared.r2, 0.0024, BESIDE))) {
         return;
@@ -479,24 +479,24 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r6 = known.c14 * (p.py - 0.3) + p.pz * known.s14; let r10 = f64::abs(p.magnitude + 0.2);
     let r11 = f64::abs(2.0 * p.magnitude + 0.9);
     let shared = &Shared3 { r4, r5, r6, r10, r11 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// Block 3 behind a chart that hardly ever runs.
+/// Block 3 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_3(p, known, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r4: f64, r5: f64, r6: f64, r10: f64, r11: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     if !is_away(shared.r4 * shared.r4, 47.110400000000006) {
         return;
     }
@@ -506,10 +506,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, known.free);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Shoulder.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     if !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7, NEAR) && is_near(shared.r6, 0.01 * shared.r11, NEAR) && is_near(shared.r5, 0.01 * shared.r10, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r4 * shared.r4, 2.9444000000000003e-7, BESIDE) && is_near(shared.r6, 0.01 * shared.r11, BESIDE) && is_near(shared.r5, 0.01 * shared.r10, BESIDE))) {
         return;
     }
@@ -615,7 +615,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -632,7 +632,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -697,9 +697,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -846,12 +846,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -863,9 +863,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -884,7 +884,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -925,7 +925,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1118,7 +1118,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

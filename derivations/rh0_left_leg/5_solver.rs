@@ -50,11 +50,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -215,7 +215,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -255,7 +255,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -363,20 +363,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -386,7 +386,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 3] = [[true, false, false, false, false, false], [false, true, false, false, false, false], [false, false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -446,7 +446,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -459,7 +459,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, c12: 0.0, s12: 0.0, f12: 0.0, c10: 0.0, s10: 0.0, c11: 0.0, s11: 0.0, f11: 0.0, c9: 0.0, s9: 0.0, c8: 0.0, s8: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -473,17 +473,17 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r8 = 0.0265 * p.r22_ - (p.py + 0.112 * p.r21_); let r11 = f64::abs(p.magnitude + 1.3705);
     let r12 = f64::abs(p.magnitude + 1.2585);
     let shared = &Shared1 { r4, r8, r11, r12 };
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, before, answers);
+    case_1_1(p, shared, answers);
+    case_1_2(p, shared, before, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r4: f64, r8: f64, r11: f64, r12: f64 }
 
-/// Chart 1 of block 1: generic.
+/// Case 1 of block 1: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r13 = shared.r4 * shared.r4; let r14 = shared.r8 * shared.r8; let r15 = r13 + r14;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
     if !is_away(r15, 16.0 * r18) {
@@ -497,10 +497,10 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// Chart 2 of block 1: A = 0, B = 0, C = 0.
+/// Case 2 of block 1: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: AnkleRoll.
-fn chart_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_2(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     let r15 = shared.r4 * shared.r4 + shared.r8 * shared.r8;
     let r18 = shared.r11 * shared.r11 + shared.r12 * shared.r12;
     if !is_near(r15, 1.0000000000000001e-7 * r18, NEAR) || (answers.suffice_since(p, before) && !is_near(r15, 1.0000000000000001e-7 * r18, BESIDE)) {
@@ -523,22 +523,22 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r27 = r23 - p.py * p.py - p.pz * p.pz - 0.224 * p.px;
     let r32 = 0.13100975 - (r27 - 0.025088 * p.r11_ + 0.005936 * p.r12_);
     let shared = &Shared2 { r32 };
-    chart_2_1(p, known, shared, answers);
+    case_2_1(p, known, shared, answers);
 }
 
-/// Block 2 behind a chart that hardly ever runs.
+/// Block 2 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_2(p, known, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r32: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let roots0 = square_roots(shared.r32 * shared.r32 - 0.02458624, 1.4142135623730951 * known.f12);
     for (i0, &w10) in roots0.as_slice().iter().enumerate() {
         let r39 = 0.0 - 40.673157017909205 * (0.1568 * shared.r32); let c10 = r39;
@@ -557,17 +557,17 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = known.s12 * r4 - r9; let r22 = f64::abs(p.magnitude + 1.2585);
     let r23 = f64::abs(2.0 * p.magnitude + 2.629);
     let shared = &Shared3 { r11, r13, r17, r18, r22, r23 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r11: f64, r13: f64, r17: f64, r18: f64, r22: f64, r23: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
     if !is_away(r26, 31.36) {
         return;
@@ -579,10 +579,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: AnklePitch.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r26 = shared.r11 * shared.r11 + shared.r13 * shared.r13;
     if !(is_near(r26, 1.96e-7, NEAR) && is_near(shared.r18, 0.01 * shared.r23, NEAR) && is_near(shared.r17, 0.01 * shared.r22, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r26, 1.96e-7, BESIDE) && is_near(shared.r18, 0.01 * shared.r23, BESIDE) && is_near(shared.r17, 0.01 * shared.r22, BESIDE))) {
         return;
@@ -601,24 +601,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r7 = known.c11 * r2 + p.r32_ * known.s11; let r9 = p.r32_ * known.c11 - known.s11 * r2;
     let r13 = known.s10 * r7 - known.c10 * r9; let r14 = known.c10 * r7 + known.s10 * r9;
     let shared = &Shared4 { r13, r14 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r13: f64, r14: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r15 = shared.r13 * shared.r13; let r16 = shared.r14 * shared.r14; let r17 = r15 + r16;
     if !is_away(r17, 3200.0) {
         return;
@@ -631,10 +631,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: HipPitch.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r17 = shared.r13 * shared.r13 + shared.r14 * shared.r14;
     if !is_near(r17, 2e-5, NEAR) || (answers.suffice_since(p, before) && !is_near(r17, 2e-5, BESIDE)) {
         return;
@@ -653,22 +653,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r18 = known.s9 * (known.c10 * r11 - known.s10 * r9); let r19 = p.r12_ * known.c12 + p.r22_ * known.s12;
     let r20 = r16 + r18;
     let shared = &Shared5 { r19, r20 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r19: f64, r20: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r23 = shared.r20 * shared.r20 + shared.r19 * shared.r19; let r25 = 1.0 / f64::max(r23, 0.0).sqrt();
     let c8 = shared.r20 * r25; let s8 = 0.0 - shared.r19 * r25;
     let next = Known { branch: known.branch, last: known.last, close: known.close, c8, s8, ..*known };
@@ -685,15 +685,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r33 = known.s9 * (known.c10 * r24 + known.s10 * r26);
     let r34 = known.c9 * (known.c10 * r9 - known.s10 * r7) - known.s9 * (known.c10 * r7 + known.s10 * r9);
     let shared = &Shared6 { r32, r33, r34 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r32: f64, r33: f64, r34: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r35 = shared.r33 - shared.r32; let r39 = f64::max(shared.r34 * shared.r34 + r35 * r35, 0.0).sqrt();
     let r40 = 1.0 / r39; let c7 = shared.r34 * r40; let s7 = r35 * r40;
     let at = [
@@ -858,7 +858,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -875,7 +875,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -940,9 +940,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1089,12 +1089,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1106,9 +1106,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1127,7 +1127,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1168,7 +1168,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1364,7 +1364,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

@@ -82,20 +82,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -929,7 +929,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[4][JOINTS] = { {true, false, false, false, false, false}, {false, true, false, false, false, false}, {false, false, true, false, false, false}, {false, false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
@@ -1064,7 +1064,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -1350,7 +1350,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -1379,8 +1379,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -1400,7 +1400,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -1450,15 +1450,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1579,10 +1579,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1601,7 +1601,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1620,7 +1620,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 4 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1855,7 +1855,7 @@ static size_t greatest(const double *claims, size_t length)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1865,7 +1865,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[16][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.7019254526931687, -0.7122504186460616},
     {-0.37592812418099103, -0.926648825310733}, {0.007300853440810815, -0.9999733484143644},
@@ -1877,13 +1877,13 @@ static const double SAMPLES_1[16][2] = {
     {-0.9266488253107329, 0.3759281241809912}, {-0.9999733484143644, -0.007300853440810631},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r100, r101, r102, r220;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r221 = shared->r220 - shared->r102, r223 = shared->r220 - (shared->r101 - shared->r100);
     const double r228 = 1.0 / sqrt(larger(r223 * r223 + r221 * r221, 0.0)), c6 = r223 * r228, s6 = r221 * r228;
@@ -1956,16 +1956,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r219 = 0.3333333333333333 * (r193 + (known->c4 * (r187 - r193) - r212));
     const double r220 = r219 - 0.6666666666666666 * r217;
     const Shared6 own = { r100, r101, r102, r220 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r108, r109, r111, r114, r115;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r117 = shared->r115 - shared->r114, r118 = r117 - (shared->r109 - shared->r108);
     const double r119 = r117 - shared->r111, r124 = 1.0 / sqrt(larger(r119 * r119 + r118 * r118, 0.0));
@@ -2009,23 +2009,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r108 = r87 + r101, r109 = known->c4 * (r80 + r89) - r103 - r89, r111 = r108 - r109;
     const double r114 = 0.0 - 0.3333333333333333 * (r108 + r109), r115 = 1.3333333333333333 * (r87 + r107);
     const Shared5 own = { r108, r109, r111, r114, r115 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r105, r106;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r107 = shared->r105 * shared->r105, r108 = shared->r106 * shared->r106, r109 = r107 + r108;
     if (!is_away(r109, 711231.7843257814)) {
@@ -2042,10 +2042,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Wrist1. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r109 = shared->r105 * shared->r105 + shared->r106 * shared->r106;
     if (!is_near(r109, 0.004445198652036134, NEAR) || (suffice_since(answers, before) && !is_near(r109, 0.004445198652036134, BESIDE))) {
@@ -2094,24 +2094,24 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
     const double r105 = 0.3333333333333333 * (r81 - r87) - r100, r106 = 0.6666666666666666 * r101 - r104;
     const Shared4 own = { r105, r106 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* Block 4 behind a chart that hardly ever runs. */
+/* Block 4 behind a case that hardly ever runs. */
 COLD static void again_4(const Parameters *p, const Known *known, Answers *answers)
 {
     block_4(p, known, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r19, r23, r32, r48, r53, r54;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r57 = shared->r19 * shared->r19 + shared->r23 * shared->r23;
     if (!is_away(r57, 4959.93558445298)) {
@@ -2125,10 +2125,10 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shar
     block_4(p, &next, answers);
 }
 
-/* Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Axis2. */
-static void chart_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
+static void case_3_2(const Parameters *p, const Known *known, const Shared3 *shared, size_t before, Answers *answers)
 {
     const double r57 = shared->r19 * shared->r19 + shared->r23 * shared->r23;
     if (!(is_near(r57, 3.099959740283113e-5, NEAR) && is_near(shared->r48, 0.01 * shared->r54, NEAR) && is_near(shared->r32, 0.01 * shared->r53, NEAR)) || (suffice_since(answers, before) && !(is_near(r57, 3.099959740283113e-5, BESIDE) && is_near(shared->r48, 0.01 * shared->r54, BESIDE) && is_near(shared->r32, 0.01 * shared->r53, BESIDE)))) {
@@ -2161,24 +2161,24 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r52 = 4.333333333333333 * p->magnitude + 21.4369992441421;
     const double r53 = fabs(5.0 * p->magnitude + 26.730498866213154), r54 = fabs(r52);
     const Shared3 own = { r19, r23, r32, r48, r53, r54 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r41, r44, r50, r51, r52, r66, r67, r68, r69;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r72 = shared->r41 * shared->r41 + shared->r44 * shared->r44;
     const double r75 = shared->r66 * shared->r66 + shared->r67 * shared->r67;
@@ -2193,10 +2193,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     block_3(p, &next, answers);
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: Axis1. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r72 = shared->r41 * shared->r41 + shared->r44 * shared->r44;
     const double r75 = shared->r66 * shared->r66 + shared->r67 * shared->r67;
@@ -2232,24 +2232,24 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r66 = fabs(2.3333333333333335 * p->magnitude + 8.4), r67 = fabs(r53), r68 = fabs(r59);
     const double r69 = fabs(r62 + 2.0 * p->magnitude + 72.77766666666668);
     const Shared2 own = { r41, r44, r50, r51, r52, r66, r67, r68, r69 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* Block 2 behind a chart that hardly ever runs. */
+/* Block 2 behind a case that hardly ever runs. */
 COLD static void again_2(const Parameters *p, const Known *known, Answers *answers)
 {
     block_2(p, known, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r36, r37, r41, r49, r78, r79, r80;
 } Shared1;
 
-/* Chart 1 of block 1: half angle.
+/* Case 1 of block 1: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r82 = 0.0019437631439575074 - shared->r36 - shared->r49, r83 = 2.0 * shared->r41;
     const double r88 = shared->r37 - shared->r49, r90 = shared->r79 + (shared->r78 + 0.8708447868943496);
@@ -2277,16 +2277,16 @@ static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answe
     }
 }
 
-/* The pivot of chart 1 of block 1; -1 where it does not run. */
+/* The pivot of case 1 of block 1; -1 where it does not run. */
 static double claim_1_1(const Shared1 *shared)
 {
     const double r88 = shared->r37 - shared->r49, r90 = shared->r79 + (shared->r78 + 0.8708447868943496);
     return is_away(r88, 1000000000000.0 * (shared->r80 + r90)) ? fabs(r88) : -1.0;
 }
 
-/* Chart 2 of block 1: half angle.
+/* Case 2 of block 1: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void case_1_2(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r82 = shared->r49 + (shared->r41 - 0.6526507473737795), r83 = 2.0 * shared->r37;
     const double r89 = shared->r49 + (-0.6526507473737795 - shared->r41);
@@ -2317,7 +2317,7 @@ static void chart_1_2(const Parameters *p, const Shared1 *shared, Answers *answe
     }
 }
 
-/* The pivot of chart 2 of block 1; -1 where it does not run. */
+/* The pivot of case 2 of block 1; -1 where it does not run. */
 static double claim_1_2(const Shared1 *shared)
 {
     const double r89 = shared->r49 + (-0.6526507473737795 - shared->r41);
@@ -2325,9 +2325,9 @@ static double claim_1_2(const Shared1 *shared)
     return is_away(r89, 1000000000000.0 * (shared->r80 + r91)) ? fabs(r89) : -1.0;
 }
 
-/* Chart 3 of block 1: half angle.
+/* Case 3 of block 1: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void case_1_3(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r82 = 2.0 * shared->r41, r87 = shared->r37 + shared->r49;
     const double r89 = shared->r79 + (shared->r78 + 0.8708447868943496);
@@ -2355,16 +2355,16 @@ static void chart_1_3(const Parameters *p, const Shared1 *shared, Answers *answe
     }
 }
 
-/* The pivot of chart 3 of block 1; -1 where it does not run. */
+/* The pivot of case 3 of block 1; -1 where it does not run. */
 static double claim_1_3(const Shared1 *shared)
 {
     const double r87 = shared->r37 + shared->r49, r89 = shared->r79 + (shared->r78 + 0.8708447868943496);
     return is_away(r87, 1000000000000.0 * (shared->r80 + r89)) ? fabs(r87) : -1.0;
 }
 
-/* Chart 4 of block 1: half angle.
+/* Case 4 of block 1: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void case_1_4(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r82 = shared->r49 + (-0.6526507473737795 - shared->r41), r83 = 2.0 * shared->r37;
     const double r89 = shared->r49 + (shared->r41 - 0.6526507473737795);
@@ -2394,7 +2394,7 @@ static void chart_1_4(const Parameters *p, const Shared1 *shared, Answers *answe
     }
 }
 
-/* The pivot of chart 4 of block 1; -1 where it does not run. */
+/* The pivot of case 4 of block 1; -1 where it does not run. */
 static double claim_1_4(const Shared1 *shared)
 {
     const double r89 = shared->r49 + (shared->r41 - 0.6526507473737795);
@@ -2402,9 +2402,9 @@ static double claim_1_4(const Shared1 *shared)
     return is_away(r89, 1000000000000.0 * (shared->r80 + r91)) ? fabs(r89) : -1.0;
 }
 
-/* Chart 5 of block 1: half angle.
+/* Case 5 of block 1: half angle.
  * It runs where leading coefficient is not zero. */
-static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answers)
+static void case_1_5(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r81 = 1.25 * shared->r37, r83 = 1.6666666666666667 * shared->r41;
     const double r85 = 2.0833333333333335 * shared->r49, r87 = 3.3333333333333335 * shared->r37;
@@ -2442,7 +2442,7 @@ static void chart_1_5(const Parameters *p, const Shared1 *shared, Answers *answe
     }
 }
 
-/* The pivot of chart 5 of block 1; -1 where it does not run. */
+/* The pivot of case 5 of block 1; -1 where it does not run. */
 static double claim_1_5(const Shared1 *shared)
 {
     const double r96 = -1.0883950360189427 - 1.25 * shared->r37 - 1.6666666666666667 * shared->r41;
@@ -2451,10 +2451,10 @@ static double claim_1_5(const Shared1 *shared)
     return is_away(r97, 1000000000000.0 * (shared->r80 + r99)) ? fabs(r97) : -1.0;
 }
 
-/* Chart 6 of block 1: A = B = C = D = E = 0.
+/* Case 6 of block 1: A = B = C = D = E = 0.
  * It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
  * Free: Axis3. */
-static void chart_1_6(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_6(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     if (!(is_near(-0.21819403952057012, 0.0021819403952057013, NEAR) && is_near(-0.6526507473737795, 0.006526507473737795, NEAR) && is_near(shared->r37, 0.01 * shared->r78, NEAR) && is_near(shared->r41, 0.01 * shared->r79, NEAR) && is_near(shared->r49, 0.01 * shared->r80, NEAR)) || (suffice_since(answers, before) && !(is_near(-0.21819403952057012, 0.0021819403952057013, BESIDE) && is_near(-0.6526507473737795, 0.006526507473737795, BESIDE) && is_near(shared->r37, 0.01 * shared->r78, BESIDE) && is_near(shared->r41, 0.01 * shared->r79, BESIDE) && is_near(shared->r49, 0.01 * shared->r80, BESIDE)))) {
         return;
@@ -2494,24 +2494,24 @@ static void block_1(const Parameters *p, Answers *answers)
     const double claims0[] = { claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared) };
     switch (greatest(claims0, 5)) {
     case 0:
-        chart_1_1(p, shared, answers);
+        case_1_1(p, shared, answers);
         break;
     case 1:
-        chart_1_2(p, shared, answers);
+        case_1_2(p, shared, answers);
         break;
     case 2:
-        chart_1_3(p, shared, answers);
+        case_1_3(p, shared, answers);
         break;
     case 3:
-        chart_1_4(p, shared, answers);
+        case_1_4(p, shared, answers);
         break;
     case 4:
-        chart_1_5(p, shared, answers);
+        case_1_5(p, shared, answers);
         break;
     default:
         break;
     }
-    chart_1_6(p, shared, before, answers);
+    case_1_6(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -2768,7 +2768,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

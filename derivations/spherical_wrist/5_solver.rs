@@ -50,11 +50,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -215,7 +215,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -255,7 +255,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -363,20 +363,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A rotation or a unit vector may be this far from one.
 const CONSISTENT: f64 = 1e-9;
@@ -386,7 +386,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 4] = [[true, false, false, false, false, false], [false, true, false, false, false, false], [false, false, true, false, false, false], [false, false, false, true, false, false]];
 
 /// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
@@ -446,7 +446,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -457,7 +457,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c3: 0.0, s3: 0.0, f3: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 16] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.7019254526931687, -0.7122504186460616],
     [-0.37592812418099103, -0.926648825310733], [0.007300853440810815, -0.9999733484143644],
@@ -490,22 +490,22 @@ fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
     let r80 = f64::abs(r77);
     let shared = &Shared1 { r36, r37, r41, r49, r78, r79, r80 };
     match greatest(&[claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared)]) {
-        0 => chart_1_1(p, shared, answers),
-        1 => chart_1_2(p, shared, answers),
-        2 => chart_1_3(p, shared, answers),
-        3 => chart_1_4(p, shared, answers),
-        4 => chart_1_5(p, shared, answers),
+        0 => case_1_1(p, shared, answers),
+        1 => case_1_2(p, shared, answers),
+        2 => case_1_3(p, shared, answers),
+        3 => case_1_4(p, shared, answers),
+        4 => case_1_5(p, shared, answers),
         _ => {}
     }
-    chart_1_6(p, shared, before, answers);
+    case_1_6(p, shared, before, answers);
 }
 
-/// What the charts of block 1 share.
+/// What the cases of block 1 share.
 struct Shared1 { r36: f64, r37: f64, r41: f64, r49: f64, r78: f64, r79: f64, r80: f64 }
 
-/// Chart 1 of block 1: half angle.
+/// Case 1 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r82 = 0.0019437631439575074 - shared.r36 - shared.r49; let r83 = 2.0 * shared.r41;
     let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r88, 1000000000000.0 * (shared.r80 + r90)) {
@@ -530,15 +530,15 @@ fn chart_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// The pivot of chart 1 of block 1; -1 where it does not run.
+/// The pivot of case 1 of block 1; -1 where it does not run.
 fn claim_1_1(shared: &Shared1) -> f64 {
     let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r88, 1000000000000.0 * (shared.r80 + r90)) { f64::abs(r88) } else { -1.0 }
 }
 
-/// Chart 2 of block 1: half angle.
+/// Case 2 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r82 = shared.r49 + (shared.r41 - 0.6526507473737795); let r83 = 2.0 * shared.r37;
     let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
@@ -565,16 +565,16 @@ fn chart_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// The pivot of chart 2 of block 1; -1 where it does not run.
+/// The pivot of case 2 of block 1; -1 where it does not run.
 fn claim_1_2(shared: &Shared1) -> f64 {
     let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
 }
 
-/// Chart 3 of block 1: half angle.
+/// Case 3 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r82 = 2.0 * shared.r41; let r87 = shared.r37 + shared.r49;
     let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if !is_away(r87, 1000000000000.0 * (shared.r80 + r89)) {
@@ -598,15 +598,15 @@ fn chart_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// The pivot of chart 3 of block 1; -1 where it does not run.
+/// The pivot of case 3 of block 1; -1 where it does not run.
 fn claim_1_3(shared: &Shared1) -> f64 {
     let r87 = shared.r37 + shared.r49; let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r87, 1000000000000.0 * (shared.r80 + r89)) { f64::abs(r87) } else { -1.0 }
 }
 
-/// Chart 4 of block 1: half angle.
+/// Case 4 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r82 = shared.r49 + (-0.6526507473737795 - shared.r41); let r83 = 2.0 * shared.r37;
     let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
@@ -633,16 +633,16 @@ fn chart_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// The pivot of chart 4 of block 1; -1 where it does not run.
+/// The pivot of case 4 of block 1; -1 where it does not run.
 fn claim_1_4(shared: &Shared1) -> f64 {
     let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
     let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
 }
 
-/// Chart 5 of block 1: half angle.
+/// Case 5 of block 1: half angle.
 /// It runs where leading coefficient is not zero.
-fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
+fn case_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     let r81 = 1.25 * shared.r37; let r83 = 1.6666666666666667 * shared.r41;
     let r85 = 2.0833333333333335 * shared.r49; let r87 = 3.3333333333333335 * shared.r37;
     let r89 = 2.5 * shared.r41; let r92 = 4.166666666666667 * shared.r49 + 1.0916139879988276;
@@ -677,17 +677,17 @@ fn chart_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
     }
 }
 
-/// The pivot of chart 5 of block 1; -1 where it does not run.
+/// The pivot of case 5 of block 1; -1 where it does not run.
 fn claim_1_5(shared: &Shared1) -> f64 {
     let r96 = -1.0883950360189427 - 1.25 * shared.r37 - 1.6666666666666667 * shared.r41;
     let r97 = 2.0833333333333335 * shared.r49 + r96; let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
     if is_away(r97, 1000000000000.0 * (shared.r80 + r99)) { f64::abs(r97) } else { -1.0 }
 }
 
-/// Chart 6 of block 1: A = B = C = D = E = 0.
+/// Case 6 of block 1: A = B = C = D = E = 0.
 /// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
 /// Free: Axis3.
-fn chart_1_6(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
+fn case_1_6(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
     if !(is_near(-0.21819403952057012, 0.0021819403952057013, NEAR) && is_near(-0.6526507473737795, 0.006526507473737795, NEAR) && is_near(shared.r37, 0.01 * shared.r78, NEAR) && is_near(shared.r41, 0.01 * shared.r79, NEAR) && is_near(shared.r49, 0.01 * shared.r80, NEAR)) || (answers.suffice_since(p, before) && !(is_near(-0.21819403952057012, 0.0021819403952057013, BESIDE) && is_near(-0.6526507473737795, 0.006526507473737795, BESIDE) && is_near(shared.r37, 0.01 * shared.r78, BESIDE) && is_near(shared.r41, 0.01 * shared.r79, BESIDE) && is_near(shared.r49, 0.01 * shared.r80, BESIDE))) {
         return;
     }
@@ -716,24 +716,24 @@ fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r66 = f64::abs(2.3333333333333335 * p.magnitude + 8.4); let r67 = f64::abs(r53);
     let r68 = f64::abs(r59); let r69 = f64::abs(r62 + 2.0 * p.magnitude + 72.77766666666668);
     let shared = &Shared2 { r41, r44, r50, r51, r52, r66, r67, r68, r69 };
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/// Block 2 behind a chart that hardly ever runs.
+/// Block 2 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_2(p, known, answers);
 }
 
-/// What the charts of block 2 share.
+/// What the cases of block 2 share.
 struct Shared2 { r41: f64, r44: f64, r50: f64, r51: f64, r52: f64, r66: f64, r67: f64, r68: f64, r69: f64 }
 
-/// Chart 1 of block 2: generic.
+/// Case 1 of block 2: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
     let r72 = shared.r41 * shared.r41 + shared.r44 * shared.r44;
     let r75 = shared.r66 * shared.r66 + shared.r67 * shared.r67;
     if !is_away(r72, 16.0 * r75) {
@@ -746,10 +746,10 @@ fn chart_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answ
     block_3(p, &next, answers);
 }
 
-/// Chart 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis1.
-fn chart_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
+fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
     let r72 = shared.r41 * shared.r41 + shared.r44 * shared.r44;
     let r75 = shared.r66 * shared.r66 + shared.r67 * shared.r67;
     if !(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared.r52, 0.01 * shared.r69, NEAR) && is_near(shared.r51, 0.01 * shared.r68, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared.r52, 0.01 * shared.r69, BESIDE) && is_near(shared.r51, 0.01 * shared.r68, BESIDE))) {
@@ -779,24 +779,24 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r52 = 4.333333333333333 * p.magnitude + 21.4369992441421;
     let r53 = f64::abs(5.0 * p.magnitude + 26.730498866213154); let r54 = f64::abs(r52);
     let shared = &Shared3 { r19, r23, r32, r48, r53, r54 };
-    chart_3_1(p, known, shared, answers);
-    chart_3_2(p, known, shared, before, answers);
+    case_3_1(p, known, shared, answers);
+    case_3_2(p, known, shared, before, answers);
 }
 
-/// Block 3 behind a chart that hardly ever runs.
+/// Block 3 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_3(p, known, answers);
 }
 
-/// What the charts of block 3 share.
+/// What the cases of block 3 share.
 struct Shared3 { r19: f64, r23: f64, r32: f64, r48: f64, r53: f64, r54: f64 }
 
-/// Chart 1 of block 3: generic.
+/// Case 1 of block 3: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
     let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
     if !is_away(r57, 4959.93558445298) {
         return;
@@ -808,10 +808,10 @@ fn chart_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answ
     block_4(p, &next, answers);
 }
 
-/// Chart 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: Axis2.
-fn chart_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
+fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
     let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
     if !(is_near(r57, 3.099959740283113e-5, NEAR) && is_near(shared.r48, 0.01 * shared.r54, NEAR) && is_near(shared.r32, 0.01 * shared.r53, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r57, 3.099959740283113e-5, BESIDE) && is_near(shared.r48, 0.01 * shared.r54, BESIDE) && is_near(shared.r32, 0.01 * shared.r53, BESIDE))) {
         return;
@@ -854,24 +854,24 @@ fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
     let r105 = 0.3333333333333333 * (r81 - r87) - r100; let r106 = 0.6666666666666666 * r101 - r104;
     let shared = &Shared4 { r105, r106 };
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/// Block 4 behind a chart that hardly ever runs.
+/// Block 4 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_4(p, known, answers);
 }
 
-/// What the charts of block 4 share.
+/// What the cases of block 4 share.
 struct Shared4 { r105: f64, r106: f64 }
 
-/// Chart 1 of block 4: generic.
+/// Case 1 of block 4: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
     let r107 = shared.r105 * shared.r105; let r108 = shared.r106 * shared.r106; let r109 = r107 + r108;
     if !is_away(r109, 711231.7843257814) {
         return;
@@ -885,10 +885,10 @@ fn chart_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 4: A = 0, B = 0, C = 0.
+/// Case 2 of block 4: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: Wrist1.
-fn chart_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
+fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
     let r109 = shared.r105 * shared.r105 + shared.r106 * shared.r106;
     if !is_near(r109, 0.004445198652036134, NEAR) || (answers.suffice_since(p, before) && !is_near(r109, 0.004445198652036134, BESIDE)) {
         return;
@@ -931,22 +931,22 @@ fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r109 = known.c4 * (r80 + r89) - r103 - r89; let r111 = r108 - r109;
     let r114 = 0.0 - 0.3333333333333333 * (r108 + r109); let r115 = 1.3333333333333333 * (r87 + r107);
     let shared = &Shared5 { r108, r109, r111, r114, r115 };
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/// Block 5 behind a chart that hardly ever runs.
+/// Block 5 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_5(p, known, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r108: f64, r109: f64, r111: f64, r114: f64, r115: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r117 = shared.r115 - shared.r114; let r118 = r117 - (shared.r109 - shared.r108);
     let r119 = r117 - shared.r111; let r123 = f64::max(r119 * r119 + r118 * r118, 0.0).sqrt();
     let r124 = 1.0 / r123; let c5 = r119 * r124; let s5 = r118 * r124;
@@ -1014,15 +1014,15 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r219 = 0.3333333333333333 * (r193 + (known.c4 * (r187 - r193) - r212));
     let r220 = r219 - 0.6666666666666666 * r217;
     let shared = &Shared6 { r100, r101, r102, r220 };
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r100: f64, r101: f64, r102: f64, r220: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r221 = shared.r220 - shared.r102; let r223 = shared.r220 - (shared.r101 - shared.r100);
     let r227 = f64::max(r223 * r223 + r221 * r221, 0.0).sqrt(); let r228 = 1.0 / r227; let c6 = r223 * r228;
     let s6 = r221 * r228;
@@ -1325,7 +1325,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -1342,7 +1342,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -1407,9 +1407,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1556,12 +1556,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1573,9 +1573,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1594,7 +1594,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1635,7 +1635,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1831,7 +1831,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

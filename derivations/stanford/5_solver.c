@@ -82,20 +82,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -376,7 +376,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false, false, false}, {false, true, false, false, false, false}, {false, false, false, true, false, false} };
 
 /* Rows of the equations and of the damping. */
@@ -514,7 +514,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -799,7 +799,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -828,8 +828,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -849,7 +849,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -899,15 +899,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1028,10 +1028,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1050,7 +1050,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1069,7 +1069,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1292,7 +1292,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1304,7 +1304,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1312,13 +1312,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r8, r10, r22;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r23 = shared->r10 - shared->r8;
     const double r27 = sqrt(larger(shared->r22 * shared->r22 + r23 * r23, 0.0)), r28 = 1.0 / r27;
@@ -1347,16 +1347,16 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r19 = known->c4 * (p->r11_ * known->c1 - p->r31_ * known->s1);
     const double r22 = r19 - known->s4 * (r16 - p->r21_ * known->s2);
     const Shared6 own = { r8, r10, r22 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r13, r14;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13;
     const double r19 = 1.0 / sqrt(larger(r17, 0.0)), c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19;
@@ -1372,23 +1372,23 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r12 = known->s4 * (p->r13_ * known->c1 - p->r33_ * known->s1);
     const double r13 = p->r23_ * known->c2 + known->s2 * r5, r14 = r11 + r12;
     const Shared5 own = { r13, r14 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 COLD static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r7, r8;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r9 = shared->r7 * shared->r7, r10 = shared->r8 * shared->r8, r11 = r9 + r10;
     if (!is_away(r11, 976.0)) {
@@ -1405,10 +1405,10 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: WristYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r11 = shared->r7 * shared->r7 + shared->r8 * shared->r8;
     if (!is_near(r11, 6.100000000000001e-6, NEAR) || (suffice_since(answers, before) && !is_near(r11, 6.100000000000001e-6, BESIDE))) {
@@ -1429,17 +1429,17 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r5 = known->c2 * (p->r33_ * known->c1 + p->r13_ * known->s1);
     const double r7 = p->r33_ * known->s1 - p->r13_ * known->c1, r8 = r5 - p->r23_ * known->s2;
     const Shared4 own = { r7, r8 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r13;
 } Shared3;
 
-/* Chart 1 of block 3: generic. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+/* Case 1 of block 3: generic. */
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double d3 = shared->r13;
     Known next = *known; next.d3 = d3;
@@ -1452,23 +1452,23 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r10 = known->c1 * (p->pz - 0.2 * p->r33_) + known->s1 * (p->px - 0.2 * p->r13_);
     const double r12 = known->c2 * (p->py - 0.2 * p->r23_ - 0.66) + known->s2 * r10, r13 = r12 - 0.2;
     const Shared3 own = { r13 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r6, r9, r14, r15;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r16 = shared->r6 * shared->r6, r17 = shared->r9 * shared->r9, r18 = r16 + r17;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
@@ -1486,10 +1486,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderPitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r18 = shared->r6 * shared->r6 + shared->r9 * shared->r9;
     const double r21 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
@@ -1513,24 +1513,24 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r9 = 0.66 - (p->py - 0.2 * p->r23_), r14 = fabs(2.0 * p->magnitude + 3.84);
     const double r15 = fabs(3.0 * p->magnitude + 9.06);
     const Shared2 own = { r6, r9, r14, r15 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* Block 2 behind a chart that hardly ever runs. */
+/* Block 2 behind a case that hardly ever runs. */
 COLD static void again_2(const Parameters *p, const Known *known, Answers *answers)
 {
     block_2(p, known, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r1, r3, r5;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
+/* Case 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
     const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
@@ -1548,10 +1548,10 @@ INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers
     }
 }
 
-/* Chart 2 of block 1: A = 0, B = 0, C = 0.
+/* Case 2 of block 1: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: ShoulderYaw. */
-static void chart_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
+static void case_1_2(const Parameters *p, const Shared1 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r1 * shared->r1 + shared->r3 * shared->r3, r9 = shared->r5 * shared->r5;
     if (!is_near(r8, 1.0000000000000001e-7 * (r9 + r9), NEAR) || (suffice_since(answers, before) && !is_near(r8, 1.0000000000000001e-7 * (r9 + r9), BESIDE))) {
@@ -1572,8 +1572,8 @@ static void block_1(const Parameters *p, Answers *answers)
     const size_t before = answers->candidates;
     const double r1 = 0.2 * p->r13_ - p->px, r3 = p->pz - 0.2 * p->r33_, r5 = fabs(p->magnitude + 1.92);
     const Shared1 own = { r1, r3, r5 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
-    chart_1_2(p, shared, before, answers);
+    case_1_1(p, shared, answers);
+    case_1_2(p, shared, before, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1830,7 +1830,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

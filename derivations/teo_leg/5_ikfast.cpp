@@ -14,7 +14,7 @@
 //   AnkleRoll
 //
 // A target has 22 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the family. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
@@ -77,11 +77,11 @@ typedef struct {
     double q[TEO_LEG_JOINTS];
     /* The largest magnitude among the equations' values at q, in the equations' own unit. */
     double residual;
-    /* Which charts and which roots gave it. */
+    /* Which cases and which roots gave it. */
     size_t branch;
     /* Whether the source of the mechanism would choose this one. */
     bool chosen;
-    /* Joints that may take any value here: this is one member of a family. */
+    /* Joints that may take any value here: this is one member of a self-motion. */
     bool free[TEO_LEG_JOINTS];
 } teo_leg_solution;
 
@@ -139,20 +139,20 @@ static const double STIFF = 1e-6;
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 static const double POLISHED = 1e-15;
 static const double SHORT = 1e-9;
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 static const double ADRIFT = 1e-7;
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 static const double ALONE = 1e-13;
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 static const double ASIDE = 0.1;
 static const int NARROWS = 5;
 static const double SINGULAR = 1e-13;
 static const double REGULAR = 1e-6;
 /* In how many stages, each twice as far as the one before. */
 static const int DOUBLINGS = 8;
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 static const double ARRIVED = 0.001;
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 static const int STAGES = 4;
 /* A rotation or a unit vector may be this far from one. */
 static const double CONSISTENT = 1e-9;
@@ -448,7 +448,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[2][JOINTS] = { {true, false, false, false, false, false}, {false, false, false, false, true, false} };
 
 /* Rows of the equations and of the damping. */
@@ -583,7 +583,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -866,7 +866,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -895,8 +895,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -916,7 +916,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -966,15 +966,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1095,10 +1095,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1117,7 +1117,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1136,7 +1136,7 @@ static void refine(const Parameters *p, size_t branch, size_t last, const double
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 2 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1307,7 +1307,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1319,7 +1319,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1327,13 +1327,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r46, r48;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r49 = 0.33 * shared->r46, r50 = 0.33 * shared->r48;
     const double r55 = 1.0 / sqrt(larger(r50 * r50 + r49 * r49, 0.0)), c3 = r50 * r55, s3 = 0.0 - r49 * r55;
@@ -1365,16 +1365,16 @@ static void block_6(const Parameters *p, const Known *known, Answers *answers)
     const double r46 = known->c1 * (p->r13_ * r10 + r17) + known->s1 * (p->r23_ * r10 + r22 - 0.146);
     const double r48 = 0.33 * (known->c1 * r41 + known->s1 * r44);
     const Shared6 own = { r46, r48 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r10, r11;
 } Shared5;
 
-/* Chart 1 of block 5: generic. */
-static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+/* Case 1 of block 5: generic. */
+static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r14 = shared->r11 * shared->r11 + shared->r10 * shared->r10;
     const double r16 = 1.0 / sqrt(larger(r14, 0.0)), c2 = shared->r11 * r16, s2 = shared->r10 * r16;
@@ -1389,23 +1389,23 @@ static void block_5(const Parameters *p, const Known *known, Answers *answers)
     const double r9 = known->s1 * (p->r12_ * known->c6 - p->r13_ * known->s6);
     const double r10 = p->r32_ * known->c6 - p->r33_ * known->s6, r11 = r8 - r9;
     const Shared5 own = { r10, r11 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
+    case_5_1(p, known, shared, answers);
 }
 
-/* Block 5 behind a chart that hardly ever runs. */
+/* Block 5 behind a case that hardly ever runs. */
 static void again_5(const Parameters *p, const Known *known, Answers *answers)
 {
     block_5(p, known, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r4, r5;
 } Shared4;
 
-/* Chart 1 of block 4: generic.
+/* Case 1 of block 4: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
     if (!is_away(r8, 128.0)) {
@@ -1422,10 +1422,10 @@ static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *sh
     }
 }
 
-/* Chart 2 of block 4: A = 0, B = 0, C = 0.
+/* Case 2 of block 4: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: HipYaw. */
-static void chart_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
+static void case_4_2(const Parameters *p, const Known *known, const Shared4 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
     if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
@@ -1446,18 +1446,18 @@ static void block_4(const Parameters *p, const Known *known, Answers *answers)
     const double r4 = p->r13_ * known->s6 - p->r12_ * known->c6;
     const double r5 = p->r23_ * known->s6 - p->r22_ * known->c6;
     const Shared4 own = { r4, r5 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
-    chart_4_2(p, known, shared, before, answers);
+    case_4_1(p, known, shared, answers);
+    case_4_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r13, r20, r25, r29, r30;
 } Shared3;
 
-/* Chart 1 of block 3: generic.
+/* Case 1 of block 3: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r33 = shared->r13 * shared->r13 + shared->r20 * shared->r20;
     const double r36 = shared->r29 * shared->r29 + shared->r30 * shared->r30;
@@ -1482,23 +1482,23 @@ static void block_3(const Parameters *p, const Known *known, Answers *answers)
     const double r25 = r23 + 0.3 * known->c5, r26 = 3.0 * p->magnitude, r29 = fabs(r26 + 0.495);
     const double r30 = fabs(r26 + 1.805005);
     const Shared3 own = { r13, r20, r25, r29, r30 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r3, r5, r11, r14;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r15 = shared->r3 * shared->r3, r16 = shared->r5 * shared->r5, r17 = r15 + r16;
     if (!is_away(r17, 48.210559999999994)) {
@@ -1516,10 +1516,10 @@ static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *sh
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero and C is near zero.
  * Free: AnklePitch. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r17 = shared->r3 * shared->r3 + shared->r5 * shared->r5;
     if (!(is_near(r17, 3.01316e-7, NEAR) && is_near(shared->r11, 0.01 * shared->r14, NEAR)) || (suffice_since(answers, before) && !(is_near(r17, 3.01316e-7, BESIDE) && is_near(shared->r11, 0.01 * shared->r14, BESIDE)))) {
@@ -1542,17 +1542,17 @@ static void block_2(const Parameters *p, const Known *known, Answers *answers)
     const double r9 = 0.146 * p->r21_ - 0.092 * p->r31_ - p->px * p->r11_;
     const double r11 = p->pz * p->r31_ - (r9 - p->py * p->r21_), r14 = fabs(3.0 * p->magnitude + 0.238);
     const Shared2 own = { r3, r5, r11, r14 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r28;
 } Shared1;
 
-/* Chart 1 of block 1: generic. */
-static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+/* Case 1 of block 1: generic. */
+static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const Roots roots0 = square_roots(shared->r28 * shared->r28 - 0.039204, 1.4142135623730951);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -1573,7 +1573,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r25 = r19 - 0.292 * p->py - 0.03591746 * p->r23_ + 0.184 * p->pz;
     const double r28 = 0.154296019975 - (r25 + 0.02263292 * p->r33_);
     const Shared1 own = { r28 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
 static double dot(const double *a, const double *b)

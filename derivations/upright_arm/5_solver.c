@@ -80,20 +80,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice. */
 #define NEAR 0.001
@@ -350,7 +350,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[3][JOINTS] = { {true, false, false, false, false}, {false, true, false, false, false}, {false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -485,7 +485,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -765,7 +765,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -794,8 +794,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -815,7 +815,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -865,15 +865,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -994,10 +994,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1016,7 +1016,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1035,7 +1035,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 3 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1185,7 +1185,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1196,7 +1196,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1204,9 +1204,9 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* Chart 1 of block 11: generic.
+/* Case 1 of block 11: generic.
  * It runs where radius is not zero. */
-INLINE static void chart_11_1(const Parameters *p, const Known *known, Answers *answers)
+INLINE static void case_11_1(const Parameters *p, const Known *known, Answers *answers)
 {
     if (!is_away(p->dradius, 0.5544030650891055)) {
         return;
@@ -1221,9 +1221,9 @@ INLINE static void chart_11_1(const Parameters *p, const Known *known, Answers *
     finish(p, 2 * known->branch, 2 * known->last, known->close, at, q, known->free, answers);
 }
 
-/* Chart 2 of block 11: radius = 0.
+/* Case 2 of block 11: radius = 0.
  * It runs where radius is near zero. */
-static void chart_11_2(const Parameters *p, const Known *known, size_t before, Answers *answers)
+static void case_11_2(const Parameters *p, const Known *known, size_t before, Answers *answers)
 {
     if (!is_near(p->dradius, 0.5544030650891055, NEAR) || (suffice_since(answers, before) && !is_near(p->dradius, 0.5544030650891055, BESIDE))) {
         return;
@@ -1240,17 +1240,17 @@ static void chart_11_2(const Parameters *p, const Known *known, size_t before, A
 INLINE static void block_11(const Parameters *p, const Known *known, Answers *answers)
 {
     const size_t before = answers->candidates;
-    chart_11_1(p, known, answers);
-    chart_11_2(p, known, before, answers);
+    case_11_1(p, known, answers);
+    case_11_2(p, known, before, answers);
 }
 
-/* What the charts of block 10 share. */
+/* What the cases of block 10 share. */
 typedef struct {
     double r15, r16;
 } Shared10;
 
-/* Chart 1 of block 10: generic. */
-INLINE static void chart_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
+/* Case 1 of block 10: generic. */
+INLINE static void case_10_1(const Parameters *p, const Known *known, const Shared10 *shared, Answers *answers)
 {
     const double r17 = 0.17 * shared->r16, r18 = 0.17 * shared->r15;
     const double r23 = 1.0 / sqrt(larger(r18 * r18 + r17 * r17, 0.0)), c4 = 0.0 - r18 * r23;
@@ -1266,23 +1266,23 @@ INLINE static void block_10(const Parameters *p, const Known *known, Answers *an
     const double r7 = known->c2 * r1 - known->s2 * r3, r10 = known->c2 * r3 + known->s2 * r1 - 0.15;
     const double r15 = 0.13 - (known->c3 * r10 + known->s3 * r7), r16 = known->s3 * r10 - known->c3 * r7;
     const Shared10 own = { r15, r16 }, *const shared = &own;
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/* Block 10 behind a chart that hardly ever runs. */
+/* Block 10 behind a case that hardly ever runs. */
 COLD static void again_10(const Parameters *p, const Known *known, Answers *answers)
 {
     block_10(p, known, answers);
 }
 
-/* What the charts of block 9 share. */
+/* What the cases of block 9 share. */
 typedef struct {
     double r14, r15, r18, r21, r27, r28;
 } Shared9;
 
-/* Chart 1 of block 9: generic.
+/* Case 1 of block 9: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
+INLINE static void case_9_1(const Parameters *p, const Known *known, const Shared9 *shared, Answers *answers)
 {
     const double r31 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
     if (!is_away(r31, 26.305600000000002)) {
@@ -1297,10 +1297,10 @@ INLINE static void chart_9_1(const Parameters *p, const Known *known, const Shar
     block_10(p, &next, answers);
 }
 
-/* Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: shoulder. */
-static void chart_9_2(const Parameters *p, const Known *known, const Shared9 *shared, size_t before, Answers *answers)
+static void case_9_2(const Parameters *p, const Known *known, const Shared9 *shared, size_t before, Answers *answers)
 {
     const double r31 = shared->r14 * shared->r14 + shared->r15 * shared->r15;
     if (!(is_near(r31, 1.6441000000000003e-7, NEAR) && is_near(shared->r21, 0.01 * shared->r28, NEAR) && is_near(shared->r18, 0.01 * shared->r27, NEAR)) || (suffice_since(answers, before) && !(is_near(r31, 1.6441000000000003e-7, BESIDE) && is_near(shared->r21, 0.01 * shared->r28, BESIDE) && is_near(shared->r18, 0.01 * shared->r27, BESIDE)))) {
@@ -1326,17 +1326,17 @@ INLINE static void block_9(const Parameters *p, const Known *known, Answers *ans
     const double r21 = 0.03 - r20, r27 = fabs(3.0 * fabs(known->dheight_) + 34.83);
     const double r28 = fabs(fabs(known->dradius_) + 10.39);
     const Shared9 own = { r14, r15, r18, r21, r27, r28 }, *const shared = &own;
-    chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, before, answers);
+    case_9_1(p, known, shared, answers);
+    case_9_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 8 share. */
+/* What the cases of block 8 share. */
 typedef struct {
     double r36;
 } Shared8;
 
-/* Chart 1 of block 8: generic. */
-INLINE static void chart_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
+/* Case 1 of block 8: generic. */
+INLINE static void case_8_1(const Parameters *p, const Known *known, const Shared8 *shared, Answers *answers)
 {
     const double r40 = known->fturn * (1.4142135623730951 * known->fazimuth);
     const Roots roots0 = square_roots(shared->r36 * shared->r36 - 0.001521, r40);
@@ -1362,16 +1362,16 @@ INLINE static void block_8(const Parameters *p, const Known *known, Answers *ans
     const double r33 = r29 - 0.06 * (known->cazimuth * r9) - 0.0102 * (known->sazimuth * r19);
     const double r36 = r33 + 0.034 * r1 + 0.0004;
     const Shared8 own = { r36 }, *const shared = &own;
-    chart_8_1(p, known, shared, answers);
+    case_8_1(p, known, shared, answers);
 }
 
-/* What the charts of block 7 share. */
+/* What the cases of block 7 share. */
 typedef struct {
     double r13, r14;
 } Shared7;
 
-/* Chart 1 of block 7: generic. */
-INLINE static void chart_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
+/* Case 1 of block 7: generic. */
+INLINE static void case_7_1(const Parameters *p, const Known *known, const Shared7 *shared, Answers *answers)
 {
     const double r17 = shared->r14 * shared->r14 + shared->r13 * shared->r13;
     const double r19 = 1.0 / sqrt(larger(r17, 0.0)), c5 = shared->r14 * r19, s5 = 0.0 - shared->r13 * r19;
@@ -1389,23 +1389,23 @@ INLINE static void block_7(const Parameters *p, const Known *known, Answers *ans
     const double r10 = known->croll_ * known->cturn - known->sturn * r4, r13 = r2 + r3;
     const double r14 = known->cazimuth * r10 - known->sazimuth * r9;
     const Shared7 own = { r13, r14 }, *const shared = &own;
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/* Block 7 behind a chart that hardly ever runs. */
+/* Block 7 behind a case that hardly ever runs. */
 COLD static void again_7(const Parameters *p, const Known *known, Answers *answers)
 {
     block_7(p, known, answers);
 }
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r5, r6;
 } Shared6;
 
-/* Chart 1 of block 6: generic.
+/* Case 1 of block 6: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r7 = shared->r5 * shared->r5, r8 = shared->r6 * shared->r6, r9 = r7 + r8;
     if (!is_away(r9, 512.0)) {
@@ -1423,10 +1423,10 @@ INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 6: A = 0, B = 0, C = 0.
+/* Case 2 of block 6: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: roll. */
-static void chart_6_2(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
+static void case_6_2(const Parameters *p, const Known *known, const Shared6 *shared, size_t before, Answers *answers)
 {
     const double r9 = shared->r5 * shared->r5 + shared->r6 * shared->r6;
     if (!is_near(r9, 3.2000000000000003e-6, NEAR) || (suffice_since(answers, before) && !is_near(r9, 3.2000000000000003e-6, BESIDE))) {
@@ -1449,24 +1449,24 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r5 = known->sroll_ * known->cazimuth + known->sazimuth * r0;
     const double r6 = known->cazimuth * r0 - known->sroll_ * known->sazimuth;
     const Shared6 own = { r5, r6 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, before, answers);
+    case_6_1(p, known, shared, answers);
+    case_6_2(p, known, shared, before, answers);
 }
 
-/* Block 6 behind a chart that hardly ever runs. */
+/* Block 6 behind a case that hardly ever runs. */
 COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
 {
     block_6(p, known, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r2;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
+/* Case 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r3 = known->dradius_ * known->dradius_, r4 = shared->r2 * shared->r2;
     if (!is_away(r3, 16.0 * r4)) {
@@ -1484,10 +1484,10 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 5: A = 0, B = 0, C = 0.
+/* Case 2 of block 5: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: base. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
+static void case_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r5 = 1.0000000000000001e-7 * (shared->r2 * shared->r2);
     if (!is_near(known->dradius_ * known->dradius_, r5, NEAR) || (suffice_since(answers, before) && !is_near(known->dradius_ * known->dradius_, r5, BESIDE))) {
@@ -1509,12 +1509,12 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const size_t before = answers->candidates;
     const double r2 = fabs(fabs(known->dradius_) + 0.06);
     const Shared5 own = { r2 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/* Chart 1 of block 4: given. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 4: given. */
+INLINE static void case_4_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double dheight_ = p->dheight;
     Known next = *known; next.dheight_ = dheight_;
@@ -1524,11 +1524,11 @@ INLINE static void chart_4_1(const Parameters *p, const Known *known, Answers *a
 /* Block 4: height. */
 INLINE static void block_4(const Parameters *p, const Known *known, Answers *answers)
 {
-    chart_4_1(p, known, answers);
+    case_4_1(p, known, answers);
 }
 
-/* Chart 1 of block 3: given. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 3: given. */
+INLINE static void case_3_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double dradius_ = p->dradius;
     Known next = *known; next.dradius_ = dradius_;
@@ -1538,11 +1538,11 @@ INLINE static void chart_3_1(const Parameters *p, const Known *known, Answers *a
 /* Block 3: radius. */
 INLINE static void block_3(const Parameters *p, const Known *known, Answers *answers)
 {
-    chart_3_1(p, known, answers);
+    case_3_1(p, known, answers);
 }
 
-/* Chart 1 of block 2: given. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *answers)
+/* Case 1 of block 2: given. */
+INLINE static void case_2_1(const Parameters *p, const Known *known, Answers *answers)
 {
     const double cpitch_ = p->cpitch, spitch_ = p->spitch;
     Known next = *known; next.cpitch_ = cpitch_; next.spitch_ = spitch_;
@@ -1552,11 +1552,11 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, Answers *a
 /* Block 2: pitch. */
 INLINE static void block_2(const Parameters *p, const Known *known, Answers *answers)
 {
-    chart_2_1(p, known, answers);
+    case_2_1(p, known, answers);
 }
 
-/* Chart 1 of block 1: given. */
-INLINE static void chart_1_1(const Parameters *p, Answers *answers)
+/* Case 1 of block 1: given. */
+INLINE static void case_1_1(const Parameters *p, Answers *answers)
 {
     const double croll_ = p->croll, sroll_ = p->sroll;
     Known next = NOTHING_KNOWN; next.last = 1; next.croll_ = croll_; next.sroll_ = sroll_;
@@ -1566,7 +1566,7 @@ INLINE static void chart_1_1(const Parameters *p, Answers *answers)
 /* Block 1: roll2. */
 static void block_1(const Parameters *p, Answers *answers)
 {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
 static bool all_finite(const double *target)
@@ -1718,7 +1718,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

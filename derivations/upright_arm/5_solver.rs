@@ -48,11 +48,11 @@ pub struct Solution {
     pub q: [f64; JOINTS],
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// Which charts and which roots gave it.
+    /// Which cases and which roots gave it.
     pub branch: usize,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a family.
+    /// Joints that may take any value here: this is one member of a self-motion.
     pub free: [bool; JOINTS],
 }
 
@@ -180,7 +180,7 @@ pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) ->
 }
 
 /// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a family is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
 ///
 /// # Errors
 /// As [`solve`].
@@ -219,7 +219,7 @@ fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64;
 const STRIDE: f64 = 0.1;
 const STRIDES: usize = 63;
 
-/// A member of a family moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
     for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
@@ -327,20 +327,20 @@ const STIFF: f64 = 1e-6;
 /// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
 const POLISHED: f64 = 1e-15;
 const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by no more than this is polished with its free joints held.
+/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
 const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a family has led to holds within this share.
+/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
 const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a family.
+/// How far a free joint is moved to see whether an answer lies on a self-motion.
 const ASIDE: f64 = 0.1;
 const NARROWS: usize = 5;
 const SINGULAR: f64 = 1e-13;
 const REGULAR: f64 = 1e-6;
 /// In how many stages, each twice as far as the one before.
 const DOUBLINGS: i32 = 8;
-/// A family that is followed to another's member is that family when the joints come this near.
+/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
 const ARRIVED: f64 = 0.001;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 const STAGES: usize = 4;
 /// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
 const NEAR: f64 = 0.001;
@@ -348,7 +348,7 @@ const BESIDE: f64 = 1e-7;
 /// A factor is not zero above this share of its scale.
 const TINY: f64 = 1e-30;
 const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some chart frees: that joint alone.
+/// By joint that some case frees: that joint alone.
 const FREED: [[bool; JOINTS]; 3] = [[true, false, false, false, false], [false, true, false, false, false], [false, false, false, false, true]];
 
 /// Parameters of the equations.
@@ -369,7 +369,7 @@ fn parameters(target: &[f64; INPUTS]) -> Parameters {
 struct Known {
     /// The branch number so far.
     branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     last: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     close: bool,
@@ -382,7 +382,7 @@ struct Known {
 
 const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, croll_: 0.0, sroll_: 0.0, cpitch_: 0.0, spitch_: 0.0, dradius_: 0.0, dheight_: 0.0, cazimuth: 0.0, sazimuth: 0.0, fazimuth: 0.0, cturn: 0.0, sturn: 0.0, fturn: 0.0, c5: 0.0, s5: 0.0, c3: 0.0, s3: 0.0, c2: 0.0, s2: 0.0, c4: 0.0, s4: 0.0, q1: 0.0, q2: 0.0, q3: 0.0, q4: 0.0 };
 
-/// Where charts put a free joint: cosine and sine.
+/// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -392,12 +392,12 @@ const SAMPLES_1: [[f64; 2]; 8] = [
 
 /// Block 1: roll2.
 fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    chart_1_1(p, answers);
+    case_1_1(p, answers);
 }
 
-/// Chart 1 of block 1: given.
+/// Case 1 of block 1: given.
 #[inline(always)]
-fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
+fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
     let croll_ = p.croll; let sroll_ = p.sroll;
     let next = Known { branch: 0, last: 1, close: false, croll_, sroll_, ..NOTHING_KNOWN };
     block_2(p, &next, answers);
@@ -406,12 +406,12 @@ fn chart_1_1(p: &Parameters, answers: &mut Answers<'_>) {
 /// Block 2: pitch.
 #[inline(always)]
 fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    chart_2_1(p, known, answers);
+    case_2_1(p, known, answers);
 }
 
-/// Chart 1 of block 2: given.
+/// Case 1 of block 2: given.
 #[inline(always)]
-fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let cpitch_ = p.cpitch; let spitch_ = p.spitch;
     let next = Known { branch: known.branch, last: known.last, close: known.close, cpitch_, spitch_, ..*known };
     block_3(p, &next, answers);
@@ -420,12 +420,12 @@ fn chart_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// Block 3: radius.
 #[inline(always)]
 fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    chart_3_1(p, known, answers);
+    case_3_1(p, known, answers);
 }
 
-/// Chart 1 of block 3: given.
+/// Case 1 of block 3: given.
 #[inline(always)]
-fn chart_3_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_3_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let dradius_ = p.dradius;
     let next = Known { branch: known.branch, last: known.last, close: known.close, dradius_, ..*known };
     block_4(p, &next, answers);
@@ -434,12 +434,12 @@ fn chart_3_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 /// Block 4: height.
 #[inline(always)]
 fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    chart_4_1(p, known, answers);
+    case_4_1(p, known, answers);
 }
 
-/// Chart 1 of block 4: given.
+/// Case 1 of block 4: given.
 #[inline(always)]
-fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let dheight_ = p.dheight;
     let next = Known { branch: known.branch, last: known.last, close: known.close, dheight_, ..*known };
     block_5(p, &next, answers);
@@ -450,17 +450,17 @@ fn chart_4_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
 fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates; let r2 = f64::abs(f64::abs(known.dradius_) + 0.06);
     let shared = &Shared5 { r2 };
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 5 share.
+/// What the cases of block 5 share.
 struct Shared5 { r2: f64 }
 
-/// Chart 1 of block 5: generic.
+/// Case 1 of block 5: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
+fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
     let r3 = known.dradius_ * known.dradius_; let r4 = shared.r2 * shared.r2;
     if !is_away(r3, 16.0 * r4) {
         return;
@@ -473,10 +473,10 @@ fn chart_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 5: A = 0, B = 0, C = 0.
+/// Case 2 of block 5: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: base.
-fn chart_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
+fn case_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
     let r5 = 1.0000000000000001e-7 * (shared.r2 * shared.r2);
     if !is_near(known.dradius_ * known.dradius_, r5, NEAR) || (answers.suffice_since(p, before) && !is_near(known.dradius_ * known.dradius_, r5, BESIDE)) {
         return;
@@ -495,24 +495,24 @@ fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r5 = known.sroll_ * known.cazimuth + known.sazimuth * r0;
     let r6 = known.cazimuth * r0 - known.sroll_ * known.sazimuth;
     let shared = &Shared6 { r5, r6 };
-    chart_6_1(p, known, shared, answers);
-    chart_6_2(p, known, shared, before, answers);
+    case_6_1(p, known, shared, answers);
+    case_6_2(p, known, shared, before, answers);
 }
 
-/// Block 6 behind a chart that hardly ever runs.
+/// Block 6 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_6(p, known, answers);
 }
 
-/// What the charts of block 6 share.
+/// What the cases of block 6 share.
 struct Shared6 { r5: f64, r6: f64 }
 
-/// Chart 1 of block 6: generic.
+/// Case 1 of block 6: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
+fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
     let r7 = shared.r5 * shared.r5; let r8 = shared.r6 * shared.r6; let r9 = r7 + r8;
     if !is_away(r9, 512.0) {
         return;
@@ -525,10 +525,10 @@ fn chart_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answ
     }
 }
 
-/// Chart 2 of block 6: A = 0, B = 0, C = 0.
+/// Case 2 of block 6: A = 0, B = 0, C = 0.
 /// It runs where A^2 + B^2 is near zero.
 /// Free: roll.
-fn chart_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
+fn case_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
     let r9 = shared.r5 * shared.r5 + shared.r6 * shared.r6;
     if !is_near(r9, 3.2000000000000003e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r9, 3.2000000000000003e-6, BESIDE)) {
         return;
@@ -549,22 +549,22 @@ fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r10 = known.croll_ * known.cturn - known.sturn * r4; let r13 = r2 + r3;
     let r14 = known.cazimuth * r10 - known.sazimuth * r9;
     let shared = &Shared7 { r13, r14 };
-    chart_7_1(p, known, shared, answers);
+    case_7_1(p, known, shared, answers);
 }
 
-/// Block 7 behind a chart that hardly ever runs.
+/// Block 7 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_7(p, known, answers);
 }
 
-/// What the charts of block 7 share.
+/// What the cases of block 7 share.
 struct Shared7 { r13: f64, r14: f64 }
 
-/// Chart 1 of block 7: generic.
+/// Case 1 of block 7: generic.
 #[inline(always)]
-fn chart_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
+fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
     let r17 = shared.r14 * shared.r14 + shared.r13 * shared.r13; let r19 = 1.0 / f64::max(r17, 0.0).sqrt();
     let c5 = shared.r14 * r19; let s5 = 0.0 - shared.r13 * r19; let q4 = angle(c5, s5);
     let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, q4, ..*known };
@@ -584,15 +584,15 @@ fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r33 = r29 - 0.06 * (known.cazimuth * r9) - 0.0102 * (known.sazimuth * r19);
     let r36 = r33 + 0.034 * r1 + 0.0004;
     let shared = &Shared8 { r36 };
-    chart_8_1(p, known, shared, answers);
+    case_8_1(p, known, shared, answers);
 }
 
-/// What the charts of block 8 share.
+/// What the cases of block 8 share.
 struct Shared8 { r36: f64 }
 
-/// Chart 1 of block 8: generic.
+/// Case 1 of block 8: generic.
 #[inline(always)]
-fn chart_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
+fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
     let r40 = known.fturn * (1.4142135623730951 * known.fazimuth);
     let roots0 = square_roots(shared.r36 * shared.r36 - 0.001521, r40);
     for (i0, &w3) in roots0.as_slice().iter().enumerate() {
@@ -614,17 +614,17 @@ fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r27 = f64::abs(3.0 * f64::abs(known.dheight_) + 34.83);
     let r28 = f64::abs(f64::abs(known.dradius_) + 10.39);
     let shared = &Shared9 { r14, r15, r18, r21, r27, r28 };
-    chart_9_1(p, known, shared, answers);
-    chart_9_2(p, known, shared, before, answers);
+    case_9_1(p, known, shared, answers);
+    case_9_2(p, known, shared, before, answers);
 }
 
-/// What the charts of block 9 share.
+/// What the cases of block 9 share.
 struct Shared9 { r14: f64, r15: f64, r18: f64, r21: f64, r27: f64, r28: f64 }
 
-/// Chart 1 of block 9: generic.
+/// Case 1 of block 9: generic.
 /// It runs where A^2 + B^2 is not zero.
 #[inline(always)]
-fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
+fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
     let r31 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
     if !is_away(r31, 26.305600000000002) {
         return;
@@ -637,10 +637,10 @@ fn chart_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answ
     block_10(p, &next, answers);
 }
 
-/// Chart 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
+/// Case 2 of block 9: A = 0, B = 0, Y = 0, X = 0.
 /// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
 /// Free: shoulder.
-fn chart_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, answers: &mut Answers<'_>) {
+fn case_9_2(p: &Parameters, known: &Known, shared: &Shared9, before: usize, answers: &mut Answers<'_>) {
     let r31 = shared.r14 * shared.r14 + shared.r15 * shared.r15;
     if !(is_near(r31, 1.6441000000000003e-7, NEAR) && is_near(shared.r21, 0.01 * shared.r28, NEAR) && is_near(shared.r18, 0.01 * shared.r27, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r31, 1.6441000000000003e-7, BESIDE) && is_near(shared.r21, 0.01 * shared.r28, BESIDE) && is_near(shared.r18, 0.01 * shared.r27, BESIDE))) {
         return;
@@ -659,22 +659,22 @@ fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r7 = known.c2 * r1 - known.s2 * r3; let r10 = known.c2 * r3 + known.s2 * r1 - 0.15;
     let r15 = 0.13 - (known.c3 * r10 + known.s3 * r7); let r16 = known.s3 * r10 - known.c3 * r7;
     let shared = &Shared10 { r15, r16 };
-    chart_10_1(p, known, shared, answers);
+    case_10_1(p, known, shared, answers);
 }
 
-/// Block 10 behind a chart that hardly ever runs.
+/// Block 10 behind a case that hardly ever runs.
 #[cold]
 #[inline(never)]
 fn again_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     block_10(p, known, answers);
 }
 
-/// What the charts of block 10 share.
+/// What the cases of block 10 share.
 struct Shared10 { r15: f64, r16: f64 }
 
-/// Chart 1 of block 10: generic.
+/// Case 1 of block 10: generic.
 #[inline(always)]
-fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
+fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
     let r17 = 0.17 * shared.r16; let r18 = 0.17 * shared.r15;
     let r23 = 1.0 / f64::max(r18 * r18 + r17 * r17, 0.0).sqrt(); let c4 = 0.0 - r18 * r23;
     let s4 = 0.0 - r17 * r23; let q3 = angle(c4, s4);
@@ -686,14 +686,14 @@ fn chart_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut An
 #[inline(always)]
 fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let before = answers.candidates;
-    chart_11_1(p, known, answers);
-    chart_11_2(p, known, before, answers);
+    case_11_1(p, known, answers);
+    case_11_2(p, known, before, answers);
 }
 
-/// Chart 1 of block 11: generic.
+/// Case 1 of block 11: generic.
 /// It runs where radius is not zero.
 #[inline(always)]
-fn chart_11_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
+fn case_11_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     if !is_away(p.dradius, 0.5544030650891055) {
         return;
     }
@@ -706,9 +706,9 @@ fn chart_11_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     answers.finish(p, 2 * known.branch, 2 * known.last, known.close, &at, q, known.free);
 }
 
-/// Chart 2 of block 11: radius = 0.
+/// Case 2 of block 11: radius = 0.
 /// It runs where radius is near zero.
-fn chart_11_2(p: &Parameters, known: &Known, before: usize, answers: &mut Answers<'_>) {
+fn case_11_2(p: &Parameters, known: &Known, before: usize, answers: &mut Answers<'_>) {
     if !is_near(p.dradius, 0.5544030650891055, NEAR) || (answers.suffice_since(p, before) && !is_near(p.dradius, 0.5544030650891055, BESIDE)) {
         return;
     }
@@ -821,7 +821,7 @@ impl Answers<'_> {
     }
 
     /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a family is moved along it only where it misses the equations by more than rounding.
+    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
     #[cold]
     #[inline(never)]
     fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
@@ -838,7 +838,7 @@ impl Answers<'_> {
             if !self.keep_member(p, branch, last, end, free) {
                 end = polish(p, end, &NONE_FREE);
                 let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another family, of one joint.
+                // It may be of another self-motion, of one joint.
                 let is_member = is_member
                     || (end.1.relative <= ALONE
                         && !self.is_listed(&end.0)
@@ -903,9 +903,9 @@ impl Answers<'_> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
     fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_family(p, &end.0, &free, end.1.relative);
+        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
         if is_member {
             self.keep(p, branch, last, end, free);
         }
@@ -1052,12 +1052,12 @@ fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
         (false, false) => {
             a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
         }
-        (true, false) => b.relative <= RESOLUTION && lies_on_family(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_family(p, &b.answer.q, &a.answer.free, RESOLUTION),
+        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
+        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a family that holds within rounding stays against its members, and
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
 /// its first member against the others.
 fn holds_against(a: &Rated, b: &Rated) -> bool {
     match (is_isolated(&a.answer), is_isolated(&b.answer)) {
@@ -1069,9 +1069,9 @@ fn holds_against(a: &Rated, b: &Rated) -> bool {
 }
 
 /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A family may go round a small part of the
+/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
 /// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
+fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
     let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
     let regularity = regularity(p, q);
     if regularity > REGULAR {
@@ -1090,7 +1090,7 @@ fn lies_on_family(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], boun
 }
 
 /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a family next to it, but not back.
+/// may be led to a self-motion next to it, but not back.
 fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
     let (mut before, mut at) = (*q, *q);
     let mut share = 1.0;
@@ -1131,7 +1131,7 @@ fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
     beyond
 }
 
-/// Whether the family of `a` has the member `b`: as the free joints move there in stages, the others follow.
+/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
 fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
     let mut q = a.q;
     let mut accepted = false;
@@ -1335,7 +1335,7 @@ fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; J
     None
 }
 
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a family the miss
+/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
 /// hardly changes along a bent way, and rises on each straight one.
 fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
     let step = newton_step(p, q, 0.0, held)?;

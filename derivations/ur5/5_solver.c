@@ -82,20 +82,20 @@ static inline double lesser(double a, double b)
 /* An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as SHORT as this. */
 #define POLISHED 1e-15
 #define SHORT 1e-9
-/* A member of a family that misses the equations by no more than this is polished with its free joints held. */
+/* A member of a self-motion that misses the equations by no more than this is polished with its free joints held. */
 #define ADRIFT 1e-7
-/* An isolated answer that a candidate for a member of a family has led to holds within this share. */
+/* An isolated answer that a candidate for a member of a self-motion has led to holds within this share. */
 #define ALONE 1e-13
-/* How far a free joint is moved to see whether an answer lies on a family. */
+/* How far a free joint is moved to see whether an answer lies on a self-motion. */
 #define ASIDE 0.1
 #define NARROWS 5
 #define SINGULAR 1e-13
 #define REGULAR 1e-6
 /* In how many stages, each twice as far as the one before. */
 #define DOUBLINGS 8
-/* A family that is followed to another's member is that family when the joints come this near. */
+/* A self-motion that is followed to another's member is that self-motion when the joints come this near. */
 #define ARRIVED 0.001
-/* In how many stages a family is followed from one member to another. */
+/* In how many stages a self-motion is followed from one member to another. */
 #define STAGES 4
 /* A rotation or a unit vector may be this far from one. */
 #define CONSISTENT 1e-9
@@ -396,7 +396,7 @@ static double wrap(double angle)
 }
 
 static const bool NONE_FREE[JOINTS] = {false};
-/* By joint that some chart frees: that joint alone. */
+/* By joint that some case frees: that joint alone. */
 static const bool FREED[2][JOINTS] = { {false, true, false, false, false, false}, {false, false, false, false, false, true} };
 
 /* Rows of the equations and of the damping. */
@@ -531,7 +531,7 @@ static void copy(const double *from, double *to)
     }
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a family the miss
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within enough: next to a self-motion the miss
  * hardly changes along a bent way, and rises on each straight one. */
 static bool leap(const Parameters *p, double *q, Fit *fit, double enough, const bool *held)
 {
@@ -817,7 +817,7 @@ static bool leads_back(const Parameters *p, const double *q, const bool *free, c
 }
 
 /* Whether the equations hold too, within a bound, where the free joints are elsewhere and the others follow. The way is doubled until it is
- * that long, and from where it is short the joints must come back: an isolated answer may be led to a family next to it, but not back. */
+ * that long, and from where it is short the joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
 static bool leads_aside(const Parameters *p, const double *q, const bool *free, double way, double bound)
 {
     double before[JOINTS], at[JOINTS], next[JOINTS], displaced[JOINTS];
@@ -846,8 +846,8 @@ static bool leads_aside(const Parameters *p, const double *q, const bool *free, 
 }
 
 /* The same within a bound or rounding, to one side at least: to the other there may be a branching. Where q is not singular that is not
- * tried. A family may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
-static bool lies_on_family(const Parameters *p, const double *q, const bool *free, double bound)
+ * tried. A self-motion may go round a small part of the circle only: where q is singular within rounding, shorter ways are tried as well. */
+static bool lies_on_self_motion(const Parameters *p, const double *q, const bool *free, double bound)
 {
     const double regular = regularity(p, q);
     double way = ASIDE;
@@ -867,7 +867,7 @@ static bool lies_on_family(const Parameters *p, const double *q, const bool *fre
     return false;
 }
 
-/* Whether the family of a has the member b: as the free joints move there in stages, the others follow. */
+/* Whether the self-motion of a has the member b: as the free joints move there in stages, the others follow. */
 static bool leads_to(const Parameters *p, const Solution *a, const Solution *b)
 {
     double q[JOINTS];
@@ -917,15 +917,15 @@ static bool is_one(const Parameters *p, const Solution *a, double a_relative, co
         return has_free(a, b->free) && (a->branch == b->branch || leads_to(p, a, b));
     }
     if (!b_isolated) {
-        return b_relative <= RESOLUTION && lies_on_family(p, a->q, b->free, RESOLUTION);
+        return b_relative <= RESOLUTION && lies_on_self_motion(p, a->q, b->free, RESOLUTION);
     }
     if (!a_isolated) {
-        return a_relative <= RESOLUTION && lies_on_family(p, b->q, a->free, RESOLUTION);
+        return a_relative <= RESOLUTION && lies_on_self_motion(p, b->q, a->free, RESOLUTION);
     }
     return blurred(p, a, a_relative, b, b_relative);
 }
 
-/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a family that holds within rounding stays
+/* Whether a, of this relative residual, stays where b is equal to it: the better one does. But a self-motion that holds within rounding stays
  * against its members, and its first member against the others. */
 static bool holds_against(const Solution *a, double a_relative, const Solution *b, double b_relative)
 {
@@ -1046,10 +1046,10 @@ static void around(const Parameters *p, size_t branch, size_t last, const double
     }
 }
 
-/* Keeps a candidate if it is a member of a family; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
 static bool keep_member(const Parameters *p, size_t branch, size_t last, const double *q, const Fit *fit, const bool *free, Answers *answers)
 {
-    const bool is_member = fit->accepted && lies_on_family(p, q, free, fit->relative);
+    const bool is_member = fit->accepted && lies_on_self_motion(p, q, free, fit->relative);
     if (is_member) {
         keep(p, answers, branch, last, q, fit, free);
     }
@@ -1068,7 +1068,7 @@ static bool is_listed(const Answers *answers, const double *q)
 }
 
 /* Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
- * A member of a family is moved along it only where it misses the equations by more than rounding.
+ * A member of a self-motion is moved along it only where it misses the equations by more than rounding.
  */
 COLD static void refine(const Parameters *p, size_t branch, size_t last, const double *candidate, const bool *free, Answers *answers)
 {
@@ -1087,7 +1087,7 @@ COLD static void refine(const Parameters *p, size_t branch, size_t last, const d
         if (!keep_member(p, branch, last, q, &fit, free, answers)) {
             polish(p, q, &fit, NONE_FREE);
             bool is_member = keep_member(p, branch, last, q, &fit, free, answers);
-            /* It may be of another family, of one joint. */
+            /* It may be of another self-motion, of one joint. */
             const bool tries = !is_member && fit.relative <= ALONE && !is_listed(answers, q);
             for (size_t i = 0; i < 2 && tries && !is_member; i++) {
                 is_member = keep_member(p, branch, last, q, &fit, FREED[i], answers);
@@ -1308,7 +1308,7 @@ static bool is_away(double value, double scale)
 typedef struct {
     /* The branch number so far. */
     size_t branch;
-    /* The end of the branch numbers of the first block's chart. */
+    /* The end of the branch numbers of the first block's case. */
     size_t last;
     /* Whether roots on the way are so near one another that rounding moves them. */
     bool close;
@@ -1318,7 +1318,7 @@ typedef struct {
 
 static const Known NOTHING_KNOWN = { 0, 0, false, {false}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
-/* Where charts put a free joint: cosine and sine. */
+/* Where cases put a free joint: cosine and sine. */
 static const double SAMPLES_1[8][2] = {
     {-0.9210609940028851, -0.3894183423086505}, {-0.37592812418099103, -0.926648825310733},
     {0.38941834230865047, -0.9210609940028851}, {0.926648825310733, -0.375928124180991},
@@ -1326,13 +1326,13 @@ static const double SAMPLES_1[8][2] = {
     {-0.38941834230865036, 0.9210609940028851}, {-0.9266488253107329, 0.3759281241809912},
 };
 
-/* What the charts of block 6 share. */
+/* What the cases of block 6 share. */
 typedef struct {
     double r21, r23;
 } Shared6;
 
-/* Chart 1 of block 6: generic. */
-INLINE static void chart_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
+/* Case 1 of block 6: generic. */
+INLINE static void case_6_1(const Parameters *p, const Known *known, const Shared6 *shared, Answers *answers)
 {
     const double r24 = 0.09465 * shared->r23, r25 = 0.09465 * shared->r21;
     const double r30 = 1.0 / sqrt(larger(r25 * r25 + r24 * r24, 0.0)), c4 = 0.0 - r25 * r30, s4 = r24 * r30;
@@ -1351,23 +1351,23 @@ INLINE static void block_6(const Parameters *p, const Known *known, Answers *ans
     const double r17 = known->c2 * r10 - known->s2 * r6, r21 = known->c3 * r17 - known->s3 * r15;
     const double r23 = known->c3 * r15 + known->s3 * r17 + 0.39225;
     const Shared6 own = { r21, r23 }, *const shared = &own;
-    chart_6_1(p, known, shared, answers);
+    case_6_1(p, known, shared, answers);
 }
 
-/* Block 6 behind a chart that hardly ever runs. */
+/* Block 6 behind a case that hardly ever runs. */
 COLD static void again_6(const Parameters *p, const Known *known, Answers *answers)
 {
     block_6(p, known, answers);
 }
 
-/* What the charts of block 5 share. */
+/* What the cases of block 5 share. */
 typedef struct {
     double r20, r22, r29, r30, r31, r35, r36;
 } Shared5;
 
-/* Chart 1 of block 5: generic.
+/* Case 1 of block 5: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
+INLINE static void case_5_1(const Parameters *p, const Known *known, const Shared5 *shared, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
     if (!is_away(r39, 95.40092293792)) {
@@ -1381,10 +1381,10 @@ INLINE static void chart_5_1(const Parameters *p, const Known *known, const Shar
     block_6(p, &next, answers);
 }
 
-/* Chart 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
+/* Case 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
  * It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
  * Free: ShoulderLift. */
-static void chart_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
+static void case_5_2(const Parameters *p, const Known *known, const Shared5 *shared, size_t before, Answers *answers)
 {
     const double r39 = shared->r20 * shared->r20 + shared->r22 * shared->r22;
     if (!(is_near(r39, 5.96255768362e-7, NEAR) && is_near(shared->r31, 0.01 * shared->r36, NEAR) && is_near(shared->r29, 0.01 * shared->r35, NEAR)) || (suffice_since(answers, before) && !(is_near(r39, 5.96255768362e-7, BESIDE) && is_near(shared->r31, 0.01 * shared->r36, BESIDE) && is_near(shared->r29, 0.01 * shared->r35, BESIDE)))) {
@@ -1411,17 +1411,17 @@ INLINE static void block_5(const Parameters *p, const Known *known, Answers *ans
     const double r31 = 0.0 - r30, r35 = fabs(p->magnitude + 6.148441);
     const double r36 = fabs(2.0 * p->magnitude + 12.118564);
     const Shared5 own = { r20, r22, r29, r30, r31, r35, r36 }, *const shared = &own;
-    chart_5_1(p, known, shared, answers);
-    chart_5_2(p, known, shared, before, answers);
+    case_5_1(p, known, shared, answers);
+    case_5_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 4 share. */
+/* What the cases of block 4 share. */
 typedef struct {
     double r46;
 } Shared4;
 
-/* Chart 1 of block 4: generic. */
-INLINE static void chart_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
+/* Case 1 of block 4: generic. */
+INLINE static void case_4_1(const Parameters *p, const Known *known, const Shared4 *shared, Answers *answers)
 {
     const Roots roots0 = square_roots(shared->r46 * shared->r46 - 0.11116389515625, 1.4142135623730951 * known->f6);
     for (size_t i0 = 0; i0 < roots0.count; i0++) {
@@ -1445,16 +1445,16 @@ INLINE static void block_4(const Parameters *p, const Known *known, Answers *ans
     const double r41 = r36 - p->pz * p->pz - 0.178318 * p->pz - 0.0168777987 * r4;
     const double r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p->r33_, r46 = 0.322717545219 - r45;
     const Shared4 own = { r46 }, *const shared = &own;
-    chart_4_1(p, known, shared, answers);
+    case_4_1(p, known, shared, answers);
 }
 
-/* What the charts of block 3 share. */
+/* What the cases of block 3 share. */
 typedef struct {
     double r10, r11;
 } Shared3;
 
-/* Chart 1 of block 3: generic. */
-INLINE static void chart_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
+/* Case 1 of block 3: generic. */
+INLINE static void case_3_1(const Parameters *p, const Known *known, const Shared3 *shared, Answers *answers)
 {
     const double r14 = shared->r10 * shared->r10 + shared->r11 * shared->r11;
     const double r16 = 1.0 / sqrt(larger(r14, 0.0)), c5 = shared->r10 * r16, s5 = shared->r11 * r16;
@@ -1469,23 +1469,23 @@ INLINE static void block_3(const Parameters *p, const Known *known, Answers *ans
     const double r9 = known->s1 * (p->r11_ * known->c6 - p->r12_ * known->s6);
     const double r10 = p->r13_ * known->s1 - p->r23_ * known->c1, r11 = r9 - r8;
     const Shared3 own = { r10, r11 }, *const shared = &own;
-    chart_3_1(p, known, shared, answers);
+    case_3_1(p, known, shared, answers);
 }
 
-/* Block 3 behind a chart that hardly ever runs. */
+/* Block 3 behind a case that hardly ever runs. */
 COLD static void again_3(const Parameters *p, const Known *known, Answers *answers)
 {
     block_3(p, known, answers);
 }
 
-/* What the charts of block 2 share. */
+/* What the cases of block 2 share. */
 typedef struct {
     double r4, r5;
 } Shared2;
 
-/* Chart 1 of block 2: generic.
+/* Case 1 of block 2: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
+INLINE static void case_2_1(const Parameters *p, const Known *known, const Shared2 *shared, Answers *answers)
 {
     const double r6 = shared->r4 * shared->r4, r7 = shared->r5 * shared->r5, r8 = r6 + r7;
     if (!is_away(r8, 128.0)) {
@@ -1502,10 +1502,10 @@ INLINE static void chart_2_1(const Parameters *p, const Known *known, const Shar
     }
 }
 
-/* Chart 2 of block 2: A = 0, B = 0, C = 0.
+/* Case 2 of block 2: A = 0, B = 0, C = 0.
  * It runs where A^2 + B^2 is near zero.
  * Free: Wrist3. */
-static void chart_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
+static void case_2_2(const Parameters *p, const Known *known, const Shared2 *shared, size_t before, Answers *answers)
 {
     const double r8 = shared->r4 * shared->r4 + shared->r5 * shared->r5;
     if (!is_near(r8, 8.000000000000001e-7, NEAR) || (suffice_since(answers, before) && !is_near(r8, 8.000000000000001e-7, BESIDE))) {
@@ -1527,18 +1527,18 @@ INLINE static void block_2(const Parameters *p, const Known *known, Answers *ans
     const double r4 = p->r12_ * known->s1 - p->r22_ * known->c1;
     const double r5 = p->r11_ * known->s1 - p->r21_ * known->c1;
     const Shared2 own = { r4, r5 }, *const shared = &own;
-    chart_2_1(p, known, shared, answers);
-    chart_2_2(p, known, shared, before, answers);
+    case_2_1(p, known, shared, answers);
+    case_2_2(p, known, shared, before, answers);
 }
 
-/* What the charts of block 1 share. */
+/* What the cases of block 1 share. */
 typedef struct {
     double r1, r3, r5;
 } Shared1;
 
-/* Chart 1 of block 1: generic.
+/* Case 1 of block 1: generic.
  * It runs where A^2 + B^2 is not zero. */
-INLINE static void chart_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
+INLINE static void case_1_1(const Parameters *p, const Shared1 *shared, Answers *answers)
 {
     const double r6 = shared->r1 * shared->r1, r7 = shared->r3 * shared->r3, r8 = r6 + r7;
     const double r9 = shared->r5 * shared->r5, r10 = r9 + r9;
@@ -1562,7 +1562,7 @@ static void block_1(const Parameters *p, Answers *answers)
     const double r1 = p->py - 0.0823 * p->r23_, r3 = 0.0823 * p->r13_ - p->px;
     const double r5 = fabs(p->magnitude + 1.946082);
     const Shared1 own = { r1, r3, r5 }, *const shared = &own;
-    chart_1_1(p, shared, answers);
+    case_1_1(p, shared, answers);
 }
 
 static double dot(const double *a, const double *b)
@@ -1819,7 +1819,7 @@ static bool turned_within(double *q, const double *limits)
     return within;
 }
 
-/* Moves a member of a family along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
+/* Moves a member of a self-motion along it, one free joint at a time in short strides, to where it is within limits; false when it meets no
  * such place. */
 static bool strides_within(const Parameters *p, const Solution *member, const double *limits, Solution *answer)
 {

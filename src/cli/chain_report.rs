@@ -1,20 +1,20 @@
-//! What the derivation of a chain, or of limbs that share motors, found, for a person to read.
+//! What the derivation of a chain, or of chains that share actuators, found, for a person to read.
 
 use super::report::Page;
-use crate::derive::lift::{Derived, Form};
-use crate::derive::limbs::DerivedLimbs;
-use crate::derive::template::DerivedSixAxes;
+use crate::derive::coupled::DerivedCoupled;
+use crate::derive::eigenvalue::DerivedSixAxes;
+use crate::derive::sequential::{Derived, Form};
 
-/// Tells about each limb in the order in which they are solved.
-pub fn describe_limbs(page: &mut Page, derived: &DerivedLimbs) {
-    let parts = derived.limbs.parts();
+/// Tells about each chain in the order in which they are solved.
+pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {
+    let parts = derived.coupled.parts();
     page.heading(&format!("{}: {} solutions at most", parts.name, derived.dimension()));
     for text in [&parts.description, &parts.source].into_iter().flatten() {
         page.line(text);
     }
-    if derived.coupled.is_some() {
-        page.heading(&format!("Shared joints: {}", derived.coupled_names().join(", ")));
-        page.line("found first, from an equation of each limb that holds no other unknown joint");
+    if derived.simultaneous.is_some() {
+        page.heading(&format!("Shared joints: {}", derived.simultaneous_names().join(", ")));
+        page.line("found first, from an equation of each chain that holds no other unknown joint");
     }
     for stage in &derived.stages {
         page.heading(&derived.title(stage));
@@ -40,15 +40,15 @@ pub fn describe(page: &mut Page, derived: &Derived) {
     }
     page.heading("What runs");
     let blocks = derived.program.blocks.iter().map(|block| {
-        let charts: Vec<&str> = block.charts.iter().map(|chart| chart.label.as_str()).collect();
-        (block.label.clone(), charts.join("; "))
+        let cases: Vec<&str> = block.cases.iter().map(|case| case.label.as_str()).collect();
+        (block.label.clone(), cases.join("; "))
     });
     page.entries(&blocks.collect::<Vec<_>>());
     page.heading("Proved, exactly and without trusting the engine");
     let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
     let proofs: usize =
-        derived.templates.iter().flat_map(|template| template.tree.walk()).map(|node| node.proofs().len()).sum();
-    let forms: Vec<&str> = derived.templates.iter().map(|template| Form::name(template.form)).collect();
+        derived.form_bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
+    let forms: Vec<&str> = derived.form_bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
     page.entries(&[
         (relations.to_string(), "equations follow from the loop: their normal forms are zero".to_owned()),
         (proofs.to_string(), format!("Groebner bases of the forms {} on all strata", forms.join(", "))),

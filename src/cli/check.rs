@@ -7,8 +7,8 @@ use super::derive::{check, refuse_failures};
 use super::ends::EndArguments;
 use super::files::{CERTIFICATE, CHECKS, is_ours, printed_solvers};
 use super::{Halt, Outcome, json};
-use crate::derive::lift::Derived;
-use crate::derive::limbs::LimbStage;
+use crate::derive::coupled::ChainStage;
+use crate::derive::sequential::Derived;
 use crate::derive::{Derivation, Proved, Source, stages};
 use crate::document::read_text;
 use crate::solver::Program;
@@ -75,9 +75,11 @@ pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
 }
 
 fn read(source: &Source) -> Finding {
-    let text = match (source.chain_by_steps(), &source.system, &source.limbs) {
+    let text = match (source.chain_by_steps(), &source.system, &source.coupled) {
         (None, Some(system), _) => format!("{} equations in {}", system.equations.len(), system.order.join(", ")),
-        (None, None, Some(limbs)) => format!("{} limbs on {} motors", limbs.limbs().len(), limbs.motors().len()),
+        (None, None, Some(coupled)) => {
+            format!("{} chains on {} actuators", coupled.chains().len(), coupled.actuators().len())
+        }
         (chain, ..) => format!("a chain of {} joints", chain.map_or(0, |chain| chain.joints().len())),
     };
     Finding { what: source.name.to_owned(), verdict: Ok(text) }
@@ -90,15 +92,14 @@ fn proved(proved: &Proved) -> String {
         Proved::SixAxes(derived) => {
             format!("{} eigenvalue problems proved regular again", derived.formulations.len())
         }
-        Proved::Limbs(derived) => {
-            let limb = |stage: &LimbStage| {
-                format!("{}: {}", derived.limbs.limbs()[stage.limb].name, proved_chain(&stage.derived))
+        Proved::Coupled(derived) => {
+            let member = |stage: &ChainStage| {
+                format!("{}: {}", derived.coupled.chains()[stage.member].name, proved_chain(&stage.derived))
             };
-            let shared = derived
-                .coupled
-                .iter()
-                .map(|_| format!("{}: an equation of each limb proved again", derived.coupled_names().join(", ")));
-            shared.chain(derived.stages.iter().map(limb)).collect::<Vec<_>>().join("; ")
+            let shared = derived.simultaneous.iter().map(|_| {
+                format!("{}: an equation of each chain proved again", derived.simultaneous_names().join(", "))
+            });
+            shared.chain(derived.stages.iter().map(member)).collect::<Vec<_>>().join("; ")
         }
     }
 }
@@ -106,11 +107,11 @@ fn proved(proved: &Proved) -> String {
 fn proved_chain(derived: &Derived) -> String {
     let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
     let bases: usize =
-        derived.templates.iter().flat_map(|template| template.tree.walk()).map(|node| node.proofs().len()).sum();
+        derived.form_bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
     format!(
         "{} steps proved again: {relations} equations follow from the loop, {bases} bases of {} forms",
         derived.steps.len(),
-        derived.templates.len()
+        derived.form_bases.len()
     )
 }
 
@@ -191,11 +192,13 @@ fn same_table(stored: &str, derived: &str) -> Result<()> {
     Err(differs("this line").at_line(common + 1))
 }
 
-/// Whether the stored program is the derived one, whichever version of this crate wrote it.
+/// Whether the stored program is the derived one.
 fn same_program(stored: &str, derived: &Program) -> Result<String> {
-    let mut program = Program::from_json(stored)?;
-    program.version.clone_from(&derived.version);
-    if program == *derived { Ok("follows from the proof".to_owned()) } else { Err(differs("the program")) }
+    if Program::from_json(stored)? == *derived {
+        Ok("follows from the proof".to_owned())
+    } else {
+        Err(differs("the program"))
+    }
 }
 
 fn same_text(stored: &str, derived: &str) -> Result<String> {

@@ -163,7 +163,7 @@ impl Arguments {
 
 /// The Rust file that solves batches; fails where there is none.
 fn batch(program: &Program) -> Result<String> {
-    let text = "--batch: this solver finds roots of higher degree, or chooses among charts; it solves one target at a time, so leave `--batch` out";
+    let text = "--batch: this solver finds roots of higher degree, or chooses among cases; it solves one target at a time, so leave `--batch` out";
     rust::emit_batch(program).ok_or_else(|| Error::new(ErrorKind::Unsupported, text))
 }
 

@@ -20,7 +20,7 @@ use crate::files::write_folder_atomically;
 use crate::kinematics::Chain;
 use crate::solver::Program;
 use crate::spatial::Screw;
-use crate::witness::chain::{self, limbs};
+use crate::witness::chain::{self, coupled};
 use crate::witness::{self, Check, Options};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -29,8 +29,8 @@ const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
 /// How much is checked of a described robot on which the answers of the ideal one are polished, and how much of that ideal one.
 const POLISHED: Options = Options { targets: 120, oracle: 2, exact: 0, seed: 1 };
 const IDEAL: Options = Options { targets: 40, oracle: 0, exact: 20, seed: 2 };
-/// How much is checked of limbs that share motors.
-const LIMBS: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
+/// How much is checked of chains that share actuators.
+const COUPLED: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
 
 /// A robot that is farther from the base frame, in its reaches, is called far.
 const FAR: f64 = 5.0;
@@ -40,13 +40,13 @@ const EXAMPLES: &str = "Examples:
   groebot derive arm.toml                              files in the folder arm
   groebot derive arm.toml --out /tmp/arm --time 60     files in /tmp/arm, or an error after a minute";
 
-/// Derives, proves and writes the closed-form inverse kinematics of a chain, of limbs or of a system of equations
+/// Derives, proves and writes the closed-form inverse kinematics of a chain, of chains or of a system of equations
 ///
 /// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder as it was.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_limbs.toml, or an input file
+    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
@@ -146,7 +146,7 @@ fn weak(checked: &witness::Report) -> Outcome {
 /// The numeric checks of a derivation.
 ///
 /// # Errors
-/// As [`Check::run`], [`chain::Check::run`] and [`limbs::check`].
+/// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
@@ -163,7 +163,7 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness:
                 check_both(derived.measured(), &derived.program, (&derived.chain, ideal, bound), watch)
             }
         },
-        Proved::Limbs(derived) => limbs::check(derived, &LIMBS, watch),
+        Proved::Coupled(derived) => coupled::check(derived, &COUPLED, watch),
     }
 }
 

@@ -26,7 +26,7 @@ enum Format {
     Mjcf,
 }
 
-/// Writes a robot, with masses, shapes, limits and motors, in another format
+/// Writes a robot, with masses, shapes, limits and actuators, in another format
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {

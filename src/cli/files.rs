@@ -25,7 +25,9 @@ const HEAD: usize = 200;
 pub fn is_derived(folder: &Path) -> bool {
     let mut head = [0; HEAD];
     let read = fs::File::open(folder.join(CERTIFICATE)).and_then(|mut file| file.read(&mut head));
-    read.is_ok_and(|count| String::from_utf8_lossy(&head[..count]).contains("\"groebot\""))
+    // The first key tells; before formats had numbers it was the other.
+    let is_ours = |text: &str| text.contains("\"proves\"") || text.contains("\"groebot\"");
+    read.is_ok_and(|count| is_ours(&String::from_utf8_lossy(&head[..count])))
 }
 
 /// Fails where a file of `files` would take the place of one that groebot did not write: in a folder that nothing was derived into.
@@ -102,12 +104,12 @@ pub fn assemble_files(
     }
     files.extend(source.task_file().filter(|_| !keeps_task(source, folder)));
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Limbs(_), Some((_, page))) =
+    if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Coupled(_), Some((_, page))) =
         (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
     {
         page.extend(accuracy(checked).into_bytes());
         page.extend(weak_spots(checked).into_bytes());
-        if let Proved::Limbs(_) = derivation {
+        if let Proved::Coupled(_) = derivation {
             page.extend(format!("\nWitnesses: {}.\n", checked.summary()).into_bytes());
         }
     }
@@ -117,7 +119,7 @@ pub fn assemble_files(
     Ok(files)
 }
 
-/// What the page of a chain or of limbs says about measured accuracy, behind what follows from the proof.
+/// What the page of a chain or of chains says about measured accuracy, behind what follows from the proof.
 fn accuracy(checked: &Report) -> String {
     format!(
         "\n## Accuracy, measured\n\nResiduals by forward kinematics (shares of the reach, radians), and how far the joints that made the \

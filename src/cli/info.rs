@@ -1,4 +1,4 @@
-//! `groebot info`: a chain with its geometry, limbs with their motors, a robot with its links, or a system, in words.
+//! `groebot info`: a chain with its geometry, chains with their actuators, a robot with its links, or a system, in words.
 
 mod robot;
 
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::console::{self, Paint};
 use super::ends::IdealEndArguments;
 use super::{Halt, Outcome, json};
-use crate::derive::limbs::{JointPlace, Limbs};
+use crate::derive::coupled::{CoupledChains, JointPlace};
 use crate::derive::{Description, Ends, InputFile, formulate};
 use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind};
 use crate::model::Robot;
@@ -16,10 +16,10 @@ use num_traits::ToPrimitive;
 
 const EXAMPLES: &str = "Examples:
   groebot info derivations/nao_leg_sagittal      a chain: joints, geometry, equations
-  groebot info robot.urdf                        a robot: its links and the ends of its limbs
+  groebot info robot.urdf                        a robot: its links and the ends of its chains
   groebot info robot.urdf --tip tool0            the chain from the root to that link";
 
-/// Prints a chain and how its axes lie, limbs and their motors, a robot's links, or a system of equations
+/// Prints a chain and how its axes lie, chains and their actuators, a robot's links, or a system of equations
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             console::print(&if arguments.json { json::text(&body.json()) } else { body.page(paint) })
         }
         Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
-        Description::Limbs(limbs) if ends == Ends::default() => console::print(&limbs_page(limbs, paint)),
+        Description::Coupled(coupled) if ends == Ends::default() => console::print(&coupled_page(coupled, paint)),
         description => {
             let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
             let chain = input.chain(&ends)?.ok_or_else(none)?;
@@ -187,24 +187,30 @@ fn table(rows: &[Vec<String>]) -> String {
     rows.iter().map(line).collect()
 }
 
-/// The motors of limbs with the joints that they move, then each limb's chain.
-fn limbs_page(limbs: &Limbs, paint: Paint) -> String {
-    let parts = limbs.parts();
-    let (count, motors) = (parts.limbs.len(), limbs.motors().len());
-    let mut page = format!("{}: {count} limbs on {motors} motors\n", paint.bold(&parts.name));
+/// The actuators of chains with the joints that they move, then each chain's chain.
+fn coupled_page(coupled: &CoupledChains, paint: Paint) -> String {
+    let parts = coupled.parts();
+    let (count, actuators) = (parts.chains.len(), coupled.actuators().len());
+    let mut page = format!("{}: {count} chains on {actuators} actuators\n", paint.bold(&parts.name));
     for text in [&parts.description, &parts.source].into_iter().flatten() {
         page += &format!("{}\n", paint.dim(text));
     }
-    page += &format!("\n{}\n", paint.bold("motors"));
+    page += &format!("\n{}\n", paint.bold("actuators"));
     let joint = |place: &JointPlace| {
-        let limb = &limbs.limbs()[place.limb];
-        format!("{}.{}", limb.name, limb.chain.joints()[place.joint].name)
+        let member = &coupled.chains()[place.member];
+        format!("{}.{}", member.name, member.chain.joints()[place.joint].name)
     };
     let moved = |joints: &[JointPlace]| joints.iter().map(joint).collect::<Vec<_>>().join(", ");
-    page +=
-        &table(&limbs.motors().iter().map(|motor| vec![motor.name.clone(), moved(&motor.joints)]).collect::<Vec<_>>());
-    for limb in limbs.limbs() {
-        page += &format!("\n{}\n{}", paint.bold(&format!("limb {}", limb.name)), chain_page(&limb.chain, &[], paint));
+    page += &table(
+        &coupled
+            .actuators()
+            .iter()
+            .map(|actuator| vec![actuator.name.clone(), moved(&actuator.joints)])
+            .collect::<Vec<_>>(),
+    );
+    for member in coupled.chains() {
+        page +=
+            &format!("\n{}\n{}", paint.bold(&format!("chain {}", member.name)), chain_page(&member.chain, &[], paint));
     }
     page
 }

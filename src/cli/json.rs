@@ -62,7 +62,7 @@ fn method(derivation: &Proved) -> &'static str {
         Proved::Equations(_) => "one block",
         Proved::Chain(_) => "one joint at a time",
         Proved::SixAxes(_) => "eigenvalue problem",
-        Proved::Limbs(_) => "one limb at a time",
+        Proved::Coupled(_) => "one chain at a time",
     }
 }
 

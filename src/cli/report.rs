@@ -48,7 +48,7 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
             chain_report::describe(&mut page, derived);
         }
         Proved::SixAxes(derived) => chain_report::describe_six_axes(&mut page, derived),
-        Proved::Limbs(derived) => chain_report::describe_limbs(&mut page, derived),
+        Proved::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
     }
     meant(&mut page, told);
     checks(&mut page, told.checked);

@@ -9,7 +9,7 @@ use super::files::is_derived;
 use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
-use crate::derive::input::LIMBS_NAME;
+use crate::derive::input::COUPLED_NAME;
 use crate::derive::{Proved, Source};
 use crate::document::read_text;
 use crate::solver::Program;
@@ -27,7 +27,7 @@ const EXAMPLES: &str = "Examples:
 Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
 one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
 the order of its columns. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
-solutions (JSON), or a row with 0 solutions (CSV); of limbs that share motors, text and JSON of a --target say which limb fails, and how.";
+solutions (JSON), or a row with 0 solutions (CSV); of chains that share actuators, text and JSON of a --target say which chain fails, and how.";
 
 /// Finds all solutions for targets with a derived solver
 #[derive(clap::Args)]
@@ -85,16 +85,16 @@ fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: An
     Ok(Answer { program, target, solutions, reason: None, angles })
 }
 
-/// Why `target`, in radians, has no solution, as the folder of a derivation of limbs that share motors tells.
+/// Why `target`, in radians, has no solution, as the folder of a derivation of chains that share actuators tells.
 ///
 /// # Errors
 /// As [`Source::read`] and [`reprove`].
 fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
-    if !folder.is_dir() || !is_derived(folder) || !folder.join(LIMBS_NAME).is_file() {
+    if !folder.is_dir() || !is_derived(folder) || !folder.join(COUPLED_NAME).is_file() {
         return Ok(None);
     }
     let explained = match reprove(folder, &Source::read(folder)?)? {
-        Proved::Limbs(derived) => derived.explain(target, &Watch::none())?,
+        Proved::Coupled(derived) => derived.explain(target, &Watch::none())?,
         _ => None,
     };
     Ok(explained.map(|explanation| explanation.to_string()))

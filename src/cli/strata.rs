@@ -48,10 +48,10 @@ fn fate(node: &Node, system: &System) -> String {
         }
         Outcome::Solved(solved) => format!("formulas of its own, {}", solutions(solved.triangular.bound())),
         Outcome::Inconsistent(_) => "no solution: the equations contradict each other".to_owned(),
-        Outcome::Family(family) => {
-            let free: Vec<&str> = family.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
+        Outcome::SelfMotion(self_motion) => {
+            let free: Vec<&str> = self_motion.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
             let verb = if free.len() == 1 { "is" } else { "are" };
-            let member = match &family.member.outcome {
+            let member = match &self_motion.member.outcome {
                 Outcome::Solved(solved) => solutions(solved.triangular.bound()),
                 _ => "none".to_owned(),
             };

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::body::Scene;
 use super::lanes::MOST;
 use super::mirror;
-use crate::solver::{Block, Chart, JointValue, Program, Rule, Step, square};
+use crate::solver::{Block, Case, JointValue, Program, Rule, Step, square};
 
 /// What the skeleton names of batches.
 #[derive(Serialize)]
@@ -21,10 +21,10 @@ pub(super) struct BatchText {
     lengths: Vec<[usize; 2]>,
 }
 
-/// Whether all candidates of an ordinary target come from one chart of each block, by square roots alone; other charts lie on strata that
+/// Whether all candidates of an ordinary target come from one case of each block, by square roots alone; other cases lie on strata that
 /// a guard tells. What else a file may hold is printed for one number only.
 pub(super) fn is_possible(program: &Program) -> bool {
-    let only_roots = program.charts().flat_map(|chart| &chart.steps).all(|step| match step {
+    let only_roots = program.cases().flat_map(|case| &case.steps).all(|step| match step {
         Step::Roots { polynomials, .. } => square(polynomials).is_some(),
         Step::SixAxes(_) => false,
         _ => true,
@@ -40,11 +40,11 @@ pub(super) fn is_possible(program: &Program) -> bool {
         && candidates(program, 0) <= program.capacity
 }
 
-/// The chart of a block that runs at ordinary targets, if that is one and guards tell where others do.
-fn usual(block: &Block) -> Option<&Chart> {
-    let is_told = |chart: &Chart| !chart.open && chart.pivot.is_none() && !(chart.is_rare() && chart.guards.is_empty());
-    let mut usual = block.charts.iter().filter(|chart| !chart.is_rare());
-    let first = usual.next().filter(|_| usual.next().is_none() && block.charts.iter().all(is_told))?;
+/// The case of a block that runs at ordinary targets, if that is one and guards tell where others do.
+fn usual(block: &Block) -> Option<&Case> {
+    let is_told = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
+    let mut usual = block.cases.iter().filter(|case| !case.is_rare());
+    let first = usual.next().filter(|_| usual.next().is_none() && block.cases.iter().all(is_told))?;
     let samples = first.steps.iter().any(|step| matches!(step, Step::Sample { .. }));
     (!samples).then_some(first)
 }
@@ -79,7 +79,7 @@ fn first(scene: &Scene<'_>, joint: usize) -> Vec<usize> {
     let (program, block) = (scene.program, scene.finder(joint));
     let unknowns = program.joints[joint].value.unknowns();
     let later = candidates(program, block + 1);
-    let is_mirrored = usual(&program.blocks[block]).is_some_and(|chart| mirror::turns(program, chart, &unknowns));
+    let is_mirrored = usual(&program.blocks[block]).is_some_and(|case| mirror::turns(program, case, &unknowns));
     let is_behind = scene.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
     let row = if is_mirrored || is_behind { 2 * later } else { later };
     (0..candidates(program, 0)).map(|candidate| candidate - candidate % row).collect()

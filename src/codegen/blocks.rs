@@ -1,11 +1,11 @@
-//! What a program's blocks, their charts and the target's conditions put into the skeleton of a file.
+//! What a program's blocks, their cases and the target's conditions put into the skeleton of a file.
 
 use serde::Serialize;
 
 use super::body::Scene;
 use super::names::remark;
 use super::printer::Language;
-use crate::solver::{Chart, Condition};
+use crate::solver::{Case, Condition};
 
 /// What inputs must fulfil.
 #[derive(Serialize)]
@@ -18,42 +18,42 @@ pub(super) struct ConditionText {
     end: usize,
 }
 
-/// A block: its code, its charts, and in which order they take their turns.
+/// A block: its code, its cases, and in which order they take their turns.
 #[derive(Serialize)]
 pub(super) struct BlockText {
     label: String,
     lines: Vec<String>,
-    /// Registers that charts read.
+    /// Registers that cases read.
     shared: Vec<String>,
-    charts: Vec<ChartText>,
+    cases: Vec<CaseText>,
     turns: Vec<Turn>,
-    /// Whether charts ask how many candidates there were before.
+    /// Whether cases ask how many candidates there were before.
     counts: bool,
-    /// Whether one chart that often runs goes on here, so that a language had better put this block in its place.
+    /// Whether one case that often runs goes on here, so that a language had better put this block in its place.
     is_inlined: bool,
-    /// Whether a chart that hardly ever runs goes on here.
+    /// Whether a case that hardly ever runs goes on here.
     is_met_again: bool,
 }
 
-/// Charts of which one runs: one alone, or a pivot group.
+/// Cases of which one runs: one alone, or a pivot group.
 #[derive(Serialize)]
 struct Turn {
     /// Indices, from 0.
-    charts: Vec<usize>,
+    cases: Vec<usize>,
     grouped: bool,
 }
 
 #[derive(Serialize)]
-struct ChartText {
+struct CaseText {
     label: String,
     quoted: String,
     guards: Vec<String>,
     free: Vec<String>,
     open: bool,
-    /// Whether it is the one chart of its block that often runs.
+    /// Whether it is the one case of its block that often runs.
     is_inlined: bool,
     body: Function,
-    /// Its claim among its pivot group, or the condition of an open chart.
+    /// Its claim among its pivot group, or the condition of an open case.
     claim: Option<Function>,
     condition: String,
     pivot: String,
@@ -82,33 +82,33 @@ impl BlockText {
     pub fn new(scene: &Scene<'_>, index: usize) -> Self {
         let block = &scene.program.blocks[index];
         let (lines, shared) = scene.block_code(index);
-        let before = index.checked_sub(1).map_or(&[][..], |before| &scene.program.blocks[before].charts);
-        let group = |chart: usize| block.charts[chart].pivot.map(|pivot| pivot.group);
-        let all = 0..block.charts.len();
+        let before = index.checked_sub(1).map_or(&[][..], |before| &scene.program.blocks[before].cases);
+        let group = |case: usize| block.cases[case].pivot.map(|pivot| pivot.group);
+        let all = 0..block.cases.len();
         let turn = |first: usize| {
-            let member = |chart: &usize| *chart == first || (group(first).is_some() && group(*chart) == group(first));
-            Turn { charts: all.clone().filter(member).collect(), grouped: group(first).is_some() }
+            let member = |case: &usize| *case == first || (group(first).is_some() && group(*case) == group(first));
+            Turn { cases: all.clone().filter(member).collect(), grouped: group(first).is_some() }
         };
         BlockText {
             label: remark(&block.label),
             lines,
             shared,
-            charts: block.charts.iter().map(|chart| ChartText::new(scene, index, chart)).collect(),
-            counts: block.charts.iter().any(Chart::is_of_stratum),
-            is_inlined: before.iter().filter(|chart| !chart.is_rare()).count() == 1,
-            is_met_again: before.iter().any(Chart::is_rare),
-            turns: all.clone().filter(|&chart| block.opens_group(chart)).map(turn).collect(),
+            cases: block.cases.iter().map(|case| CaseText::new(scene, index, case)).collect(),
+            counts: block.cases.iter().any(Case::is_of_stratum),
+            is_inlined: before.iter().filter(|case| !case.is_rare()).count() == 1,
+            is_met_again: before.iter().any(Case::is_rare),
+            turns: all.clone().filter(|&case| block.opens_group(case)).map(turn).collect(),
         }
     }
 }
 
-impl ChartText {
-    fn new(scene: &Scene<'_>, block: usize, chart: &Chart) -> Self {
-        let lines = if chart.open { Vec::new() } else { scene.chart(block, chart) };
-        let (claim, condition, pivot) = scene.claim(block, chart);
-        let often = scene.program.blocks[block].charts.iter().filter(|chart| !chart.is_rare()).count();
-        let claims = chart.open || chart.pivot.is_some();
-        let free = chart.free.iter().map(|&joint| remark(&scene.program.joints[joint].name));
+impl CaseText {
+    fn new(scene: &Scene<'_>, block: usize, case: &Case) -> Self {
+        let lines = if case.open { Vec::new() } else { scene.case(block, case) };
+        let (claim, condition, pivot) = scene.claim(block, case);
+        let often = scene.program.blocks[block].cases.iter().filter(|case| !case.is_rare()).count();
+        let claims = case.open || case.pivot.is_some();
+        let free = case.free.iter().map(|&joint| remark(&scene.program.joints[joint].name));
         let read: Vec<&String> = claim.iter().chain([&condition, &pivot]).collect();
         let has = |what: String, name: &'static str| reads(&read, &what).then_some(name);
         let language = scene.language;
@@ -117,19 +117,19 @@ impl ChartText {
         let claim_names: Vec<&str> = names.into_iter().flatten().collect();
         let shared = reads(&lines.iter().collect::<Vec<_>>(), &language.shared("")).then_some("shared");
         let known = (block > 0).then_some("known");
-        let before = chart.is_of_stratum().then_some("before");
+        let before = case.is_of_stratum().then_some("before");
         let own: Vec<&str> = [Some("p"), known, shared, before].into_iter().flatten().collect();
-        ChartText {
-            label: remark(&chart.label),
-            quoted: language.quote(&chart.label),
-            guards: chart.guards.iter().map(|guard| guard_text(&guard.text, guard.near)).collect(),
+        CaseText {
+            label: remark(&case.label),
+            quoted: language.quote(&case.label),
+            guards: case.guards.iter().map(|guard| guard_text(&guard.text, guard.near)).collect(),
             free: free.collect(),
-            open: chart.open,
-            is_inlined: !chart.is_rare() && often == 1,
+            open: case.open,
+            is_inlined: !case.is_rare() && often == 1,
             body: Function::new(language, block, lines, &own),
             claim: claims.then(|| Function::new(language, block, claim, &claim_names)),
             condition,
-            pivot: if chart.pivot.is_some() { language.call("abs", &pivot) } else { pivot },
+            pivot: if case.pivot.is_some() { language.call("abs", &pivot) } else { pivot },
         }
     }
 }

@@ -1,24 +1,24 @@
-//! Bodies of the printed functions: charts, parameters, and the equations with their derivatives. Main type: [`Scene`].
+//! Bodies of the printed functions: cases, parameters, and the equations with their derivatives. Main type: [`Scene`].
 
 use super::demand::{Demand, ParameterDemand};
 use super::mirror::Mirror;
 use super::names::Names;
-use super::needs::has_families;
+use super::needs::has_self_motions;
 use super::printer::{Language, Printer, number};
 use super::samples::Table;
 use super::steps::Walk;
-use crate::solver::{Block, Chart, Following, Guard, JointValue, Operand, Program, Rule, Step};
+use crate::solver::{Block, Case, Following, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
     pub program: &'a Program,
     pub language: &'a dyn Language,
     pub names: Names,
-    /// Unknowns that the equations read and that are no joint's: charts hand their values over.
+    /// Unknowns that the equations read and that are no joint's: cases hand their values over.
     pub extra: Vec<usize>,
-    /// Values at which charts put free joints.
+    /// Values at which cases put free joints.
     pub tables: Vec<Table>,
-    /// The chart whose candidates come in pairs.
+    /// The case whose candidates come in pairs.
     pub mirror: Option<Mirror>,
     /// Whether the file takes candidates in by several at once, and angles from them only then.
     pub lanes: bool,
@@ -29,16 +29,16 @@ impl Scene<'_> {
         Printer::new(self.language, &self.names, demand)
     }
 
-    /// Whether answers can be members of families.
-    pub fn has_families(&self) -> bool {
-        has_families(self.program)
+    /// Whether answers can be members of self-motions.
+    pub fn has_self_motions(&self) -> bool {
+        has_self_motions(self.program)
     }
 
     /// By unknown: whether a block before the one with this index finds it.
     pub fn known_before(&self, block: usize) -> Vec<bool> {
         let mut known = vec![false; self.program.unknowns.len()];
-        for chart in self.program.blocks[..block].iter().flat_map(|block| &block.charts) {
-            chart.steps.iter().flat_map(found).for_each(|unknown| known[unknown] = true);
+        for case in self.program.blocks[..block].iter().flat_map(|block| &block.cases) {
+            case.steps.iter().flat_map(found).for_each(|unknown| known[unknown] = true);
         }
         known
     }
@@ -57,12 +57,12 @@ impl Scene<'_> {
         (0..wanted.len()).filter(|&unknown| wanted[unknown] && after[unknown] && !before[unknown]).collect()
     }
 
-    /// What a block's code and charts ask for when these unknowns are wanted of it.
+    /// What a block's code and cases ask for when these unknowns are wanted of it.
     pub fn block_demands(&self, block: &Block, wanted: &[usize]) -> Vec<Demand> {
         let mut demands = vec![Demand::of_block(self.program, block, wanted)];
-        for chart in &block.charts {
-            demands.push(Demand::of_chart(self.program, chart, if chart.open { &[] } else { wanted }));
-            demands.push(Demand::of_claim(chart));
+        for case in &block.cases {
+            demands.push(Demand::of_case(self.program, case, if case.open { &[] } else { wanted }));
+            demands.push(Demand::of_claim(case));
         }
         demands
     }
@@ -233,44 +233,44 @@ impl Scene<'_> {
         (lines, rows)
     }
 
-    /// A printer for a chart of the block with this index, or for its code if nothing is `shared` yet.
+    /// A printer for a case of the block with this index, or for its code if nothing is `shared` yet.
     fn block_printer(&self, block: usize, demand: Demand, shared: usize) -> Printer<'_> {
         self.printer(demand).within_block(self.known_before(block), shared)
     }
 
-    /// The code of the block with this index, and the registers that its charts read.
+    /// The code of the block with this index, and the registers that its cases read.
     pub fn block_code(&self, index: usize) -> (Vec<String>, Vec<String>) {
         let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
         let demand = Demand::of_block(self.program, block, &wanted);
         let demands = self.block_demands(block, &wanted);
-        let charts = &demands[1..];
-        let read = |register: &usize| charts.iter().any(|demand| demand.register(*register) > 0);
+        let cases = &demands[1..];
+        let read = |register: &usize| cases.iter().any(|demand| demand.register(*register) > 0);
         let shared = (0..block.code.len()).filter(read).map(|register| format!("r{register}")).collect();
         (self.block_printer(index, demand, 0).code(&block.code), shared)
     }
 
-    /// The body of a chart of the block with this index, without indentation; an open chart's is its condition alone.
-    pub fn chart(&self, index: usize, chart: &Chart) -> Vec<String> {
+    /// The body of a case of the block with this index, without indentation; an open case's is its condition alone.
+    pub fn case(&self, index: usize, case: &Case) -> Vec<String> {
         let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
         let wanted = if index + 1 < self.program.blocks.len() { wanted } else { self.wanted() };
-        let demand = Demand::of_chart(self.program, chart, &wanted);
+        let demand = Demand::of_case(self.program, case, &wanted);
         let mut printer = self.block_printer(index, demand, block.code.len());
-        let mut lines = printer.code(&chart.guard_code);
-        if !chart.guards.is_empty() {
-            let condition = self.condition(&chart.guards, &mut printer);
-            let beside = chart.is_of_stratum().then(|| condition.replace(", NEAR)", ", BESIDE)"));
-            lines.extend(self.language.leave_unless(&condition, chart.is_rare(), beside.as_deref()));
+        let mut lines = printer.code(&case.guard_code);
+        if !case.guards.is_empty() {
+            let condition = self.condition(&case.guards, &mut printer);
+            let beside = case.is_of_stratum().then(|| condition.replace(", NEAR)", ", BESIDE)"));
+            lines.extend(self.language.leave_unless(&condition, case.is_rare(), beside.as_deref()));
         }
-        Walk::new(self, index, chart, lines).steps(&mut printer)
+        Walk::new(self, index, case, lines).steps(&mut printer)
     }
 
-    /// The code before the condition of an open chart or one with a pivot, the condition, and the pivot.
-    pub fn claim(&self, index: usize, chart: &Chart) -> (Vec<String>, String, String) {
+    /// The code before the condition of an open case or one with a pivot, the condition, and the pivot.
+    pub fn claim(&self, index: usize, case: &Case) -> (Vec<String>, String, String) {
         let shared = self.program.blocks[index].code.len();
-        let mut printer = self.block_printer(index, Demand::of_claim(chart), shared);
-        let lines = printer.code(&chart.guard_code);
-        let condition = self.condition(&chart.guards, &mut printer);
-        let value = chart.pivot.map_or_else(String::new, |pivot| printer.operand(pivot.value));
+        let mut printer = self.block_printer(index, Demand::of_claim(case), shared);
+        let lines = printer.code(&case.guard_code);
+        let condition = self.condition(&case.guards, &mut printer);
+        let value = case.pivot.map_or_else(String::new, |pivot| printer.operand(pivot.value));
         (lines, condition, value)
     }
 

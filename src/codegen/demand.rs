@@ -1,6 +1,6 @@
 //! Which values straight-line code is asked for: only those are printed.
 
-use crate::solver::{Block, Chart, Instruction, Operand, Program, Rule, Step};
+use crate::solver::{Block, Case, Instruction, Operand, Program, Rule, Step};
 
 /// How often each value is read by what is printed.
 #[derive(Clone, Debug, Default)]
@@ -27,31 +27,31 @@ fn at(counts: &[usize], index: usize) -> usize {
 }
 
 impl Demand {
-    /// What the chart's guards, its root steps and the unknowns in `wanted` ask for.
-    pub fn of_chart(program: &Program, chart: &Chart, wanted: &[usize]) -> Self {
+    /// What the case's guards, its root steps and the unknowns in `wanted` ask for.
+    pub fn of_case(program: &Program, case: &Case, wanted: &[usize]) -> Self {
         let mut demand = Demand::default();
-        if !chart.open {
+        if !case.open {
             wanted.iter().for_each(|&unknown| demand.read(Operand::Unknown(unknown)));
-            chart.steps.iter().rev().for_each(|step| demand.step(program, step));
+            case.steps.iter().rev().for_each(|step| demand.step(program, step));
         }
-        demand.guards(chart);
+        demand.guards(case);
         demand
     }
 
-    /// What the chart's guards and its pivot ask for.
-    pub fn of_claim(chart: &Chart) -> Self {
+    /// What the case's guards and its pivot ask for.
+    pub fn of_claim(case: &Case) -> Self {
         let mut demand = Demand::default();
-        chart.pivot.iter().for_each(|pivot| demand.read(pivot.value));
-        demand.guards(chart);
+        case.pivot.iter().for_each(|pivot| demand.read(pivot.value));
+        demand.guards(case);
         demand
     }
 
-    /// What the block's charts ask of its code, and what that asks for in turn. Registers that a chart reads count twice: they
+    /// What the block's cases ask of its code, and what that asks for in turn. Registers that a case reads count twice: they
     /// become values of their own.
     pub fn of_block(program: &Program, block: &Block, wanted: &[usize]) -> Self {
         let mut demand = Demand::default();
-        for chart in &block.charts {
-            let parts = [Demand::of_chart(program, chart, wanted), Demand::of_claim(chart)];
+        for case in &block.cases {
+            let parts = [Demand::of_case(program, case, wanted), Demand::of_claim(case)];
             let reads = |register: usize| parts.iter().any(|part| part.register(register) > 0);
             for register in (0..block.code.len()).filter(|&register| reads(register)) {
                 demand.read(Operand::Register(register));
@@ -62,12 +62,12 @@ impl Demand {
         demand
     }
 
-    fn guards(&mut self, chart: &Chart) {
-        for guard in &chart.guards {
+    fn guards(&mut self, case: &Case) {
+        for guard in &case.guards {
             self.read(guard.value);
             self.read(guard.scale);
         }
-        self.code(&chart.guard_code);
+        self.code(&case.guard_code);
     }
 
     /// What `results` ask of `code`.
@@ -127,7 +127,7 @@ impl Demand {
 /// Which parameters the printed code asks for.
 #[derive(Clone, Debug)]
 pub(super) struct ParameterDemand {
-    /// By parameter: whether charts or checks read it.
+    /// By parameter: whether cases or checks read it.
     pub fields: Vec<bool>,
     /// By parameter: whether its value is computed.
     pub computed: Vec<bool>,

@@ -33,7 +33,7 @@ pub struct Options {
 /// type for, or in single precision with one that asks for more than the joints can do; [`ErrorKind::BadValue`] for a namespace that is no word.
 pub fn emit(program: &Program, options: &Options) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
-    let forward = program.forward().filter(|_| program.charts().any(|chart| !chart.open)).ok_or_else(|| {
+    let forward = program.forward().filter(|_| program.cases().any(|case| !case.open)).ok_or_else(|| {
         refuse(
             "this solver has no forward kinematics, which IKFast's ComputeFk needs; derive it from a chain".to_owned(),
         )

@@ -1,14 +1,14 @@
 //! Candidates that wait to be measured, several at once in the lanes of a vector register: how many, and what they consist of.
 
 use super::body::Scene;
-use crate::solver::{Block, Chart, Program};
+use crate::solver::{Block, Case, Program};
 
 /// The most candidates that wait to be measured together.
 pub(super) const MOST: usize = 16;
 
 /// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.
 pub(super) fn room(program: &Program) -> usize {
-    let often = |block: &Block| block.charts.iter().filter(|chart| !Chart::is_rare(chart)).map(Program::branches).max();
+    let often = |block: &Block| block.cases.iter().filter(|case| !Case::is_rare(case)).map(Program::branches).max();
     let candidates = program.blocks.iter().filter_map(often).fold(1_usize, usize::saturating_mul);
     candidates.next_multiple_of(2).clamp(2, MOST)
 }

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use crate::solver::{Block, Chart, Instruction, JointValue, Operand, Operation, Program, Step, square};
+use crate::solver::{Block, Case, Instruction, JointValue, Operand, Operation, Program, Step, square};
 
 /// What a value does when the root turns its sign.
 #[derive(Clone, Copy, PartialEq)]
@@ -17,12 +17,12 @@ enum Parity {
     Mixed,
 }
 
-/// The chart whose two roots give a pair of candidates each.
+/// The case whose two roots give a pair of candidates each.
 pub(super) struct Mirror {
     /// The index of its block.
     pub block: usize,
-    /// The index of the chart in the block.
-    pub chart: usize,
+    /// The index of the case in the block.
+    pub case: usize,
     /// By unknown: whether it turns its sign.
     pub odd: Vec<bool>,
 }
@@ -31,19 +31,19 @@ impl Mirror {
     /// That of a program, if it has one; `wanted` are the unknowns that candidates consist of.
     pub fn of(program: &Program, wanted: &[usize]) -> Option<Self> {
         let block = (0..program.blocks.len()).rev().find(|&block| !is_straight(&program.blocks[block]))?;
-        let mut often = program.blocks[block].charts.iter().enumerate().filter(|(_, chart)| !chart.is_rare());
-        let (index, chart) = often.next().filter(|(_, chart)| chart.pivot.is_none() && !chart.open)?;
+        let mut often = program.blocks[block].cases.iter().enumerate().filter(|(_, case)| !case.is_rare());
+        let (index, case) = often.next().filter(|(_, case)| case.pivot.is_none() && !case.open)?;
         if often.next().is_some() {
             return None;
         }
         let mut unknowns = vec![Parity::Even; program.unknowns.len()];
-        if !behind_root(chart, &mut unknowns) {
+        if !behind_root(case, &mut unknowns) {
             return None;
         }
         for later in &program.blocks[block + 1..] {
             let mut registers = HashMap::new();
             run(&later.code, &unknowns, &mut registers);
-            later.charts[0].steps.iter().for_each(|step| follow(step, &mut unknowns, &mut registers));
+            later.cases[0].steps.iter().for_each(|step| follow(step, &mut unknowns, &mut registers));
         }
         let is_length = |unknown: usize| program.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown));
         let is_clear = |&unknown: &usize| match unknowns[unknown] {
@@ -52,7 +52,7 @@ impl Mirror {
             Parity::Mixed => false,
         };
         let odd = unknowns.iter().map(|parity| *parity == Parity::Odd).collect();
-        wanted.iter().all(is_clear).then_some(Mirror { block, chart: index, odd })
+        wanted.iter().all(is_clear).then_some(Mirror { block, case: index, odd })
     }
 
     /// Whether both candidates of a pair miss the equations by the same: none of these turns its sign with the root.
@@ -66,25 +66,25 @@ impl Mirror {
     }
 }
 
-/// Whether the only root step of a chart keeps the sizes of these unknowns, which the chart finds.
-pub(super) fn turns(program: &Program, chart: &Chart, found: &[usize]) -> bool {
+/// Whether the only root step of a case keeps the sizes of these unknowns, which the case finds.
+pub(super) fn turns(program: &Program, case: &Case, found: &[usize]) -> bool {
     let mut unknowns = vec![Parity::Even; program.unknowns.len()];
-    behind_root(chart, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
+    behind_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
 }
 
 /// Whether a block has one solution, by code without any condition.
 fn is_straight(block: &Block) -> bool {
     let is_code = |step: &Step| matches!(step, Step::Compute(_) | Step::Set { .. });
-    let [chart] = block.charts.as_slice() else { return false };
-    let is_plain = chart.guards.is_empty() && chart.pivot.is_none() && chart.free.is_empty() && !chart.open;
-    is_plain && chart.first_branch == 0 && chart.steps.iter().all(is_code)
+    let [case] = block.cases.as_slice() else { return false };
+    let is_plain = case.guards.is_empty() && case.pivot.is_none() && case.free.is_empty() && !case.open;
+    is_plain && case.first_branch == 0 && case.steps.iter().all(is_code)
 }
 
-/// Follows a chart whose only root step is `x^2 + constant`; false for any other.
-fn behind_root(chart: &Chart, unknowns: &mut [Parity]) -> bool {
+/// Follows a case whose only root step is `x^2 + constant`; false for any other.
+fn behind_root(case: &Case, unknowns: &mut [Parity]) -> bool {
     let mut registers = HashMap::new();
     let mut roots = 0;
-    for step in &chart.steps {
+    for step in &case.steps {
         match step {
             Step::Roots { unknown, polynomials, .. } if square(polynomials).is_some() => {
                 unknowns[*unknown] = Parity::Odd;

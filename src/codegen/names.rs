@@ -12,7 +12,7 @@ const TAKEN: &str = "p q target answers extra magnitude result angle real_roots 
     NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
     Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch known shared next Known Shared branch free NOTHING_KNOWN ADRIFT FREED is_listed tries ALIKE MEETING ASIDE NARROWS narrow SINGULAR REGULAR regularity regular least most DOUBLINGS leads_aside beyond ahead close_by displaced end ARRIVED STAGES POLISHED CONSISTENT \
     tip reached TIP forward LIMITS limits SLACK TURNS turns turns_within solve_within count_turns turn within nearest at MOST_TURNS nearest_turn finite_turns turned_within strides_within STRIDE STRIDES holds stride frames target_of base tool pose sum \
-    held stages greatest conform make_rotation make_unit dot lies_on_family leads_to follow is_one holds_against \
+    held stages greatest conform make_rotation make_unit dot lies_on_self_motion leads_to follow is_one holds_against \
     is_exact worst improve own add is_isolated has_free has_member bound answer make_unit a_isolated b_isolated isolated Rated improved move moved DAMPINGS dampings SPLIT last turn_in substituted triangle squares weights APART way \
     LEVER FARTHER FARTHEST IS_ANGLE ALONE LEAPS RETURNS STIFF spans farthest farthest_of longest longest_way stepped leap leaps copy around keep_member unite doubled leads_back are_joined fault before middle share \
     PLACES SIZES SIZE_OF REST place series square_roots is_round measure_at is_within is_apart keep_one refine PATIENCE INLINE COLD slow place_of low high far steep value ROWS reflect columns mirror half along entry all_real_roots OVERSHOT returned start \

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::six_axes;
-use crate::solver::{Chart, Condition, JointValue, Operand, Program, Step, square};
+use crate::solver::{Case, Condition, JointValue, Operand, Program, Step, square};
 
 /// Which functions the file needs.
 #[derive(Serialize)]
 pub(super) struct Needs {
     pub answers: bool,
-    pub families: bool,
+    pub self_motions: bool,
     pub open: bool,
     pub groups: bool,
     pub rotation: bool,
@@ -32,17 +32,17 @@ pub(super) struct Needs {
 
 impl Needs {
     pub fn new(program: &Program) -> Self {
-        let guards = || program.charts().flat_map(|chart| &chart.guards);
+        let guards = || program.cases().flat_map(|case| &case.guards);
         let angles = program.joints.iter().filter(|joint| is_angle(joint.value)).count();
         Needs {
-            answers: program.charts().any(|chart| !chart.open),
-            families: has_families(program),
-            open: program.charts().any(|chart| chart.open),
-            groups: program.charts().any(|chart| chart.pivot.is_some()),
+            answers: program.cases().any(|case| !case.open),
+            self_motions: has_self_motions(program),
+            open: program.cases().any(|case| case.open),
+            groups: program.cases().any(|case| case.pivot.is_some()),
             rotation: program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_))),
             unit: program.conditions.iter().any(|condition| matches!(condition, Condition::Unit(_))),
             near: guards().any(|guard| guard.near),
-            strata: program.charts().any(Chart::is_of_stratum),
+            strata: program.cases().any(Case::is_of_stratum),
             nearby: program.nearby,
             away: guards().any(|guard| !guard.near),
             pivot: root_steps(program).any(|(_, polynomials)| polynomials.len() > 1),
@@ -56,14 +56,14 @@ impl Needs {
     }
 }
 
-/// Whether answers can be members of families.
-pub(super) fn has_families(program: &Program) -> bool {
-    program.charts().any(|chart| !chart.free.is_empty()) || !six_axes::steps(program).is_empty()
+/// Whether answers can be members of self-motions.
+pub(super) fn has_self_motions(program: &Program) -> bool {
+    program.cases().any(|case| !case.free.is_empty()) || !six_axes::steps(program).is_empty()
 }
 
 /// The root steps that are printed, each with its polynomials.
 pub(super) fn root_steps(program: &Program) -> impl Iterator<Item = (&Step, &[Vec<Operand>])> {
-    let steps = program.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
+    let steps = program.cases().filter(|case| !case.open).flat_map(|case| &case.steps);
     steps.filter_map(|step| match step {
         Step::Roots { polynomials, .. } => Some((step, polynomials.as_slice())),
         _ => None,

@@ -28,7 +28,7 @@ const SINGLE_DAMPINGS: [f64; 4] = [0.0, 1e-5, 1e-4, 1e-3];
 pub(super) struct Outline {
     name: String,
     upper: String,
-    version: String,
+    version: &'static str,
     about: AboutText,
     /// Whether the text goes into another file: without head, declarations and what only serves callers.
     engine: bool,
@@ -64,11 +64,11 @@ pub(super) struct Outline {
     /// Those of them that are angles.
     last_angles: Vec<usize>,
     blocks: Vec<BlockText>,
-    /// Values at which charts put free joints.
+    /// Values at which cases put free joints.
     samples: Vec<Table>,
     /// What finds six joints together, if a step does.
     six_axes: String,
-    /// By joint that some chart frees: by joint, whether it is this one.
+    /// By joint that some case frees: by joint, whether it is this one.
     freed: Vec<Vec<String>>,
     /// Forward kinematics, if the program has them.
     forward: Option<ForwardText>,
@@ -192,7 +192,7 @@ impl Outline {
         Outline {
             upper: name.to_ascii_uppercase(),
             name,
-            version: remark(&program.version),
+            version: env!("CARGO_PKG_VERSION"),
             about: AboutText::new(program, language),
             engine: false,
             part: "whole",
@@ -327,7 +327,7 @@ fn joints(program: &Program, language: &dyn Language) -> Vec<Quantity> {
     program.joints.iter().map(|j| Quantity::new(language, &j.name, j.unit, is_angle(j.value))).collect()
 }
 
-/// By joint that some chart frees: by joint, whether it is this one.
+/// By joint that some case frees: by joint, whether it is this one.
 fn freed(program: &Program) -> Vec<Vec<String>> {
     let alone = |one: usize| (0..program.joints.len()).map(|joint| (joint == one).to_string()).collect();
     program.freed().map(alone).collect()

@@ -26,7 +26,7 @@ pub(super) trait Language {
     fn field(&self, name: &str) -> String;
     /// A field of what earlier blocks found.
     fn known(&self, name: &str) -> String;
-    /// A field of what the charts of a block share.
+    /// A field of what the cases of a block share.
     fn shared(&self, name: &str) -> String;
     /// An argument of a function: a pointer to something of this type.
     fn argument(&self, name: &str, kind: &str) -> String;
@@ -44,7 +44,7 @@ pub(super) trait Language {
     fn walks_abreast(&self) -> bool {
         false
     }
-    /// A constant that stands alone in a chart or among the parameters.
+    /// A constant that stands alone in a case or among the parameters.
     fn alone(&self, constant: String) -> String {
         constant
     }
@@ -73,7 +73,7 @@ pub(super) trait Language {
     /// Lines that open the loop with index `i{depth}` over the rows of the table of samples with a number, of which there are `rows`; each
     /// row's numbers are called by `names` where they have one.
     fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
-    /// Leaving a chart, which hardly ever runs or often, unless a condition holds, and this one `beside` a stratum too where the charts before
+    /// Leaving a case, which hardly ever runs or often, unless a condition holds, and this one `beside` a stratum too where the cases before
     /// have sufficed.
     fn leave_unless(&self, condition: &str, is_rare: bool, beside: Option<&str>) -> Vec<String>;
     /// The skeleton of what finds six joints together.
@@ -97,9 +97,9 @@ pub(super) fn negation(condition: &str) -> String {
     if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") }
 }
 
-/// What a chart of the last block hands over, as expressions.
+/// What a case of the last block hands over, as expressions.
 pub(super) struct Finish<'a> {
-    /// The branch number, and the end of those of the first block's chart.
+    /// The branch number, and the end of those of the first block's case.
     pub branch: [String; 2],
     /// The unknowns that the equations can read.
     pub at: &'a [String],
@@ -109,29 +109,29 @@ pub(super) struct Finish<'a> {
     pub q: &'a [String],
     /// By joint whether it is free; empty when it is `usual`.
     pub free: &'a [String],
-    /// The free joints of a chart that adds none.
+    /// The free joints of a case that adds none.
     pub usual: String,
     /// Values of the unknowns that are no joint's.
     pub extra: &'a [String],
 }
 
-/// What a chart hands over to the next block, as expressions.
+/// What a case hands over to the next block, as expressions.
 pub(super) struct State<'a> {
     /// Number of the block, from 1.
     pub next: usize,
     /// Whether an earlier block found something too.
     pub goes_on: bool,
-    /// The branch number, and the end of those of the first block's chart.
+    /// The branch number, and the end of those of the first block's case.
     pub branch: [String; 2],
-    /// By joint whether it is free; empty when the chart adds none.
+    /// By joint whether it is free; empty when the case adds none.
     pub free: &'a [String],
     /// Names of the unknowns that were found, which are local variables.
     pub found: &'a [String],
     /// Whether roots on the way are close to one another.
     pub close: String,
-    /// Whether each candidate behind stands for two, if the chart has a say in that.
+    /// Whether each candidate behind stands for two, if the case has a say in that.
     pub pair: Option<String>,
-    /// Whether the chart hardly ever runs.
+    /// Whether the case hardly ever runs.
     pub is_rare: bool,
 }
 
@@ -241,7 +241,7 @@ pub(super) struct Printer<'a> {
     first_register: usize,
     /// By unknown: whether an earlier block found it.
     known: Vec<bool>,
-    /// Registers below this number are shared by the block's charts.
+    /// Registers below this number are shared by the block's cases.
     shared: usize,
     /// Whether constants that stand alone are told from others.
     tells: bool,

@@ -28,7 +28,7 @@ pub fn emit(program: &Program) -> String {
 }
 
 /// The same with a function `solve_batch` that solves several targets at once, in the lanes of vector registers; none for a program of
-/// which the charts that run at ordinary targets take other roots than square roots, or are several in a block.
+/// which the cases that run at ordinary targets take other roots than square roots, or are several in a block.
 pub fn emit_batch(program: &Program) -> Option<String> {
     let outline = || Outline::new(program, &Rust { batch: true });
     batch::is_possible(program).then(|| NUMBERS.joined(&super::fill(SKELETON, &outline())))

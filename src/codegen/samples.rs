@@ -1,4 +1,4 @@
-//! Tables of the values at which charts put free joints: charts with the same values share one.
+//! Tables of the values at which cases put free joints: cases with the same values share one.
 
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ impl Table {
     /// The tables of a program, each once.
     pub fn all(program: &Program) -> Vec<Self> {
         let mut tables = Vec::new();
-        for step in program.charts().flat_map(|chart| &chart.steps) {
+        for step in program.cases().flat_map(|case| &case.steps) {
             if let Step::Sample { joint, values } = step {
                 let table = Table::new(*joint, values);
                 if !tables.contains(&table) {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::printer::{Language, number};
-use crate::solver::template::{Constants, Curve, ROOM, Rigid, SixAxes};
+use crate::solver::eigenvalue::{Constants, Curve, ROOM, Rigid, SixAxes};
 use crate::solver::{Program, Step};
 
 /// Everything that the skeletons name.
@@ -43,7 +43,7 @@ struct MotionText {
 
 /// The steps of a program that find six joints together, in the order of their numbers from 1.
 pub(super) fn steps(program: &Program) -> Vec<&SixAxes> {
-    let steps = program.charts().flat_map(|chart| &chart.steps);
+    let steps = program.cases().flat_map(|case| &case.steps);
     steps.filter_map(|step| if let Step::SixAxes(six) = step { Some(six.as_ref()) } else { None }).collect()
 }
 

@@ -1,18 +1,18 @@
-//! The steps of a chart as nested loops of text: [`Walk`].
+//! The steps of a case as nested loops of text: [`Walk`].
 
 use super::body::Scene;
 use super::mirror::Mirror;
 use super::printer::{Finish, INDENT, Language, Printer, State};
 use super::samples::Table;
 use super::six_axes;
-use crate::solver::template::SixAxes;
-use crate::solver::{Chart, JointValue, Operand, Program, Step, square};
+use crate::solver::eigenvalue::SixAxes;
+use crate::solver::{Case, JointValue, Operand, Program, Step, square};
 
-/// The steps of a chart on their way to text.
+/// The steps of a case on their way to text.
 pub(super) struct Walk<'a> {
     scene: &'a Scene<'a>,
     block: usize,
-    chart: &'a Chart,
+    case: &'a Case,
     lines: Vec<String>,
     depth: usize,
     /// By loop that is open: whether it goes over roots.
@@ -26,10 +26,10 @@ pub(super) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// At the chart's first step, behind `lines`, in the block with this index.
-    pub fn new(scene: &'a Scene<'a>, block: usize, chart: &'a Chart, lines: Vec<String>) -> Self {
+    /// At the case's first step, behind `lines`, in the block with this index.
+    pub fn new(scene: &'a Scene<'a>, block: usize, case: &'a Case, lines: Vec<String>) -> Self {
         let (finds_roots, branch, loose, lost) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Walk { scene, block, chart, lines, depth: 0, finds_roots, branch, loose, lost }
+        Walk { scene, block, case, lines, depth: 0, finds_roots, branch, loose, lost }
     }
 
     fn push(&mut self, lines: Vec<String>) {
@@ -37,19 +37,19 @@ impl<'a> Walk<'a> {
         self.lines.extend(lines.into_iter().map(|line| format!("{indent}{line}")));
     }
 
-    /// Whether the chart's second root is that of a pair of candidates.
+    /// Whether the case's second root is that of a pair of candidates.
     fn mirrors(&self) -> bool {
         let is_here =
-            |mirror: &Mirror| std::ptr::eq(&self.scene.program.blocks[mirror.block].charts[mirror.chart], self.chart);
+            |mirror: &Mirror| std::ptr::eq(&self.scene.program.blocks[mirror.block].cases[mirror.case], self.case);
         self.scene.mirror.as_ref().is_some_and(is_here)
     }
 
-    /// The lines of the whole chart.
+    /// The lines of the whole case.
     pub fn steps(mut self, printer: &mut Printer<'_>) -> Vec<String> {
-        if self.chart.first_branch > 0 {
-            self.branch.push(self.chart.first_branch.to_string());
+        if self.case.first_branch > 0 {
+            self.branch.push(self.case.first_branch.to_string());
         }
-        for (index, step) in self.chart.steps.iter().enumerate() {
+        for (index, step) in self.case.steps.iter().enumerate() {
             match step {
                 Step::Compute(code) => {
                     let lines = printer.code(code);
@@ -62,14 +62,14 @@ impl<'a> Walk<'a> {
                 Step::Set { .. } => {}
                 Step::SixAxes(six) => {
                     self.six_axes(six, printer);
-                    let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
+                    let stride: usize = self.case.steps[index + 1..].iter().map(Step::slots).product();
                     self.branch.push(multiple(stride, &format!("i{}", self.depth)));
                     self.finds_roots.push(false);
                     self.depth += 1;
                 }
                 Step::Roots { unknown, polynomials, typical } => {
                     self.roots(*unknown, polynomials, *typical, printer);
-                    let stride: usize = self.chart.steps[index + 1..].iter().map(Step::slots).product();
+                    let stride: usize = self.case.steps[index + 1..].iter().map(Step::slots).product();
                     self.branch.push(multiple(stride, &format!("i{}", self.depth)));
                     self.finds_roots.push(true);
                     self.depth += 1;
@@ -159,11 +159,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The branch number so far and the end of the numbers of the first block's chart.
+    /// The branch number so far and the end of the numbers of the first block's case.
     fn numbers(&self, language: &dyn Language) -> [String; 2] {
         if self.block == 0 {
             let branch = if self.branch.is_empty() { "0".to_owned() } else { self.branch.join(" + ") };
-            return [branch, (self.chart.first_branch + Program::branches(self.chart)).to_string()];
+            return [branch, (self.case.first_branch + Program::branches(self.case)).to_string()];
         }
         let radix = self.scene.program.blocks[self.block].branches();
         let before = multiple(radix, &language.known("branch"));
@@ -179,7 +179,7 @@ impl<'a> Walk<'a> {
         if all.is_empty() { "false".to_owned() } else { all.join(" || ") }
     }
 
-    /// By joint whether it is free; empty when the chart adds none.
+    /// By joint whether it is free; empty when the case adds none.
     fn free(&self, language: &dyn Language) -> Vec<String> {
         let usual = |joint: usize| match self.block {
             0 => "false".to_owned(),
@@ -187,12 +187,12 @@ impl<'a> Walk<'a> {
         };
         let told = |joint: usize| self.loose.iter().find(|(index, _)| *index == joint).map(|(_, told)| told.clone());
         let is_free = |joint| match told(joint) {
-            _ if self.chart.free.contains(&joint) => "true".to_owned(),
+            _ if self.case.free.contains(&joint) => "true".to_owned(),
             Some(told) if self.block == 0 => told,
             Some(told) => format!("{} || {told}", usual(joint)),
             None => usual(joint),
         };
-        let is_usual = self.chart.free.is_empty() && self.loose.is_empty();
+        let is_usual = self.case.free.is_empty() && self.loose.is_empty();
         let joints = if is_usual { 0 } else { self.scene.program.joints.len() };
         (0..joints).map(is_free).collect()
     }
@@ -212,7 +212,7 @@ impl<'a> Walk<'a> {
             found: &found,
             close: self.close(language),
             pair: self.mirrors().then(|| self.pair(language)),
-            is_rare: self.chart.is_rare(),
+            is_rare: self.case.is_rare(),
         };
         self.push(language.go_on(&state));
     }
@@ -222,7 +222,7 @@ impl<'a> Walk<'a> {
         let joints = if scene.lanes { 0 } else { scene.program.joints.len() };
         let q: Vec<String> = (0..joints).map(|joint| scene.joint_value(joint)).collect();
         let at: Vec<String> = scene.places().into_iter().map(|unknown| printer.unknown(unknown)).collect();
-        let passed = self.block > 0 && scene.has_families();
+        let passed = self.block > 0 && scene.has_self_motions();
         let answer = Finish {
             branch: self.numbers(language),
             at: &at,

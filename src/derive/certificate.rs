@@ -4,29 +4,54 @@
 //! the equations: every claim is checked by [`crate::groebner::verify`], every denominator is split and branched on again, and only the
 //! Groebner engine is left out. What comes back is a [`Derivation`] that is proved, or an error that says where the proof fails.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::certify::Certified;
 use super::grow::grow;
 use super::prover::{MEMBER, Prover, joints_of, member_setting, specialises};
 use super::setting::{Poly, Setting, Unknowns};
-use super::tree::{Family, Node, Outcome, Solved};
+use super::tree::{Node, Outcome, SelfMotion, Solved};
 use super::triangular::triangularise;
 use super::{Derivation, System};
+use crate::document::{JsonFormat, shown};
 use crate::groebner::Basis;
 use crate::groebner::verify::Proof;
 use crate::number::{Ring, Style};
 use crate::poly::{Order, parse};
 use crate::{Error, ErrorKind, Result};
 
-/// The version of the format.
-const FORMAT: u32 = 1;
+/// The form of certificates of all kinds.
+pub(super) const FORMAT: JsonFormat =
+    JsonFormat { what: "certificate", number: 5, renew: "`groebot derive` on its folder writes it anew" };
+
+/// What a certificate proves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Proves {
+    Equations,
+    Chain,
+    EigenvalueProblem,
+    CoupledChains,
+}
+
+impl fmt::Display for Proves {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Proves::Equations => "the equations",
+            Proves::Chain => "the chain",
+            Proves::EigenvalueProblem => "the eigenvalue problem",
+            Proves::CoupledChains => "the coupled chains",
+        })
+    }
+}
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Record {
     format: u32,
-    groebot: String,
+    proves: Proves,
     name: String,
     requested: Vec<Entry>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -49,7 +74,7 @@ enum Kind {
     /// The unit ideal.
     Inconsistent,
     /// Free joints; a graded basis. The next entry is the member with these joints at zero.
-    Family,
+    SelfMotion,
     /// Not derived.
     Open,
 }
@@ -72,8 +97,8 @@ struct Claim {
 /// When a setting's field cannot be built: never for a derivation that was made by this crate.
 pub fn write(derivation: &Derivation) -> Result<String> {
     let record = Record {
-        format: FORMAT,
-        groebot: env!("CARGO_PKG_VERSION").to_owned(),
+        format: FORMAT.number,
+        proves: Proves::Equations,
         name: derivation.system.name.clone(),
         requested: entries(&derivation.requested)?,
         searched: derivation.searched.as_ref().map(entries).transpose()?,
@@ -87,8 +112,8 @@ pub fn write(derivation: &Derivation) -> Result<String> {
 /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum for a claim that does
 /// not hold, is missing or is left over.
 pub fn prove(system: &System, text: &str) -> Result<Derivation> {
-    let record: Record = serde_json::from_str(text).map_err(|error| unread(&error))?;
-    check_head((record.format, &record.name), (FORMAT, &system.name))?;
+    let record: Record = FORMAT.read(text)?;
+    check_head((record.proves, &record.name), (Proves::Equations, &system.name))?;
     let requested = replay(system, &record.requested).map_err(|error| error.with_context("requested order"))?;
     let searched = record.searched.as_ref().map(|entries| replay(system, entries)).transpose();
     let searched = searched.map_err(|error| error.with_context("searched order"))?;
@@ -109,18 +134,16 @@ pub(super) fn unread(error: &serde_json::Error) -> Error {
     Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line())
 }
 
-/// Whether a certificate of this format and name is the one that is allowed.
+/// Whether a certificate that proves this, of this name, is the one that is allowed.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] when it is not.
-pub(super) fn check_head(found: (u32, &str), allowed: (u32, &str)) -> Result<()> {
+pub(super) fn check_head(found: (Proves, &str), allowed: (Proves, &str)) -> Result<()> {
     if found == allowed {
         return Ok(());
     }
-    let ((format, name), (own_format, own_name)) = (found, allowed);
-    let text =
-        format!("this certificate is of format {format} for `{name}`; format {own_format} for `{own_name}` is allowed");
-    Err(refused(text))
+    let words = |(proves, name): (Proves, &str)| format!("{proves} `{}`", shown(name));
+    Err(refused(format!("this certificate proves {}; one of {} is allowed", words(found), words(allowed))))
 }
 
 /// A claim that does not hold.
@@ -150,7 +173,7 @@ fn push_entry(node: &Node, list: &mut Vec<Entry>) -> Result<()> {
     let (kind, certified, reason) = match &node.outcome {
         Outcome::Solved(solved) => (Kind::Solved, Some(&solved.certified), ""),
         Outcome::Inconsistent(certified) => (Kind::Inconsistent, Some(certified.as_ref()), ""),
-        Outcome::Family(family) => (Kind::Family, Some(&family.certified), ""),
+        Outcome::SelfMotion(self_motion) => (Kind::SelfMotion, Some(&self_motion.certified), ""),
         Outcome::Open(reason) if node.derivable => (Kind::Open, None, reason.as_str()),
         Outcome::Open(_) | Outcome::Seen(_) => return Ok(()),
     };
@@ -164,8 +187,8 @@ fn push_entry(node: &Node, list: &mut Vec<Entry>) -> Result<()> {
         claim.cofactors = certified.cofactors.iter().map(|row| texts(row)).collect();
     }
     list.push(Entry { stratum: node.label.clone(), claim });
-    if let Outcome::Family(family) = &node.outcome {
-        push_entry(&family.member, list)?;
+    if let Outcome::SelfMotion(self_motion) = &node.outcome {
+        push_entry(&self_motion.member, list)?;
     }
     Ok(())
 }
@@ -206,15 +229,15 @@ impl Replay<'_> {
                 let triangular = triangularise(&ring, &certified.basis)?;
                 Ok(Outcome::Solved(Box::new(Solved { certified, triangular, inherited })))
             }
-            (Kind::Family, Some(free)) if !free.is_empty() => {
+            (Kind::SelfMotion, Some(free)) if !free.is_empty() => {
                 let free = joints_of(self.system, &ring, &free);
                 let member = member_setting(self.system, setting, &free);
                 if label == MEMBER {
-                    return Err(refused("a member of a family is a family again".to_owned()));
+                    return Err(refused("a member of a self-motion is a self-motion again".to_owned()));
                 }
                 let outcome = self.prove(MEMBER, &member, None)?;
                 let member = Box::new(Node::leaf(MEMBER, member, outcome));
-                Ok(Outcome::Family(Box::new(Family { free, certified, member })))
+                Ok(Outcome::SelfMotion(Box::new(SelfMotion { free, certified, member })))
             }
             _ => Err(refused("the basis is not of the kind that is claimed".to_owned())),
         }

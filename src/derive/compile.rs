@@ -1,4 +1,4 @@
-//! From the tree of strata to a [`Program`]: one chart for each stratum that has formulas of its own.
+//! From the tree of strata to a [`Program`]: one case for each stratum that has formulas of its own.
 
 use num_traits::{Signed, ToPrimitive, Zero};
 
@@ -11,8 +11,7 @@ use super::{JointKindUnknown, LengthUnit, ParameterSource, Quantity, Root, Syste
 use crate::number::{BigRational, Ring, Style};
 use crate::poly::{Expression, Order};
 use crate::solver::{
-    Block, Chart, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step,
-    Unit,
+    Block, Case, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step, Unit,
 };
 use crate::{Error, ErrorKind, Result};
 
@@ -25,17 +24,17 @@ const SMALLEST_SCALE: f64 = 1e-12;
 /// [`ErrorKind::Unsupported`] when the system has more joints or higher degrees than a program may have.
 pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let compiler = Compiler { system };
-    let mut charts = Vec::new();
-    compiler.charts(tree, &mut Vec::new(), &mut charts)?;
-    let block = Block::numbered(&system.name, Vec::new(), charts);
-    let capacity = block.charts.iter().map(Program::branches).sum();
-    // The chart of a stratum gives all solutions there, and a target lies on one.
-    let most = block.charts.iter().map(Program::branches).max().filter(|most| *most > 0);
-    let isolated = most.filter(|_| !block.charts.iter().any(|chart| chart.open));
+    let mut cases = Vec::new();
+    compiler.cases(tree, &mut Vec::new(), &mut cases)?;
+    let block = Block::numbered(&system.name, Vec::new(), cases);
+    let capacity = block.cases.iter().map(Program::branches).sum();
+    // The case of a stratum gives all solutions there, and a target lies on one.
+    let most = block.cases.iter().map(Program::branches).max().filter(|most| *most > 0);
+    let isolated = most.filter(|_| !block.cases.iter().any(|case| case.open));
     let (checks, scale) = compiler.checks()?;
     let program = Program {
         name: system.name.clone(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
+        format: Program::FORMAT,
         about: None,
         inputs: system.inputs.iter().map(|i| Input { name: i.name.clone(), unit: unit(system, i.quantity) }).collect(),
         conditions: Vec::new(),
@@ -112,47 +111,47 @@ impl<'a> Compiler<'a> {
         self.system.parameters.iter().map(build).collect()
     }
 
-    /// The charts of `node` and of all strata below it.
-    fn charts(&self, node: &'a Node, path: &mut Vec<Condition<'a>>, charts: &mut Vec<Chart>) -> Result<()> {
+    /// The cases of `node` and of all strata below it.
+    fn cases(&self, node: &'a Node, path: &mut Vec<Condition<'a>>, cases: &mut Vec<Case>) -> Result<()> {
         match &node.outcome {
             Outcome::Solved(solved) if !solved.inherited => {
-                charts.push(self.chart(node, &node.setting, solved, &[], path)?);
+                cases.push(self.case(node, &node.setting, solved, &[], path)?);
             }
-            Outcome::Family(family) => match &family.member.outcome {
+            Outcome::SelfMotion(self_motion) => match &self_motion.member.outcome {
                 Outcome::Solved(solved) => {
-                    charts.push(self.chart(node, &family.member.setting, solved, &family.free, path)?);
+                    cases.push(self.case(node, &self_motion.member.setting, solved, &self_motion.free, path)?);
                 }
-                _ => charts.push(self.open_chart(node, path)?),
+                _ => cases.push(self.open_case(node, path)?),
             },
-            Outcome::Open(_) => charts.push(self.open_chart(node, path)?),
+            Outcome::Open(_) => cases.push(self.open_case(node, path)?),
             Outcome::Solved(_) | Outcome::Inconsistent(_) | Outcome::Seen(_) => {}
         }
         for child in &node.children {
             let factor = child.factors.last().ok_or_else(|| undefined(&child.label))?;
             path.push((&node.setting, factor));
-            self.charts(child, path, charts)?;
+            self.cases(child, path, cases)?;
             path.pop();
         }
         Ok(())
     }
 
-    fn open_chart(&self, node: &Node, path: &[Condition<'_>]) -> Result<Chart> {
+    fn open_case(&self, node: &Node, path: &[Condition<'_>]) -> Result<Case> {
         let mut assembler = Assembler::default();
         let guards = self.near_guards(path, &mut assembler)?;
         let guard_code = assembler.take();
         let label = node.label.clone();
         let (pivot, steps, free) = (None, Vec::new(), Vec::new());
-        Ok(Chart { label, guard_code, guards, pivot, steps, free, open: true, first_branch: 0 })
+        Ok(Case { label, guard_code, guards, pivot, steps, free, open: true, first_branch: 0 })
     }
 
-    fn chart(
+    fn case(
         &self,
         node: &Node,
         setting: &Setting,
         solved: &Solved,
         free: &[usize],
         path: &[Condition<'_>],
-    ) -> Result<Chart> {
+    ) -> Result<Case> {
         let mut assembler = Assembler::default();
         let mut guards = self.near_guards(path, &mut assembler)?;
         let ground = setting.field()?.ring().clone();
@@ -170,7 +169,7 @@ impl<'a> Compiler<'a> {
         }
         let label = node.label.clone();
         let (pivot, free) = (None, free.to_vec());
-        Ok(Chart { label, guard_code, guards, pivot, steps, free, open: false, first_branch: 0 })
+        Ok(Case { label, guard_code, guards, pivot, steps, free, open: false, first_branch: 0 })
     }
 
     fn near_guards(&self, path: &[Condition<'_>], assembler: &mut Assembler) -> Result<Vec<Guard>> {

@@ -25,8 +25,8 @@ pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Nod
                         take away an equation or make one of its constants a parameter";
             Err(Error::new(ErrorKind::Inconsistent, text))
         }
-        Outcome::Family(family) => {
-            let names: Vec<_> = family.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
+        Outcome::SelfMotion(self_motion) => {
+            let names: Vec<_> = self_motion.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
             let text = format!(
                 "more joints than equations determine: {} stay free; fix them by an equation or give a task with more constraints",
                 names.join(", ")
@@ -156,7 +156,7 @@ pub fn describe(node: &Node) -> String {
             bound => format!("up to {bound} solutions, formulas of its own"),
         },
         Outcome::Inconsistent(_) => "no solution: the ideal is {1}".to_owned(),
-        Outcome::Family(_) => "infinitely many solutions: joints are free".to_owned(),
+        Outcome::SelfMotion(_) => "infinitely many solutions: joints are free".to_owned(),
         Outcome::Seen(label) => format!("derived above, as `{label}`"),
         Outcome::Open(reason) => format!("not derived: {reason}"),
     }

@@ -1,9 +1,9 @@
-//! Reading what a derivation starts from: a chain, limbs, a robot or a system of equations, from a file or a mechanism's folder.
+//! Reading what a derivation starts from: a chain, chains, a robot or a system of equations, from a file or a mechanism's folder.
 
 use std::path::{Path, PathBuf};
 
+use super::coupled::CoupledChains;
 use super::ends::{Ends, TASK_NAME};
-use super::limbs::Limbs;
 use super::planner::{Choice, joints_to_give};
 use super::{System, formulate};
 use crate::document::{Document, TEXT_LIMIT, read_text};
@@ -13,10 +13,10 @@ use crate::model::Robot;
 use crate::model::urdf::URDF_LIMIT;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, limbs that share motors.
-pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", LIMBS_NAME, "0_robot.toml"];
-/// The name of the description of limbs that share motors, in a mechanism's folder.
-pub const LIMBS_NAME: &str = "0_limbs.toml";
+/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, chains that share actuators.
+pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
+/// The name of the description of chains that share actuators, in a mechanism's folder.
+pub const COUPLED_NAME: &str = "0_coupled.toml";
 
 /// What a file describes.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +25,10 @@ pub enum Description {
     Chain(Box<Chain>),
     /// Equations.
     System(System),
-    /// A robot with any number of limbs: URDF, or TOML.
+    /// A robot with any number of chains: URDF, or TOML.
     Robot(Robot),
-    /// Limbs that share motors.
-    Limbs(Box<Limbs>),
+    /// CoupledChains that share actuators.
+    Coupled(Box<CoupledChains>),
 }
 
 /// A file as it was read.
@@ -48,11 +48,11 @@ pub struct InputFile {
 
 impl InputFile {
     /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
-    /// a `[[link]]`; one with `[[limb]]` are limbs, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    /// a `[[link]]`; one with `[[chain]]` are chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
-    /// [`Robot::from_urdf`], [`Limbs::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
+    /// [`Robot::from_urdf`], [`CoupledChains::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
     /// and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
@@ -66,18 +66,18 @@ impl InputFile {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
             Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
-            Description::Limbs(_) => LIMBS_NAME,
+            Description::Coupled(_) => COUPLED_NAME,
         };
         let ends = read_ends(&file)?;
         Ok(InputFile { path: file, name, text, description, ends })
     }
 
     /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
-    /// or limbs.
+    /// or chains.
     ///
     /// # Errors
     /// As [`Robot::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
-    /// of a system or of limbs. All name the file.
+    /// of a system or of chains. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
         let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
@@ -90,10 +90,10 @@ impl InputFile {
             Description::System(_) if ends != Ends::default() => bad(
                 "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
             ),
-            Description::Limbs(_) if ends != Ends::default() => bad(
-                "a task is chosen, but each limb states its own; leave task, direction, given joints and tolerance out",
+            Description::Coupled(_) if ends != Ends::default() => bad(
+                "a task is chosen, but each chain states its own; leave task, direction, given joints and tolerance out",
             ),
-            Description::System(_) | Description::Limbs(_) => Ok(None),
+            Description::System(_) | Description::Coupled(_) => Ok(None),
         };
         let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());
         asked.map_err(|error| error.in_file(&self.path))
@@ -111,13 +111,13 @@ fn read_ends(file: &Path) -> Result<Ends> {
 fn from_toml(text: &str, file: &Path) -> Result<Description> {
     let has = {
         let document = Document::parse(text)?;
-        ["link", "limb", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
+        ["link", "chain", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
     };
     let boxed = |chain| Description::Chain(Box::new(chain));
     let folder = file.parent().unwrap_or(Path::new(""));
     match has {
         [true, ..] => Robot::from_toml(text).map(Description::Robot),
-        [_, true, ..] => Limbs::from_toml(text, folder).map(|limbs| Description::Limbs(Box::new(limbs))),
+        [_, true, ..] => CoupledChains::from_toml(text, folder).map(|coupled| Description::Coupled(Box::new(coupled))),
         [_, _, true, ..] => Chain::from_dh_toml(text).map(boxed),
         [_, _, _, false, false] => System::from_toml(text).map(Description::System),
         _ => Chain::from_toml(text).map(boxed),
@@ -137,10 +137,10 @@ pub struct Source {
     pub chain: Option<Chain>,
     /// The ideal chain that it means, and what was taken for what.
     pub ideal: Option<(Chain, Report)>,
-    /// The equations; none for limbs, and for a chain whose task is only solved joint by joint.
+    /// The equations; none for chains, and for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
-    /// The limbs, when it describes limbs that share motors.
-    pub limbs: Option<Limbs>,
+    /// The chains, when it describes chains that share actuators.
+    pub coupled: Option<CoupledChains>,
     /// What was asked of it, when not all by default.
     pub ends: Ends,
     /// The links where the chain starts and ends, when the source names them.
@@ -173,13 +173,13 @@ impl Source {
             }
             _ => None,
         };
-        let (system, limbs) = match (&chain, description) {
+        let (system, coupled) = match (&chain, description) {
             (Some(_), _) => (None, None),
             (None, Description::System(system)) => (Some(system), None),
-            (None, Description::Limbs(limbs)) => (None, Some(*limbs)),
+            (None, Description::Coupled(coupled)) => (None, Some(*coupled)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        let mut source = Source { path, name, text, chain: None, ideal: None, system, limbs, ends, links };
+        let mut source = Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links };
         chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
         Ok(source)
     }
@@ -229,9 +229,9 @@ impl Source {
         Ok(())
     }
 
-    /// The names of the files beside the input that it refers to: those of limbs' chains.
+    /// The names of the files beside the input that it refers to: those of chains' chains.
     pub fn beside(&self) -> impl Iterator<Item = &str> {
-        self.limbs.iter().flat_map(Limbs::limbs).filter_map(|limb| limb.file.as_deref())
+        self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
     }
 
     /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
@@ -281,7 +281,7 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_limbs.toml` in it";
+            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml` in it";
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {

@@ -1,8 +1,8 @@
 //! A derivation of any kind, from a [`Source`]: [`Proved`].
 
-use super::lift::{self, Derived};
-use super::limbs::DerivedLimbs;
-use super::template::{DerivedSixAxes, fits};
+use super::coupled::DerivedCoupled;
+use super::eigenvalue::{DerivedSixAxes, fits};
+use super::sequential::{self, Derived};
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
 use crate::kinematics::ideal::Report;
@@ -18,19 +18,19 @@ pub enum Proved {
     Chain(Box<Derived>),
     /// Of six joints in any place, all together.
     SixAxes(Box<DerivedSixAxes>),
-    /// Of limbs that share motors, one limb after the other.
-    Limbs(Box<DerivedLimbs>),
+    /// Of chains that share actuators, one chain after the other.
+    Coupled(Box<DerivedCoupled>),
 }
 
 impl Proved {
     /// Derives and proves `source`.
     ///
     /// # Errors
-    /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedLimbs::of_limbs`].
+    /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedCoupled::of_coupled`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
-        match (source.chain_by_steps(), &source.limbs) {
+        match (source.chain_by_steps(), &source.coupled) {
             (Some(chain), _) => Proved::of_ideal(chain, &ideal(source, chain)?, watch),
-            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::of_limbs(limbs, watch)?))),
+            (None, Some(coupled)) => Ok(Proved::Coupled(Box::new(DerivedCoupled::of_coupled(coupled, watch)?))),
             (None, None) => Ok(Proved::Equations(Box::new(Derivation::new(equations(source)?.clone(), watch)?))),
         }
     }
@@ -38,16 +38,16 @@ impl Proved {
     /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
     ///
     /// # Errors
-    /// As [`certificate::prove`], [`lift::certificate::prove`] and [`DerivedLimbs::prove`].
+    /// As [`certificate::prove`], [`sequential::certificate::prove`] and [`DerivedCoupled::prove`].
     pub fn again(source: &Source, text: &str) -> Result<Self> {
-        match (source.chain_by_steps(), &source.limbs) {
+        match (source.chain_by_steps(), &source.coupled) {
             (Some(chain), _) if DerivedSixAxes::is_certificate(text) => {
                 Proved::six_axes(chain, &ideal(source, chain)?, |chain| DerivedSixAxes::prove(chain, text))
             }
             (Some(chain), _) => {
-                Proved::chain(chain, &ideal(source, chain)?, |chain| lift::certificate::prove(chain, text))
+                Proved::chain(chain, &ideal(source, chain)?, |chain| sequential::certificate::prove(chain, text))
             }
-            (None, Some(limbs)) => Ok(Proved::Limbs(Box::new(DerivedLimbs::prove(limbs, text)?))),
+            (None, Some(coupled)) => Ok(Proved::Coupled(Box::new(DerivedCoupled::prove(coupled, text)?))),
             (None, None) => Ok(Proved::Equations(Box::new(certificate::prove(equations(source)?, text)?))),
         }
     }
@@ -99,7 +99,7 @@ impl Proved {
             Proved::Equations(derivation) => &derivation.program,
             Proved::Chain(derived) => &derived.program,
             Proved::SixAxes(derived) => &derived.program,
-            Proved::Limbs(derived) => &derived.program,
+            Proved::Coupled(derived) => &derived.program,
         }
     }
 
@@ -112,7 +112,7 @@ impl Proved {
             Proved::Equations(derivation) => derivation.stage_files(),
             Proved::Chain(derived) => derived.stage_files(),
             Proved::SixAxes(derived) => Ok(derived.stage_files()),
-            Proved::Limbs(derived) => derived.stage_files(),
+            Proved::Coupled(derived) => derived.stage_files(),
         }
     }
 
@@ -124,7 +124,7 @@ impl Proved {
             Proved::Equations(derivation) => &mut derivation.program,
             Proved::Chain(derived) => &mut derived.program,
             Proved::SixAxes(derived) => &mut derived.program,
-            Proved::Limbs(derived) => &mut derived.program,
+            Proved::Coupled(derived) => &mut derived.program,
         };
         program.about = Some(About { solutions, ..about(source, program) });
         self
@@ -136,7 +136,7 @@ impl Proved {
             Proved::Equations(derivation) => derivation.dimension(),
             Proved::Chain(derived) => Some(derived.plan.dimension),
             Proved::SixAxes(derived) => Some(derived.dimension()),
-            Proved::Limbs(derived) => Some(derived.dimension()),
+            Proved::Coupled(derived) => Some(derived.dimension()),
         }
     }
 }
@@ -148,18 +148,20 @@ fn ideal(source: &Source, chain: &Chain) -> Result<(Chain, Report)> {
 
 fn equations(source: &Source) -> Result<&super::System> {
     let none =
-        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no limbs").in_file(&source.path);
+        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no chains").in_file(&source.path);
     source.system.as_ref().ok_or_else(none)
 }
 
 /// What `source` says of itself, with the limits of the program's joints.
 fn about(source: &Source, program: &Program) -> About {
-    let motors = match (&source.chain, &source.limbs) {
+    let actuators = match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.joints().iter().map(|joint| (joint.name.as_str(), joint.limits)).collect(),
-        (None, Some(limbs)) => limbs.motors().iter().map(|motor| (motor.name.as_str(), limbs.limits(motor))).collect(),
+        (None, Some(coupled)) => {
+            coupled.actuators().iter().map(|actuator| (actuator.name.as_str(), coupled.limits(actuator))).collect()
+        }
         (None, None) => Vec::new(),
     };
-    let limits = |name: &str| motors.iter().find(|(motor, _)| *motor == name).and_then(|(_, limits)| *limits);
+    let limits = |name: &str| actuators.iter().find(|(actuator, _)| *actuator == name).and_then(|(_, limits)| *limits);
     let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
     let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
     let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
@@ -173,12 +175,12 @@ fn about(source: &Source, program: &Program) -> About {
     }
 }
 
-/// What is asked of the tip, or of each limb's.
+/// What is asked of the tip, or of each chain's.
 fn task(source: &Source) -> String {
-    match (&source.chain, &source.limbs) {
+    match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.asked(),
-        (None, Some(limbs)) => {
-            let asked = limbs.limbs().iter().map(|limb| format!("{}: {}", limb.name, limb.chain.asked()));
+        (None, Some(coupled)) => {
+            let asked = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
             asked.collect::<Vec<_>>().join("; ")
         }
         (None, None) => "its equations".to_owned(),

@@ -3,7 +3,7 @@
 use super::certify;
 use super::generic::generic_basis;
 use super::setting::{Coefficients, Poly, Setting, expression_of};
-use super::tree::{Family, Node, Outcome, Solved};
+use super::tree::{Node, Outcome, SelfMotion, Solved};
 use super::triangular::triangularise;
 use super::{JointKindUnknown, System};
 use crate::groebner::{Basis, Quotient};
@@ -51,7 +51,7 @@ impl Engine<'_> {
         match graded.independent_variables() {
             None => Ok(Outcome::Inconsistent(Box::new(certify::certified(&graded, &graded, &generators, self.watch)?))),
             Some(free) if free.is_empty() => self.solved(setting, &graded, &generators, parent),
-            Some(free) => self.family(setting, &graded, &generators, &free),
+            Some(free) => self.self_motion(setting, &graded, &generators, &free),
         }
     }
 
@@ -82,7 +82,7 @@ impl Engine<'_> {
     }
 
     /// Frees the joints of the independent unknowns and solves the member that has them at zero.
-    fn family(
+    fn self_motion(
         &self,
         setting: &Setting,
         graded: &Basis<Coefficients>,
@@ -94,7 +94,7 @@ impl Engine<'_> {
         let member = member_setting(self.system, setting, &joints);
         let outcome = self.outcome(&member, None)?;
         let member = Box::new(Node::leaf(MEMBER, member, outcome));
-        Ok(Outcome::Family(Box::new(Family { free: joints, certified, member })))
+        Ok(Outcome::SelfMotion(Box::new(SelfMotion { free: joints, certified, member })))
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn specialises(parent: &Solved, setting: &Setting, lex: &Basis<Coeffi
     Ok(true)
 }
 
-/// The label of a family's member.
+/// The label of a self-motion's member.
 pub(super) const MEMBER: &str = "free joints at zero";
 
 /// The joints that the unknowns with these indices belong to.

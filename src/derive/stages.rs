@@ -108,9 +108,9 @@ impl Derivation {
             for node in node.walk() {
                 let form = match &node.outcome {
                     Outcome::Solved(solved) if !solved.inherited => solved.triangular.to_string(),
-                    Outcome::Family(family) => {
-                        let free = family.free.iter().map(|&joint| self.system.joints[joint].name.as_str());
-                        let member = family.member.solved().map(|solved| solved.triangular.to_string());
+                    Outcome::SelfMotion(self_motion) => {
+                        let free = self_motion.free.iter().map(|&joint| self.system.joints[joint].name.as_str());
+                        let member = self_motion.member.solved().map(|solved| solved.triangular.to_string());
                         let free = free.collect::<Vec<_>>().join(", ");
                         format!("free: {free}; the member with it at zero:\n{}", member.unwrap_or_default())
                     }

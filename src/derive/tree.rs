@@ -43,7 +43,7 @@ pub enum Outcome {
     /// No solution: the unit ideal, with the proof.
     Inconsistent(Box<Certified>),
     /// Infinitely many: some joints are free.
-    Family(Box<Family>),
+    SelfMotion(Box<SelfMotion>),
     /// The same equations as at the stratum with this label, derived there.
     Seen(String),
     /// Not derived, for this reason.
@@ -63,7 +63,7 @@ pub struct Solved {
 
 /// A stratum with free joints.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Family {
+pub struct SelfMotion {
     /// The joints (indices) that were chosen to be the free ones.
     pub free: Vec<usize>,
     /// Basis and proof of the equations themselves, in graded order: what was proved positive-dimensional.
@@ -87,14 +87,14 @@ impl Node {
         }
     }
 
-    /// The proofs of this node: its own, and that of a family's member.
+    /// The proofs of this node: its own, and that of a self-motion's member.
     pub fn proofs(&self) -> Vec<(&Setting, &Certified)> {
         match &self.outcome {
             Outcome::Solved(solved) => vec![(&self.setting, &solved.certified)],
             Outcome::Inconsistent(certified) => vec![(&self.setting, certified)],
-            Outcome::Family(family) => {
-                let mut proofs = vec![(&self.setting, &family.certified)];
-                proofs.extend(family.member.proofs());
+            Outcome::SelfMotion(self_motion) => {
+                let mut proofs = vec![(&self.setting, &self_motion.certified)];
+                proofs.extend(self_motion.member.proofs());
                 proofs
             }
             Outcome::Open(_) | Outcome::Seen(_) => Vec::new(),

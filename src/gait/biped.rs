@@ -50,7 +50,7 @@ pub struct Biped {
     pub name: String,
     /// The joints in the order of a configuration and of the output.
     pub joints: Vec<JointRange>,
-    /// Pairs of joints of the left and the right leg that one motor turns by the same angle.
+    /// Pairs of joints of the left and the right leg that one actuator turns by the same angle.
     pub shared: Vec<(usize, usize)>,
     /// Masses and joints; its base is the torso.
     pub model: Model,

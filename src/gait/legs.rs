@@ -28,7 +28,7 @@ pub type LegSolver = Arc<dyn InverseKinematics>;
 pub struct Legs {
     legs: [Leg; 2],
     crouch: Vec<f64>,
-    /// The joints, left and right, that one motor turns.
+    /// The joints, left and right, that one actuator turns.
     shared: Option<(usize, usize)>,
     /// Joints of the arms, each with the joint of a leg whose value it takes.
     coordinated: Vec<(usize, usize)>,
@@ -72,7 +72,7 @@ impl Legs {
 
     /// The posture with the soles at the poses `world_from_soles`, left and right, and the torso at `world_from_torso`. Of several
     /// answers it is the nearest to `last` whose knees bend as they do in the crouch; the limits of the joints are not looked at. Where
-    /// the legs share a motor, they may disagree on it: [`Legs::disagreement`]. Joints of other limbs stay as in `last`, but for those
+    /// the legs share an actuator, they may disagree on it: [`Legs::disagreement`]. Joints of other limbs stay as in `last`, but for those
     /// that are coordinated with the legs.
     ///
     /// # Errors
@@ -88,17 +88,17 @@ impl Legs {
         Ok(Posture { world_from_torso: *world_from_torso, q })
     }
 
-    /// Whether one motor turns a joint of both legs, so that the torso's heading is not free.
-    pub fn share_a_motor(&self) -> bool {
+    /// Whether one actuator turns a joint of both legs, so that the torso's heading is not free.
+    pub fn share_an_actuator(&self) -> bool {
         self.shared.is_some()
     }
 
-    /// How far the legs disagree on the motor that they share \[rad\]; 0 when they share none.
+    /// How far the legs disagree on the actuator that they share \[rad\]; 0 when they share none.
     pub fn disagreement(&self, posture: &Posture) -> f64 {
         self.shared.map_or(0.0, |(left, right)| angle::difference(posture.q[left], posture.q[right]))
     }
 
-    /// Gives both legs the left one's value of the motor that they share.
+    /// Gives both legs the left one's value of the actuator that they share.
     pub fn agree(&self, posture: &mut Posture) {
         if let Some((left, right)) = self.shared {
             posture.q[right] = posture.q[left];

@@ -13,7 +13,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// How near the centre of mass comes to where it is asked to be \[m\]. What is left varies slowly from sample to sample; where it jumps,
 /// the zero moment point moves by at most a thousand times as much, which its margins count.
 const NEAR: f64 = 5e-7;
-/// How far the legs may disagree on a shared motor \[rad\]: what is left moves a foot by less than a tenth of a nanometre.
+/// How far the legs may disagree on a shared actuator \[rad\]: what is left moves a foot by less than a tenth of a nanometre.
 const AGREED: f64 = 1e-10;
 /// How far the heading is moved to see how the legs' disagreement answers \[rad\].
 const ASIDE: f64 = 1e-4;
@@ -36,7 +36,7 @@ pub struct Motion {
 }
 
 /// Solves the legs for every reference, with the torso moved until the centre of mass of the whole robot is where it is asked to be, and
-/// turned until both legs ask the same of a motor that they share. `alike` is a motion of nearly the same references, if there is one: it
+/// turned until both legs ask the same of an actuator that they share. `alike` is a motion of nearly the same references, if there is one: it
 /// tells where to look first.
 ///
 /// # Errors
@@ -146,7 +146,7 @@ impl Pursuit {
         apart: f64,
     ) -> Result<Matrix3<f64>> {
         let mut diagonal = Vector3::new(FIRST_GAIN, FIRST_GAIN, 0.0);
-        if legs.share_a_motor() {
+        if legs.share_an_actuator() {
             let aside = self.stand(legs, reference, &(torso + Vector3::z() * ASIDE))?;
             let slope = angle::difference(legs.disagreement(&aside), apart) / ASIDE;
             diagonal.z = if slope == 0.0 { 0.0 } else { 1.0 / slope };
@@ -168,7 +168,7 @@ impl Pursuit {
 
     fn failure(&self, legs: &Legs) -> Error {
         let text = if legs.disagreement(&self.last).abs() > AGREED {
-            "no heading of the torso lets both legs share the motor that turns them; turn the feet less against one another (--max-turn)"
+            "no heading of the torso lets both legs share the actuator that turns them; turn the feet less against one another (--max-turn)"
         } else {
             "the centre of mass cannot be brought to where the gait asks for it; lower the hip (--hip-height) or shorten the steps (--length)"
         };

@@ -34,7 +34,7 @@ pub struct Reference {
     pub centre: Point2<f64>,
     /// The height of the torso's origin over the floor \[m\].
     pub torso_height: f64,
-    /// Where the torso is to look \[rad\]; where the legs share a motor, the motor has the last word.
+    /// Where the torso is to look \[rad\]; where the legs share an actuator, the actuator has the last word.
     pub heading: f64,
 }
 

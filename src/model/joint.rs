@@ -167,12 +167,12 @@ impl Joint {
     }
 }
 
-/// A motor, and the joints that it moves: NAO's two hips are turned by one.
+/// An actuator, and the joints that it moves: NAO's two hips are turned by one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actuator {
     /// Its name, unique in the robot.
     pub name: String,
-    /// The joints that it moves, each with the turns of the motor for one of the joint.
+    /// The joints that it moves, each with the turns of the actuator for one of the joint.
     pub joints: Vec<(String, f64)>,
 }
 

@@ -20,7 +20,7 @@ pub struct RobotParts {
     pub links: Vec<Link>,
     /// The joints.
     pub joints: Vec<Joint>,
-    /// The motors; a joint that none of them names has its own.
+    /// The actuators; a joint that none of them names has its own.
     pub actuators: Vec<Actuator>,
 }
 
@@ -139,7 +139,7 @@ impl Robot {
         order
     }
 
-    /// The motors that move several joints, or that are named.
+    /// The actuators that move several joints, or that are named.
     pub fn actuators(&self) -> &[Actuator] {
         &self.parts.actuators
     }

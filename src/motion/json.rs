@@ -5,11 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::table::{ROUNDING, pose_numbers, pose_of};
 use super::{Contact, Figure, JointTrack, Track, Trajectory};
+use crate::Result;
+use crate::document::JsonFormat;
 use crate::spatial::Pose;
-use crate::{Error, ErrorKind, Result};
 
-/// The version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: JsonFormat =
+    JsonFormat { what: "trajectory", number: 1, renew: "`groebot walk` and `groebot follow` write new ones" };
 
 /// A trajectory as it is written: poses are position and quaternion xyzw.
 #[derive(Serialize, Deserialize)]
@@ -66,7 +67,7 @@ impl Trajectory {
         let figure =
             |own: &Figure| WrittenFigure { name: own.name.clone(), unit: own.unit.clone(), values: own.values.clone() };
         let written = Written {
-            format: FORMAT,
+            format: FORMAT.number,
             robot: self.robot.clone(),
             joints: self.joints.clone(),
             time: self.times.clone(),
@@ -82,24 +83,10 @@ impl Trajectory {
     /// The trajectory that `text` holds as [`Trajectory::to_json`] writes it; other keys beside these are passed over.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not such JSON, or another `format`; [`ErrorKind::BadValue`] for a quaternion that is not of length one;
+    /// [`crate::ErrorKind::Syntax`] for text that is not such JSON, [`crate::ErrorKind::Unsupported`] for another `format`; [`crate::ErrorKind::BadValue`] for a quaternion that is not of length one;
     /// as [`Trajectory::check`].
     pub fn from_json(text: &str) -> Result<Self> {
-        let syntax = |error: serde_json::Error| {
-            Error::new(ErrorKind::Syntax, format!("this is no trajectory in JSON: {error}"))
-                .at_line(error.line().max(1))
-        };
-        #[derive(Deserialize)]
-        struct Versioned {
-            format: Option<u32>,
-        }
-        let version: Versioned = serde_json::from_str(text).map_err(syntax)?;
-        if version.format != Some(FORMAT) {
-            let told = version.format.map_or("none".to_owned(), |format| format.to_string());
-            let text = format!("the `format` is {told}; this groebot reads {FORMAT}");
-            return Err(Error::new(ErrorKind::Syntax, text));
-        }
-        let written: Written = serde_json::from_str(text).map_err(syntax)?;
+        let written: Written = FORMAT.read(text)?;
         let poses =
             |poses: Vec<[f64; 7]>| poses.into_iter().map(|pose| pose_of(pose, ROUNDING)).collect::<Result<Vec<Pose>>>();
         let contact =

@@ -28,7 +28,7 @@ pub(super) struct Answers<'a> {
     pub(super) list: Vec<Answer>,
     /// How many candidates there have been.
     pub(super) candidates: usize,
-    /// So many there had been with the last one that did not hold where it was found, within [`MERGE`], or was one of a family's.
+    /// So many there had been with the last one that did not hold where it was found, within [`MERGE`], or was one of a self-motion's.
     unsound: usize,
     /// The candidate that missed the equations by the least share of their size.
     nearest: Option<Nearest>,
@@ -183,7 +183,7 @@ impl<'a> Answers<'a> {
         self.keep(path, &start, &fit);
     }
 
-    /// Keeps a member of a family. It is moved along it only where it misses the equations by more than rounding: where the family
+    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
     /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
     fn propose_member(&mut self, path: &Path, mut q: Joints) {
         let free = self.free_joints(path);
@@ -204,7 +204,7 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Keeps what a candidate for a member of a family has led to: a member of another family, of one joint that some chart frees, or an
+    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
     /// isolated answer. One that has not been found before may have another next to it.
     fn keep_alone(&mut self, path: &Path, q: &Joints, fit: &Fit, missed: f64) {
         if fit.relative > ALONE {
@@ -214,7 +214,7 @@ impl<'a> Answers<'a> {
         let joints = &q[..program.joints.len()];
         let is_listed = self.list.iter().any(|a| a.is_isolated() && self.are_near(&a.solution.q, joints, MERGE));
         let mut freed = program.freed().filter(|_| !is_listed);
-        let joint = freed.find(|&joint| self.lies_on_family(joints, &[joint], fit.relative));
+        let joint = freed.find(|&joint| self.lies_on_self_motion(joints, &[joint], fit.relative));
         let mut alone = *path;
         alone.free = std::array::from_fn(|other| Some(other) == joint);
         let known = self.list.len();
@@ -224,10 +224,10 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a family whose free joints are those of `path`; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion whose free joints are those of `path`; whether it is.
     fn keep_member(&mut self, path: &Path, q: &Joints, fit: &Fit) -> bool {
         let free = self.free_joints(path);
-        let is_member = fit.accepted && self.lies_on_family(&q[..self.program.joints.len()], &free, fit.relative);
+        let is_member = fit.accepted && self.lies_on_self_motion(&q[..self.program.joints.len()], &free, fit.relative);
         if is_member {
             self.keep(path, q, fit);
         }
@@ -319,7 +319,7 @@ impl<'a> Answers<'a> {
         }
     }
 
-    /// Whether the answer with this index is the same as a new one: members of one family, or within [`MERGE`] with joints left
+    /// Whether the answer with this index is the same as a new one: members of one self-motion, or within [`MERGE`] with joints left
     /// out that are free in either, or one singular configuration.
     fn is_one(&mut self, other: usize, answer: &Answer) -> bool {
         let (a, b) = (&self.list[other], answer);
@@ -333,8 +333,12 @@ impl<'a> Answers<'a> {
                 a.solution.free == b.solution.free
                     && (a.solution.branch == b.solution.branch || self.leads_to(other, &b.solution))
             }
-            (true, false) => b.is_exact() && self.lies_on_family(&a.solution.q.clone(), &b.solution.free, ROUNDING),
-            (false, true) => a.is_exact() && self.lies_on_family(&b.solution.q, &a.solution.free.clone(), ROUNDING),
+            (true, false) => {
+                b.is_exact() && self.lies_on_self_motion(&a.solution.q.clone(), &b.solution.free, ROUNDING)
+            }
+            (false, true) => {
+                a.is_exact() && self.lies_on_self_motion(&b.solution.q, &a.solution.free.clone(), ROUNDING)
+            }
         }
     }
 }
@@ -348,7 +352,7 @@ impl Answer {
         self.relative <= ROUNDING
     }
 
-    /// Whether this answer stays where `other` is equal to it: the better one does. But a family that holds within rounding stays
+    /// Whether this answer stays where `other` is equal to it: the better one does. But a self-motion that holds within rounding stays
     /// against its members, and its first member against the others.
     fn holds_against(&self, other: &Answer) -> bool {
         match (self.is_isolated(), other.is_isolated()) {

@@ -1,8 +1,8 @@
-//! One program of two: mechanisms that share motors are solved one after the other, the second with the shared joints where the
+//! One program of two: mechanisms that share actuators are solved one after the other, the second with the shared joints where the
 //! first has put them ([`Program::followed_by`]).
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{Block, Chart, Checks, Condition, Guard, Joint, JointValue, Pivot, Program, Step};
+use super::program::{Block, Case, Checks, Condition, Guard, Joint, JointValue, Pivot, Program, Step};
 use super::refine::measured;
 use super::rule::{ParameterRule, Rule};
 use super::validate::MOST_ANSWERS;
@@ -23,7 +23,7 @@ impl Program {
     }
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
-    /// takes as given are one motor: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
+    /// takes as given are one actuator: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
     /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's.
     ///
     /// # Errors
@@ -175,27 +175,27 @@ impl Places {
 
     /// The block; none when it only put shared joints where they are.
     fn block(&self, block: &Block) -> Option<Block> {
-        let charts: Vec<Chart> = block.charts.iter().map(|chart| self.chart(chart)).collect();
-        let idle = |chart: &Chart| chart.steps.is_empty() && chart.guards.is_empty() && !chart.open;
-        let is_idle = matches!(charts.as_slice(), [chart] if idle(chart));
-        (!is_idle).then(|| Block { label: block.label.clone(), code: self.code(&block.code), charts })
+        let cases: Vec<Case> = block.cases.iter().map(|case| self.case(case)).collect();
+        let idle = |case: &Case| case.steps.is_empty() && case.guards.is_empty() && !case.open;
+        let is_idle = matches!(cases.as_slice(), [case] if idle(case));
+        (!is_idle).then(|| Block { label: block.label.clone(), code: self.code(&block.code), cases })
     }
 
-    fn chart(&self, chart: &Chart) -> Chart {
+    fn case(&self, case: &Case) -> Case {
         let guard = |guard: &Guard| Guard {
             value: self.operand(guard.value),
             scale: self.operand(guard.scale),
             ..guard.clone()
         };
-        Chart {
-            label: chart.label.clone(),
-            guard_code: self.code(&chart.guard_code),
-            guards: chart.guards.iter().map(guard).collect(),
-            pivot: chart.pivot.map(|pivot| Pivot { value: self.operand(pivot.value), ..pivot }),
-            steps: chart.steps.iter().filter_map(|step| self.step(step)).collect(),
-            free: chart.free.iter().map(|&joint| self.joints[joint]).collect(),
-            open: chart.open,
-            first_branch: chart.first_branch,
+        Case {
+            label: case.label.clone(),
+            guard_code: self.code(&case.guard_code),
+            guards: case.guards.iter().map(guard).collect(),
+            pivot: case.pivot.map(|pivot| Pivot { value: self.operand(pivot.value), ..pivot }),
+            steps: case.steps.iter().filter_map(|step| self.step(step)).collect(),
+            free: case.free.iter().map(|&joint| self.joints[joint]).collect(),
+            open: case.open,
+            first_branch: case.first_branch,
         }
     }
 
@@ -260,7 +260,7 @@ fn unknowns_of(value: JointValue) -> Vec<usize> {
     }
 }
 
-/// The unknowns of two joints that are one motor, side by side.
+/// The unknowns of two joints that are one actuator, side by side.
 fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
     let (mine, theirs) = (unknowns_of(first.value), unknowns_of(next.value));
     if first.unit != next.unit || mine.len() != theirs.len() {
@@ -272,7 +272,7 @@ fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
 
 /// The parameters that a program only copies into unknowns that have a place, with these unknowns.
 fn given_parameters(next: &Program, unknowns: &[Option<usize>]) -> Vec<(usize, usize)> {
-    let steps = next.charts().flat_map(|chart| &chart.steps);
+    let steps = next.cases().flat_map(|case| &case.steps);
     let copied = steps.filter_map(|step| match step {
         Step::Set { unknown, value: Operand::Parameter(parameter) } => Some((*parameter, *unknown)),
         _ => None,

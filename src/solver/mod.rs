@@ -10,8 +10,8 @@ mod approach;
 mod batch;
 mod compose;
 mod condition;
+pub mod eigenvalue;
 mod evaluate;
-mod families;
 mod forward;
 mod frame;
 mod instruction;
@@ -20,7 +20,7 @@ mod program;
 mod prune;
 mod refine;
 mod rule;
-pub mod template;
+mod self_motions;
 mod validate;
 mod walk;
 
@@ -34,7 +34,7 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use pairs::Pairs;
 pub(crate) use program::square;
 pub use program::{
-    Block, Chart, Checks, Condition, Guard, Input, Joint, JointValue, Pivot, Preference, Program, Short, Step, Unit,
+    Block, Case, Checks, Condition, Guard, Input, Joint, JointValue, Pivot, Preference, Program, Short, Step, Unit,
 };
 pub use rule::{Following, ParameterRule, Rule};
 
@@ -53,12 +53,12 @@ pub const MEETING: f64 = 1e-5;
 /// [`crate::roots::TANGENT`] for `x^2 + c` in programs with polynomials of higher degree, whose roots are less exact: a miss of `c` by this
 /// share of its size moves what follows from it by a thousandth, and polishing goes on from there.
 pub const GRAZING: f64 = 1e-6;
-/// A chart for a stratum also runs where the stratum's factor is below this share of its scale.
+/// A case for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
-/// Where all candidates of the charts before have held where they were found, it runs below this share only: a stratum on which they would have
+/// Where all candidates of the cases before have held where they were found, it runs below this share only: a stratum on which they would have
 /// lost an answer is as near as rounding.
 pub const BESIDE: f64 = 1e-7;
-/// A chart does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
+/// A case does not run where a denominator is below this share of its scale: a factor of degree two in the distance from its
 /// stratum is as small as the square of what rounding leaves of that distance. Wrong candidates are measured and dropped.
 pub const TINY: f64 = 1e-30;
 /// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
@@ -84,14 +84,14 @@ pub const POLISHED: f64 = 1e-15;
 /// Where the equations hold within [`ROUNDING`], a Newton step that moves no joint by more than this (rad, or relative to the length scale)
 /// is the last: what is left is rounding. Next to a double root steps are longer.
 pub const SHORT: f64 = 1e-9;
-/// A member of a family that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
+/// A member of a self-motion that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
 /// blocks before, is polished with its free joints held: what stands beside it is told from it by rounding alone.
 pub const ADRIFT: f64 = 1e-7;
-/// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a family.
+/// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a self-motion.
 pub const ASIDE: f64 = 0.1;
 /// A pivot of a Jacobian's triangle that is this share of the largest or less is but rounding.
 pub const SINGULAR: f64 = 1e-13;
-/// Where each pivot is more than this share of the largest, an answer is no member of a family.
+/// Where each pivot is more than this share of the largest, an answer is no member of a self-motion.
 pub const REGULAR: f64 = 1e-6;
 /// Where each pivot is more than this share of the largest, an answer that holds within [`ROUNDING`] is a root of its own: rounding moves its
 /// joints by far less than the distance to another.
@@ -108,8 +108,8 @@ pub const APART: f64 = 0.7;
 pub const FARTHER: f64 = 16.0;
 /// The farthest of them.
 pub const FARTHEST: f64 = 256.0;
-/// An isolated answer that a candidate for a member of a family has led to must hold within this share: all along what is next to a
-/// family the equations are missed by little.
+/// An isolated answer that a candidate for a member of a self-motion has led to must hold within this share: all along what is next to a
+/// self-motion the equations are missed by little.
 pub const ALONE: f64 = 1e-13;
 /// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
 pub const LEVER: f64 = 0.1;
@@ -136,9 +136,9 @@ pub const INVERSIONS: usize = 3;
 /// Half-way between two answers next to each other that are one the equations hold within this share, which is hardly more than rounding
 /// leaves of an answer; between two that are not they need not miss by much more.
 pub const ALIKE: f64 = 2.5e-15;
-/// A family that is followed to where another's member has its free joints is that other family when the joints come this near.
+/// A self-motion that is followed to where another's member has its free joints is that other self-motion when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
-/// In how many stages a family is followed from one member to another.
+/// In how many stages a self-motion is followed from one member to another.
 pub const STAGES: usize = 4;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;

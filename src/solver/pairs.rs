@@ -58,7 +58,7 @@ impl Program {
     /// measure candidates then without their angles.
     pub(crate) fn compares_tip(&self) -> bool {
         let is_angle = |value| matches!(value, JointValue::Angle { .. });
-        let mut steps = self.charts().flat_map(|chart| &chart.steps);
+        let mut steps = self.cases().flat_map(|case| &case.steps);
         let Some(forward) = self.forward().filter(|forward| !forward.inputs.is_empty()) else { return false };
         let values: Option<Vec<Operand>> = forward.equations.iter().map(|pair| pair.map(|(value, _)| value)).collect();
         self.joints.iter().any(|joint| is_angle(joint.value))

@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::about::About;
+use super::eigenvalue::{ROOM, SixAxes};
 use super::instruction::{Instruction, Operand};
 use super::rule::ParameterRule;
-use super::template::{ROOM, SixAxes};
-use crate::{Error, ErrorKind, Result};
+use crate::Result;
+use crate::document::JsonFormat;
 
 /// The unit of an input or joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,7 +79,7 @@ pub enum Condition {
     Unit(usize),
 }
 
-/// When a chart runs: its factor is near zero (a stratum) or away from it (a denominator).
+/// When a case runs: its factor is near zero (a stratum) or away from it (a denominator).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Guard {
     /// The factor as text, for people.
@@ -91,7 +92,7 @@ pub struct Guard {
     pub near: bool,
 }
 
-/// A step of a chart.
+/// A step of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Step {
@@ -117,7 +118,7 @@ pub enum Step {
         typical: Option<Operand>,
     },
     /// A free joint is put at each of these values (rad, or the program's length unit) in turn; the steps behind run once for
-    /// each. All are members of one family: they have the same branch number.
+    /// each. All are members of one self-motion: they have the same branch number.
     Sample {
         /// How the joint's value follows from the unknowns that are set here.
         joint: JointValue,
@@ -128,33 +129,33 @@ pub enum Step {
     SixAxes(Box<SixAxes>),
 }
 
-/// A chart's claim to be the best conditioned of its group.
+/// A case's claim to be the best conditioned of its group.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pivot {
-    /// Charts of one block with the same number are a group: of those whose guards hold only one runs.
+    /// Cases of one block with the same number are a group: of those whose guards hold only one runs.
     pub group: usize,
     /// It is the one whose value has the greatest magnitude; the first of equals.
     pub value: Operand,
 }
 
-/// One way to a block's unknowns, valid where its guards hold. All charts that apply are run and their answers united.
+/// One way to a block's unknowns, valid where its guards hold. All cases that apply are run and their answers united.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Chart {
+pub struct Case {
     /// What it is, for people: `generic`, `pz = 0`, ...
     pub label: String,
     /// Code of the guards and the pivot; registers count on from the block's code.
     pub guard_code: Vec<Instruction>,
     /// All must hold.
     pub guards: Vec<Guard>,
-    /// Set where only the best conditioned of several charts is to run.
+    /// Set where only the best conditioned of several cases is to run.
     pub pivot: Option<Pivot>,
     /// The way, unknown by unknown.
     pub steps: Vec<Step>,
-    /// Joints (indices) that are free on this stratum: the chart gives one member of the family.
+    /// Joints (indices) that are free on this stratum: the case gives one member of the self-motion.
     pub free: Vec<usize>,
-    /// The chart is a gap: it could not be derived, and a target here is an error. It has no steps and no pivot then.
+    /// The case is a gap: it could not be derived, and a target here is an error. It has no steps and no pivot then.
     pub open: bool,
-    /// Number, within the block, of the chart's first choice of roots; the others count on from it in mixed radix.
+    /// Number, within the block, of the case's first choice of roots; the others count on from it in mixed radix.
     pub first_branch: usize,
 }
 
@@ -163,10 +164,10 @@ pub struct Chart {
 pub struct Block {
     /// What it finds, for people: `KneePitch`, ...
     pub label: String,
-    /// Code that runs once on entry, from register 0; all charts of the block read its registers.
+    /// Code that runs once on entry, from register 0; all cases of the block read its registers.
     pub code: Vec<Instruction>,
-    /// The charts; all set the same unknowns.
-    pub charts: Vec<Chart>,
+    /// The cases; all set the same unknowns.
+    pub cases: Vec<Case>,
 }
 
 /// The equations and their derivatives by the joints, to measure and polish each answer.
@@ -216,10 +217,10 @@ pub struct Preference {
 /// The derived solver of one mechanism and task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Program {
+    /// [`Program::FORMAT`]: the form of its JSON.
+    pub format: u32,
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,
-    /// The version of groebot that derived it.
-    pub version: String,
     /// What is known of its source.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
@@ -257,14 +258,20 @@ fn is_false(value: &bool) -> bool {
     !value
 }
 
+const FORMAT: JsonFormat =
+    JsonFormat { what: "program", number: Program::FORMAT, renew: "`groebot derive` on its folder writes it anew" };
+
 impl Program {
+    /// The form of the JSON that is written and read.
+    pub const FORMAT: u32 = 2;
+
     /// Reads a program from JSON and validates it.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line; [`ErrorKind::BadValue`] as [`Program::validate`].
+    /// [`ErrorKind::Syntax`] with the line; [`ErrorKind::Unsupported`] for JSON of another format, such as of an older groebot, with what
+    /// makes it new; [`ErrorKind::BadValue`] as [`Program::validate`].
     pub fn from_json(text: &str) -> Result<Self> {
-        let program: Program = serde_json::from_str(text)
-            .map_err(|error| Error::new(ErrorKind::Syntax, error.to_string()).at_line(error.line()))?;
+        let program: Program = FORMAT.read(text)?;
         program.validate()?;
         Ok(program)
     }
@@ -275,31 +282,31 @@ impl Program {
         text + "\n"
     }
 
-    /// Number of root choices of `chart`: the product of its root degrees.
-    pub fn branches(chart: &Chart) -> usize {
-        if chart.open { 0 } else { chart.steps.iter().map(Step::slots).fold(1, usize::saturating_mul) }
+    /// Number of root choices of `case`: the product of its root degrees.
+    pub fn branches(case: &Case) -> usize {
+        if case.open { 0 } else { case.steps.iter().map(Step::slots).fold(1, usize::saturating_mul) }
     }
 
-    /// The charts of all blocks.
-    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        self.blocks.iter().flat_map(|block| &block.charts)
+    /// The cases of all blocks.
+    pub fn cases(&self) -> impl Iterator<Item = &Case> {
+        self.blocks.iter().flat_map(|block| &block.cases)
     }
 
-    /// The highest degree of a polynomial whose roots a chart takes; 0 without one.
+    /// The highest degree of a polynomial whose roots a case takes; 0 without one.
     pub fn degree(&self) -> usize {
-        let steps = self.charts().filter(|chart| !chart.open).flat_map(|chart| &chart.steps);
+        let steps = self.cases().filter(|case| !case.open).flat_map(|case| &case.steps);
         steps.filter(|step| matches!(step, Step::Roots { .. })).map(Step::slots).max().unwrap_or(0)
     }
 
-    /// The joints that some chart frees, ascending.
+    /// The joints that some case frees, ascending.
     pub fn freed(&self) -> impl Iterator<Item = usize> {
-        (0..self.joints.len()).filter(|joint| self.charts().any(|chart| chart.free.contains(joint)))
+        (0..self.joints.len()).filter(|joint| self.cases().any(|case| case.free.contains(joint)))
     }
 
-    /// The most solutions when in each block one chart gives all of them: the product of the blocks' largest numbers of root
+    /// The most solutions when in each block one case gives all of them: the product of the blocks' largest numbers of root
     /// choices.
     pub fn bound(&self) -> usize {
-        let largest = |block: &Block| block.charts.iter().map(Program::branches).max().unwrap_or(0);
+        let largest = |block: &Block| block.cases.iter().map(Program::branches).max().unwrap_or(0);
         self.blocks.iter().map(largest).fold(1, usize::saturating_mul)
     }
 
@@ -309,7 +316,7 @@ impl Program {
     }
 }
 
-impl Chart {
+impl Case {
     /// Whether it runs near a stratum, whatever the pivots of others, and there has been derived.
     pub(crate) fn is_of_stratum(&self) -> bool {
         !self.open && self.pivot.is_none() && self.guards.iter().any(|guard| guard.near)
@@ -333,37 +340,37 @@ pub(crate) fn square(polynomials: &[Vec<Operand>]) -> Option<Operand> {
 }
 
 impl Block {
-    /// A block whose charts get branch numbers one after the other; charts of one pivot group share theirs.
-    pub fn numbered(label: &str, code: Vec<Instruction>, mut charts: Vec<Chart>) -> Self {
+    /// A block whose cases get branch numbers one after the other; cases of one pivot group share theirs.
+    pub fn numbered(label: &str, code: Vec<Instruction>, mut cases: Vec<Case>) -> Self {
         let mut next = 0;
-        for index in 0..charts.len() {
-            let (earlier, rest) = charts.split_at_mut(index);
-            let group = |chart: &Chart| chart.pivot.map(|pivot| pivot.group);
+        for index in 0..cases.len() {
+            let (earlier, rest) = cases.split_at_mut(index);
+            let group = |case: &Case| case.pivot.map(|pivot| pivot.group);
             let own = group(&rest[0]);
-            let peer = earlier.iter().find(|chart| own.is_some() && group(chart) == own);
+            let peer = earlier.iter().find(|case| own.is_some() && group(case) == own);
             rest[0].first_branch = peer.map_or(next, |peer| peer.first_branch);
             next = next.max(rest[0].first_branch + Program::branches(&rest[0]));
         }
-        Block { label: label.to_owned(), code, charts }
+        Block { label: label.to_owned(), code, cases }
     }
 
     /// Number of branch numbers of the block, the radix of its digit in an answer's branch.
     pub fn branches(&self) -> usize {
-        let end = |chart: &Chart| chart.first_branch.saturating_add(Program::branches(chart));
-        self.charts.iter().map(end).max().unwrap_or(0).max(1)
+        let end = |case: &Case| case.first_branch.saturating_add(Program::branches(case));
+        self.cases.iter().map(end).max().unwrap_or(0).max(1)
     }
 
-    /// Registers that the block needs, those of its largest chart counted.
+    /// Registers that the block needs, those of its largest case counted.
     pub(crate) fn registers(&self) -> usize {
         let code = |step: &Step| if let Step::Compute(code) = step { code.len() } else { 0 };
-        let chart = |chart: &Chart| chart.guard_code.len() + chart.steps.iter().map(code).sum::<usize>();
-        self.code.len() + self.charts.iter().map(chart).max().unwrap_or(0)
+        let case = |case: &Case| case.guard_code.len() + case.steps.iter().map(code).sum::<usize>();
+        self.code.len() + self.cases.iter().map(case).max().unwrap_or(0)
     }
 
-    /// Whether the chart is alone or the first of its pivot group: where the group takes its turn.
-    pub(crate) fn opens_group(&self, chart: usize) -> bool {
-        let Some(pivot) = self.charts[chart].pivot else { return true };
-        !self.charts[..chart].iter().any(|other| other.pivot.is_some_and(|other| other.group == pivot.group))
+    /// Whether the case is alone or the first of its pivot group: where the group takes its turn.
+    pub(crate) fn opens_group(&self, case: usize) -> bool {
+        let Some(pivot) = self.cases[case].pivot else { return true };
+        !self.cases[..case].iter().any(|other| other.pivot.is_some_and(|other| other.group == pivot.group))
     }
 }
 

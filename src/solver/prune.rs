@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{Block, Chart, Checks, Program, Short, Step};
+use super::program::{Block, Case, Checks, Program, Short, Step};
 
 impl Program {
     /// The same program without the instructions whose results nothing reads.
@@ -56,8 +56,8 @@ impl Live {
         }
     }
 
-    fn chart(&mut self, chart: &Chart) {
-        for step in chart.steps.iter().rev() {
+    fn case(&mut self, case: &Case) {
+        for step in case.steps.iter().rev() {
             match step {
                 Step::Compute(code) => self.code(code),
                 Step::Set { value, .. } => self.read(*value),
@@ -68,12 +68,12 @@ impl Live {
                 Step::Sample { .. } => {}
             }
         }
-        for guard in &chart.guards {
+        for guard in &case.guards {
             self.read(guard.value);
             self.read(guard.scale);
         }
-        chart.pivot.iter().for_each(|pivot| self.read(pivot.value));
-        self.code(&chart.guard_code);
+        case.pivot.iter().for_each(|pivot| self.read(pivot.value));
+        self.code(&case.guard_code);
     }
 }
 
@@ -109,14 +109,14 @@ impl Numbers {
         }
     }
 
-    fn chart(&mut self, chart: &mut Chart, live: &Live) {
-        self.code(&mut chart.guard_code, live);
-        for guard in &mut chart.guards {
+    fn case(&mut self, case: &mut Case, live: &Live) {
+        self.code(&mut case.guard_code, live);
+        for guard in &mut case.guards {
             self.operand(&mut guard.value);
             self.operand(&mut guard.scale);
         }
-        chart.pivot.iter_mut().for_each(|pivot| self.operand(&mut pivot.value));
-        for step in &mut chart.steps {
+        case.pivot.iter_mut().for_each(|pivot| self.operand(&mut pivot.value));
+        for step in &mut case.steps {
             match step {
                 Step::Compute(code) => self.code(code, live),
                 Step::Set { value, .. } => self.operand(value),
@@ -133,18 +133,18 @@ impl Numbers {
                 Step::Sample { .. } => {}
             }
         }
-        chart.steps.retain(|step| !matches!(step, Step::Compute(code) if code.is_empty()));
+        case.steps.retain(|step| !matches!(step, Step::Compute(code) if code.is_empty()));
     }
 }
 
 fn prune_block(block: &mut Block) {
     let mut all = Live::default();
     let lives: Vec<Live> = block
-        .charts
+        .cases
         .iter()
-        .map(|chart| {
+        .map(|case| {
             let mut live = Live::default();
-            live.chart(chart);
+            live.case(case);
             all.0.extend(&live.0);
             live
         })
@@ -152,8 +152,8 @@ fn prune_block(block: &mut Block) {
     all.code(&block.code);
     let mut numbers = Numbers::default();
     numbers.code(&mut block.code, &all);
-    for (chart, live) in block.charts.iter_mut().zip(&lives) {
-        numbers.clone().chart(chart, live);
+    for (case, live) in block.cases.iter_mut().zip(&lives) {
+        numbers.clone().case(case, live);
     }
 }
 

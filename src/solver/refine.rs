@@ -161,7 +161,7 @@ fn returned(
 }
 
 /// A Newton step, or a part of it, and behind it damped steps back to where the equations nearly hold, until they hold within `enough`.
-/// Next to a family the miss hardly changes along a bent way, and rises on each straight one: the watchdog technique (Chamberlain,
+/// Next to a self-motion the miss hardly changes along a bent way, and rises on each straight one: the watchdog technique (Chamberlain,
 /// Powell, Lemarechal, Pedersen 1982).
 fn leap(
     program: &Program,

@@ -1,7 +1,7 @@
 //! The check that a program is well formed: [`Program::validate`].
 
 use super::instruction::{Instruction, Operand};
-use super::program::{Block, Chart, Checks, Condition, JointValue, Program, Short, Step};
+use super::program::{Block, Case, Checks, Condition, JointValue, Program, Short, Step};
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
 use crate::{Error, ErrorKind, Result, roots};
@@ -31,7 +31,7 @@ impl Program {
         context.checks(&self.checks)?;
         let branches = self.blocks.iter().map(Block::branches).try_fold(1usize, usize::checked_mul);
         ensure(branches.is_some_and(|branches| branches <= MOST_BRANCHES), "too many branches")?;
-        let least = usize::from(self.charts().any(|chart| !chart.open));
+        let least = usize::from(self.cases().any(|case| !case.open));
         ensure(self.isolated != Some(0), "isolated: at least 1 is allowed")?;
         ensure((least..=MOST_ANSWERS).contains(&self.capacity), "capacity: 1 to 4096 is allowed")
     }
@@ -142,8 +142,8 @@ impl Context<'_> {
         self.unknowns = vec![false; self.program.unknowns.len()];
         for block in blocks {
             self.block(block)?;
-            let ends = !block.charts.iter().any(|chart| !chart.open);
-            ensure(!ends || blocks.len() == 1, &format!("block `{}` has no chart that goes on", block.label))?;
+            let ends = !block.cases.iter().any(|case| !case.open);
+            ensure(!ends || blocks.len() == 1, &format!("block `{}` has no case that goes on", block.label))?;
             if ends {
                 return Ok(());
             }
@@ -156,13 +156,13 @@ impl Context<'_> {
         self.code(&block.code, &format!("block `{}`", block.label))?;
         let (entry, shared) = (self.unknowns.clone(), self.registers);
         let mut after: Option<Vec<bool>> = None;
-        for chart in &block.charts {
+        for case in &block.cases {
             (self.unknowns, self.registers) = (entry.clone(), shared);
-            self.chart(chart)?;
-            if !chart.open {
+            self.case(case)?;
+            if !case.open {
                 let alike = after.get_or_insert_with(|| self.unknowns.clone()) == &self.unknowns;
                 let text =
-                    || format!("chart `{}` does not set what the other charts of `{}` set", chart.label, block.label);
+                    || format!("case `{}` does not set what the other cases of `{}` set", case.label, block.label);
                 ensure(alike, &text())?;
             }
         }
@@ -170,21 +170,21 @@ impl Context<'_> {
         Ok(())
     }
 
-    fn chart(&mut self, chart: &Chart) -> Result<()> {
-        let place = format!("chart `{}`", chart.label);
-        self.code(&chart.guard_code, &place)?;
-        for guard in &chart.guards {
+    fn case(&mut self, case: &Case) -> Result<()> {
+        let place = format!("case `{}`", case.label);
+        self.code(&case.guard_code, &place)?;
+        for guard in &case.guards {
             self.operand(guard.value, &place)?;
             self.operand(guard.scale, &place)?;
         }
-        if let Some(pivot) = &chart.pivot {
+        if let Some(pivot) = &case.pivot {
             self.operand(pivot.value, &place)?;
         }
-        let bare = chart.steps.is_empty() && chart.pivot.is_none();
-        ensure(!chart.open || bare, &format!("{place}: an open chart has steps or a pivot"))?;
-        ensure(chart.free.iter().all(|&joint| joint < self.program.joints.len()), &place)?;
-        ensure(chart.first_branch < MOST_BRANCHES, &place)?;
-        chart.steps.iter().try_for_each(|step| self.step(step, &place))
+        let bare = case.steps.is_empty() && case.pivot.is_none();
+        ensure(!case.open || bare, &format!("{place}: an open case has steps or a pivot"))?;
+        ensure(case.free.iter().all(|&joint| joint < self.program.joints.len()), &place)?;
+        ensure(case.first_branch < MOST_BRANCHES, &place)?;
+        case.steps.iter().try_for_each(|step| self.step(step, &place))
     }
 
     fn step(&mut self, step: &Step, place: &str) -> Result<()> {

@@ -1,12 +1,12 @@
-//! The walk through a program's blocks: every chart that applies, every root, every sample.
+//! The walk through a program's blocks: every case that applies, every root, every sample.
 
 use smallvec::SmallVec;
 
 use super::answers::Answers;
+use super::eigenvalue::SixAxes;
 use super::frame::Frame;
 use super::instruction::Operand;
-use super::program::{Block, Chart, JointValue, Program, Step, square};
-use super::template::SixAxes;
+use super::program::{Block, Case, JointValue, Program, Step, square};
 use super::{BESIDE, GRAZING, MAX_JOINTS, MEETING, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
@@ -18,13 +18,13 @@ type Coefficients = SmallVec<[f64; roots::MAX_DEGREE + 1]>;
 pub(super) struct Path {
     /// The branch number as far as it is known, in mixed radix over the blocks.
     pub branch: usize,
-    /// The end of the branch numbers of the first block's chart.
+    /// The end of the branch numbers of the first block's case.
     pub last: usize,
-    /// The choice of roots in the running chart, in mixed radix over its root steps.
+    /// The choice of roots in the running case, in mixed radix over its root steps.
     choice: usize,
     /// Whether roots on the way are so near one another that rounding moves them.
     pub close: bool,
-    /// By joint: whether a chart on the way leaves it free.
+    /// By joint: whether a case on the way leaves it free.
     pub free: [bool; MAX_JOINTS],
 }
 
@@ -75,48 +75,48 @@ impl<'a> Walk<'a> {
         let outer = std::mem::replace(&mut self.frame.base, self.places[index].base);
         self.frame.run(&block.code);
         let before = self.answers.candidates;
-        for first in (0..block.charts.len()).filter(|&chart| block.opens_group(chart)) {
-            if let Some(chart) = self.elect(&block.charts, first, before) {
-                self.chart(index, chart, path)?;
+        for first in (0..block.cases.len()).filter(|&case| block.opens_group(case)) {
+            if let Some(case) = self.elect(&block.cases, first, before) {
+                self.case(index, case, path)?;
             }
         }
         self.frame.base = outer;
         Ok(())
     }
 
-    /// The chart with index `first` if its guards hold, or the best of its pivot group; its guards' code has run last. There were
+    /// The case with index `first` if its guards hold, or the best of its pivot group; its guards' code has run last. There were
     /// so many candidates `before` the block.
-    fn elect(&mut self, charts: &'a [Chart], first: usize, before: usize) -> Option<&'a Chart> {
-        let Some(pivot) = charts[first].pivot else {
-            let narrows = charts[first].is_of_stratum() && self.answers.suffice_since(before);
-            return self.applies(&charts[first], if narrows { BESIDE } else { NEAR }).then_some(&charts[first]);
+    fn elect(&mut self, cases: &'a [Case], first: usize, before: usize) -> Option<&'a Case> {
+        let Some(pivot) = cases[first].pivot else {
+            let narrows = cases[first].is_of_stratum() && self.answers.suffice_since(before);
+            return self.applies(&cases[first], if narrows { BESIDE } else { NEAR }).then_some(&cases[first]);
         };
         let (mut greatest, mut elected) = (-1.0, None);
-        for chart in &charts[first..] {
-            let Some(claim) = chart.pivot.filter(|claim| claim.group == pivot.group) else { continue };
-            if self.applies(chart, NEAR) && self.frame.value(claim.value).abs() > greatest {
-                (greatest, elected) = (self.frame.value(claim.value).abs(), Some(chart));
+        for case in &cases[first..] {
+            let Some(claim) = case.pivot.filter(|claim| claim.group == pivot.group) else { continue };
+            if self.applies(case, NEAR) && self.frame.value(claim.value).abs() > greatest {
+                (greatest, elected) = (self.frame.value(claim.value).abs(), Some(case));
             }
         }
-        elected.inspect(|chart| self.frame.run(&chart.guard_code))
+        elected.inspect(|case| self.frame.run(&case.guard_code))
     }
 
-    fn applies(&mut self, chart: &Chart, near: f64) -> bool {
-        self.frame.run(&chart.guard_code);
-        chart.guards.iter().all(|guard| self.frame.holds(guard, near))
+    fn applies(&mut self, case: &Case, near: f64) -> bool {
+        self.frame.run(&case.guard_code);
+        case.guards.iter().all(|guard| self.frame.holds(guard, near))
     }
 
-    fn chart(&mut self, block: usize, chart: &Chart, mut path: Path) -> Result<()> {
-        if chart.open {
-            let text = format!("the target lies on `{}`, a stratum that could not be derived", chart.label);
+    fn case(&mut self, block: usize, case: &Case, mut path: Path) -> Result<()> {
+        if case.open {
+            let text = format!("the target lies on `{}`, a stratum that could not be derived", case.label);
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let radix = self.places[block].radix;
-        path.last = if block == 0 { chart.first_branch + Program::branches(chart) } else { path.last * radix };
-        path.branch = path.branch * radix + chart.first_branch;
+        path.last = if block == 0 { case.first_branch + Program::branches(case) } else { path.last * radix };
+        path.branch = path.branch * radix + case.first_branch;
         path.choice = 0;
-        chart.free.iter().for_each(|&joint| path.free[joint] = true);
-        self.steps(block, &chart.steps, path)
+        case.free.iter().for_each(|&joint| path.free[joint] = true);
+        self.steps(block, &case.steps, path)
     }
 
     /// Runs the steps, once for each choice of roots and samples, and then the next block.

@@ -192,7 +192,7 @@ impl<'a> Check<'a> {
         self.model.distance(target, q, &Self::member(answer, q))
     }
 
-    /// Whether `q` is `answer`, or a member of the family that it stands for.
+    /// Whether `q` is `answer`, or a member of the self-motion that it stands for.
     fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
         if answer.free.is_empty() {
             return self.model.matches(target, q, &answer.q);
@@ -201,7 +201,7 @@ impl<'a> Check<'a> {
         if self.model.misfit(target, &member) <= RESIDUAL {
             return self.model.matches(target, q, &member);
         }
-        // The other joints move with the free ones: all that is known without solving is that `q` lies on some family.
+        // The other joints move with the free ones: all that is known without solving is that `q` lies on some self-motion.
         self.model.sigma(target, q) <= SINGULAR
     }
 

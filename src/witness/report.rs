@@ -41,12 +41,12 @@ pub enum Fault {
     Range,
     /// Two answers are the same.
     Duplicate,
-    /// There are more answers than the program's largest chart has branches.
+    /// There are more answers than the program's largest case has branches.
     Bound,
     /// A joint is called free where the Jacobian is regular.
     Free,
-    /// The joint values that made the target belong to a family of solutions, and no answer with a free joint stands for it.
-    Family,
+    /// The joint values that made the target belong to a self-motion, and no answer with a free joint stands for it.
+    SelfMotion,
     /// The number of answers differs from the exact number of real solutions.
     Count,
     /// The answers differ from those of the screw solver.
@@ -271,7 +271,7 @@ impl fmt::Display for Fault {
             Fault::Duplicate => "duplicate",
             Fault::Bound => "bound",
             Fault::Free => "free",
-            Fault::Family => "family",
+            Fault::SelfMotion => "self-motion",
             Fault::Count => "count",
             Fault::Screw => "screw",
             Fault::Oracle => "oracle",
@@ -289,7 +289,7 @@ impl Fault {
             Fault::Duplicate => "two are the same",
             Fault::Bound => "there are more than the certified number of complex solutions",
             Fault::Free => "a joint is called free that cannot move there",
-            Fault::Family => "the target has a family of solutions, and none has a free joint that stands for it",
+            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that stands for it",
             Fault::Count => "there are not as many as exact real roots",
             Fault::Screw => "the screw solver (Paden-Kahan) has others",
             Fault::Oracle => "damped least squares from many seeds has others",

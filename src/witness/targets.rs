@@ -254,7 +254,7 @@ fn offset(turn: usize) -> (f64, String) {
     (sign * 10.0_f64.powi(-(k as i32)), format!("{text}1e-{k}"))
 }
 
-/// Every factor of a guard by itself, and those that vanish together on a chart. Factors that mention what is no parameter of
+/// Every factor of a guard by itself, and those that vanish together on a case. Factors that mention what is no parameter of
 /// the system (a symbol that a stratum introduced) are left out.
 fn strata(model: &Model<'_>, program: &Program) -> Vec<(String, Vec<Expression>)> {
     let known = |factor: &Expression| {
@@ -271,9 +271,9 @@ fn strata(model: &Model<'_>, program: &Program) -> Vec<(String, Vec<Expression>)
             found.push((label, factors));
         }
     };
-    for chart in program.charts() {
-        chart.guards.iter().for_each(|guard| add(vec![&guard.text]));
-        add(chart.guards.iter().filter(|guard| guard.near).map(|guard| guard.text.as_str()).collect());
+    for case in program.cases() {
+        case.guards.iter().for_each(|guard| add(vec![&guard.text]));
+        add(case.guards.iter().filter(|guard| guard.near).map(|guard| guard.text.as_str()).collect());
     }
     found
 }

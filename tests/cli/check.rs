@@ -65,10 +65,10 @@ fn a_changed_stage_names_the_file_and_its_line() {
     for (name, mark, from, to) in [
         ("3_basis.txt", "generic", "px", "py"),
         ("4_triangular.txt", "generic", "px", "py"),
-        ("5_program.json", "\"charts\"", "58841", "58842"),
+        ("5_program.json", "\"cases\"", "58841", "58842"),
         ("5_program.json", "\"capacity\"", "2", "3"),
-        ("5_solver.c", "chart_1", "58841", "58842"),
-        ("5_solver.rs", "chart_1", "58841", "58842"),
+        ("5_solver.c", "case_1", "58841", "58842"),
+        ("5_solver.rs", "case_1", "58841", "58842"),
         ("6_check.csv", "far,", "pass", "fail"),
         ("6_check.csv", "boundary,", "2,2,2", "2,1,2"),
     ] {

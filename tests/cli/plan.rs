@@ -24,7 +24,7 @@ fn the_plan_of_the_thesis_for_puma() {
 }
 
 #[test]
-fn a_file_or_a_limb_of_a_urdf() {
+fn a_file_or_a_chain_of_a_urdf() {
     let leg = root("derivations/nao_leg_sagittal");
     assert!(succeed(&["plan", text(&leg)]).contains("PG4 for theta1, theta2"));
     let robot = root("tests/corpus/urdf/ur5.urdf");

@@ -1,7 +1,7 @@
 //! Writing programs by hand: operands as expressions, and the smallest parts of a program.
 
 use groebot::solver::{
-    Block, Chart, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, Unit,
+    Block, Case, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, Unit,
 };
 
 /// Code under construction.
@@ -109,9 +109,9 @@ pub fn away(text: &str, value: Operand, scale: Operand) -> Guard {
     Guard { text: text.into(), value, scale, near: false }
 }
 
-/// Charts that number their branches themselves, as one block.
-pub fn one_block(charts: Vec<Chart>) -> Vec<Block> {
-    vec![Block { label: "all".into(), code: vec![], charts }]
+/// Cases that number their branches themselves, as one block.
+pub fn one_block(cases: Vec<Case>) -> Vec<Block> {
+    vec![Block { label: "all".into(), code: vec![], cases }]
 }
 
 /// A root step of an unknown of usual size.

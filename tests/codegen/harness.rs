@@ -20,7 +20,7 @@ pub struct Report {
     /// Answers of the evaluator.
     pub answers: usize,
     /// Those of them with a free joint.
-    pub families: usize,
+    pub self_motions: usize,
     /// Targets that are an error.
     pub refused: usize,
     /// The largest difference of a joint value in any language.
@@ -40,7 +40,7 @@ pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
         match solution {
             Ok(answers) => {
                 report.answers += answers.len();
-                report.families += answers.iter().filter(|answer| !answer.free.is_empty()).count();
+                report.self_motions += answers.iter().filter(|answer| !answer.free.is_empty()).count();
             }
             Err(_) => report.refused += 1,
         }

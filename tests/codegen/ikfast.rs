@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use groebot::codegen::ikfast::{Options, emit};
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::Chain;
 use groebot::solver::{Program, Unit};
 use groebot::{ErrorKind, Watch};

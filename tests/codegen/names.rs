@@ -6,7 +6,7 @@ use super::builder::*;
 use super::harness::compare;
 use super::samples::{pan_tilt, quartic, wrist};
 use groebot::codegen;
-use groebot::solver::{Chart, Checks, Joint, JointValue, Program, Rule, Step, Unit};
+use groebot::solver::{Case, Checks, Joint, JointValue, Program, Rule, Step, Unit};
 
 /// Every word of a printed file, comments included.
 fn words(text: &str) -> BTreeSet<String> {
@@ -34,12 +34,12 @@ fn named(names: &[String]) -> Program {
         .collect();
     steps.push(Step::Compute(vec![]));
     let (label, guards) = ("all".into(), vec![away("1", constant(1.0), constant(1.0))]);
-    let chart =
-        Chart { label, guard_code: vec![], guards, steps, pivot: None, free: vec![], open: false, first_branch: 0 };
+    let case =
+        Case { label, guard_code: vec![], guards, steps, pivot: None, free: vec![], open: false, first_branch: 0 };
     let joint = Joint { name: "t".into(), unit: Unit::One, value: JointValue::Plain(count) };
     Program {
         name: "names".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: vec![input("a", Unit::One)],
         parameters: names.iter().map(|name| rule(name, Rule::Input(0))).collect(),
@@ -47,7 +47,7 @@ fn named(names: &[String]) -> Program {
         joints: vec![joint],
         scale: 1.0,
         conditions: vec![],
-        blocks: one_block(vec![chart]),
+        blocks: one_block(vec![case]),
         checks,
         preference: None,
         capacity: 1,

@@ -38,7 +38,7 @@ fn printed_eigenvalue_problems_answer_like_the_program() {
     }
 }
 
-/// Next to families too, where walks along curves find the answers: the targets of the derivation's check.
+/// Next to self-motions too, where walks along curves find the answers: the targets of the derivation's check.
 #[test]
 fn printed_walks_along_curves_answer_like_the_program() {
     for stored in named(&["jaco_like", "general_5r1p"]) {

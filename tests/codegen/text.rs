@@ -4,7 +4,7 @@ use super::builder::{one_block, roots};
 use super::harness::executables;
 use super::samples::{arm, leg, polar, quartic};
 use groebot::codegen::{c99, rust};
-use groebot::solver::{Chart, Program, Step};
+use groebot::solver::{Case, Program, Step};
 
 #[test]
 fn the_head_names_mechanism_inputs_joints_capacity_version_and_tolerances() {
@@ -64,17 +64,17 @@ fn compiles(program: &Program) {
 #[test]
 fn programs_at_the_edges_compile_without_a_warning() {
     let whole = arm::program();
-    let part = |charts: Vec<Chart>, capacity: usize| Program { blocks: one_block(charts), capacity, ..whole.clone() };
-    let charts = &whole.blocks[0].charts;
+    let part = |cases: Vec<Case>, capacity: usize| Program { blocks: one_block(cases), capacity, ..whole.clone() };
+    let cases = &whole.blocks[0].cases;
     let empty = part(vec![], 0);
-    let open = part(vec![charts[2].clone()], 0);
-    let family = part(vec![charts[0].clone()], 2);
+    let open = part(vec![cases[2].clone()], 0);
+    let self_motion = part(vec![cases[0].clone()], 2);
     let line = quartic::program();
-    let steps = line.blocks[0].charts[0].steps.iter().map(|step| match step {
+    let steps = line.blocks[0].cases[0].steps.iter().map(|step| match step {
         Step::Roots { unknown, polynomials, .. } => roots(*unknown, vec![polynomials[2][..2].to_vec()]),
         other => other.clone(),
     });
-    let chart = Chart { steps: steps.collect(), ..line.blocks[0].charts[0].clone() };
-    let linear = Program { blocks: one_block(vec![chart]), capacity: 1, ..line };
-    [empty, open, family, linear].iter().for_each(compiles);
+    let case = Case { steps: steps.collect(), ..line.blocks[0].cases[0].clone() };
+    let linear = Program { blocks: one_block(vec![case]), capacity: 1, ..line };
+    [empty, open, self_motion, linear].iter().for_each(compiles);
 }

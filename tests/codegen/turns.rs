@@ -222,9 +222,9 @@ fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
     }
 }
 
-/// Where a joint of the wrist is free, a member of the family is found within limits that the listed one is not within.
+/// Where a joint of the wrist is free, a member of the self-motion is found within limits that the listed one is not within.
 #[test]
-fn families_reach_into_limits() {
+fn self_motions_reach_into_limits() {
     for (name, q, joint) in
         [("puma", [0.3, -0.4, 0.5, -0.6, PI / 2.0, -0.8], 3), ("ur5", [0.3, -0.9, 1.1, 0.4, 0.0, 0.7], 5)]
     {
@@ -232,13 +232,13 @@ fn families_reach_into_limits() {
         let folder = tempfile::tempdir().unwrap();
         let Some(executables) = executables(&program, folder.path()) else { return };
         let target = program.reached(&q).unwrap();
-        let families = program
+        let self_motions = program
             .solve_numbers(&target)
             .unwrap()
             .iter()
             .filter(|answer| answer.free == [joint] || answer.free.len() == 1)
             .count();
-        assert!(families > 0, "{name}");
+        assert!(self_motions > 0, "{name}");
         for low in [-2.9, -1.0, 0.15, 1.3, 2.6] {
             let mut limits = vec![[-TAU, TAU]; 6];
             limits[joint] = [low, low + 0.25];

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use groebot::derive::explain::{Document, Line, Part, Span, explain};
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::derive::{Ends, Proved, Source};
 use groebot::kinematics::Chain;
 use groebot::number::{BigRational, Rationals};

@@ -1,6 +1,6 @@
 //! Solvers of chains in which joints follow others: an arm with a finger whose opening is given, and a finger that is found.
 
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::{Chain, ChainParts, Joint, JointKind, Mimic, Plane, Task, Tip, along_z};
 use groebot::number::BigRational;
 use groebot::witness::Options;

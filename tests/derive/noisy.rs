@@ -1,7 +1,7 @@
 //! Robots as they come: numbers that are off by rounding, by float32, by a few decimals. The solver of the ideal robot, polished on the one
 //! described, finds the joint values that made each ordinary pose of the described one; poses come from its own exponentials.
 
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::{Chain, ExactVector};
 use groebot::number::BigRational;
 use groebot::{Watch, robots};

@@ -57,7 +57,7 @@ fn another_order_of_the_leg_has_no_such_stratum() {
     assert_eq!(searched.solved().unwrap().certified.order, ["c4", "c3", "s3", "s4"]);
     assert_basis(searched, &singular("nao_leg_inverted-lex-q_px_pz"));
     assert!(find(searched, "pz = 0").solved().unwrap().inherited);
-    assert_eq!(leg.program.charts().count(), 1, "one chart serves every target");
+    assert_eq!(leg.program.cases().count(), 1, "one case serves every target");
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn the_base_is_out_of_reach_unless_the_links_are_equal() {
 
     let symbolic = derive(symbolic_leg());
     let folded = symbolic.requested.walk().into_iter().filter_map(|node| match &node.outcome {
-        Outcome::Family(family) => Some((node.label.clone(), family.free.clone())),
+        Outcome::SelfMotion(self_motion) => Some((node.label.clone(), self_motion.free.clone())),
         _ => None,
     });
     let folded: Vec<_> = folded.collect();

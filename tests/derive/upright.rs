@@ -1,7 +1,7 @@
 //! A position with pitch and roll, whatever the yaw: the loop that stands for it closes where the arm stands, and solvers of arms whose first axis points
 //! up or down, anywhere, find what made each target.
 
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::Target;
 use groebot::kinematics::ideal::Report;
 use groebot::kinematics::{Chain, ChainParts, Task, along_z};

@@ -24,7 +24,7 @@ pub fn feet_are_where_they_should_be(walk: &Walk) {
             let miss = (reached.to_homogeneous() - sole.to_homogeneous()).amax();
             assert!(miss < 1e-9, "{sample} {prefix}: {miss}");
         }
-        assert_eq!(leg(walk, sample, "L")[0], leg(walk, sample, "R")[0], "one motor");
+        assert_eq!(leg(walk, sample, "L")[0], leg(walk, sample, "R")[0], "one actuator");
         let up = torso.rotation * nalgebra::Vector3::z();
         assert!((up.z - 1.0).abs() < 1e-12, "the torso is upright");
     }
@@ -36,7 +36,7 @@ fn forward_kinematics_puts_the_feet_on_their_prints() {
     feet_are_where_they_should_be(&walk(&request(&Regular { turn: 0.3, length: 0.02, ..regular() })).unwrap());
 }
 
-/// The solver of both legs on one motor, derived with the torso's heading as an unknown, has the walk's posture among its answers.
+/// The solver of both legs on one actuator, derived with the torso's heading as an unknown, has the walk's posture among its answers.
 #[test]
 fn turning_agrees_with_the_derived_solver_of_both_legs() {
     let text = include_str!("../../derivations/nao_legs_yaw/5_program.json");
@@ -72,7 +72,7 @@ fn turning_agrees_with_the_derived_solver_of_both_legs() {
 }
 
 #[test]
-fn csv_is_sampled_at_100_hz_with_one_motor_for_both_hips() {
+fn csv_is_sampled_at_100_hz_with_one_actuator_for_both_hips() {
     let walk = walk(&request(&regular())).unwrap();
     let written = walk.trajectory(&robot().0);
     let read = Trajectory::from_csv(&walk.to_csv(&robot().0)).unwrap();

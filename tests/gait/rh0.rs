@@ -14,7 +14,7 @@ use nalgebra::{Point3, Vector3};
 /// Four steps straight ahead.
 pub const LINE: &str = "out right, stride left, stride right, in left";
 /// 25 rpm \[rad/s\], RH0 5.3.1.
-const MOTOR: f64 = 25.0 * 2.0 * PI / 60.0;
+const ACTUATOR: f64 = 25.0 * 2.0 * PI / 60.0;
 
 pub fn walker() -> &'static (Biped, Legs) {
     static ROBOT: OnceLock<(Biped, Legs)> = OnceLock::new();
@@ -48,7 +48,7 @@ fn keeps_what_the_thesis_promises(walk: &Walk) {
         for (joint, range) in robot.joints.iter().enumerate() {
             // The knee stands at its limit while the leg is straight.
             assert!((range.limits.0 - 1e-6..=range.limits.1 + 1e-6).contains(&q[joint]), "{sample} {}", range.name);
-            assert!((q[joint] - before[joint]).abs() / walk.schedule.tick < MOTOR, "{sample} {}", range.name);
+            assert!((q[joint] - before[joint]).abs() / walk.schedule.tick < ACTUATOR, "{sample} {}", range.name);
         }
     }
 }

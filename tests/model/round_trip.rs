@@ -49,9 +49,9 @@ pub const RICH: &str = r#"<robot name="rich">
     <type>transmission_interface/SimpleTransmission</type>
     <joint name="ab"><mechanicalReduction>50</mechanicalReduction></joint>
     <joint name="bc"/>
-    <actuator name="motor"/>
+    <actuator name="actuator"/>
   </transmission>
-  <transmission name="one"><joint name="ab"/><actuator name="motor2"/></transmission>
+  <transmission name="one"><joint name="ab"/><actuator name="actuator2"/></transmission>
 </robot>"#;
 
 /// The same without what the other reader does not know.
@@ -159,7 +159,7 @@ fn what_is_wrong_with_a_mass_is_refused_and_with_a_shape_told() {
         ("ixx=\"0.1\"", "ixx=\"nan\"", "link `a`: <inertia> has `ixx` = \"nan\""),
         ("<inertial>\n", "<inertal>\n", "link `a`"),
         ("velocity=\"4.5\"", "velocity=\"fast\"", "joint `ab`: <limit> has `velocity` = \"fast\""),
-        ("<joint name=\"bc\"/>", "<joint name=\"cd\"/>", "actuator `motor`: the robot has no joint `cd`"),
+        ("<joint name=\"bc\"/>", "<joint name=\"cd\"/>", "actuator `actuator`: the robot has no joint `cd`"),
     ];
     for (from, to, words) in cases {
         let text = RICH.replacen(from, to, 1).replacen(

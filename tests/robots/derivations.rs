@@ -55,7 +55,7 @@ fn a_folder_with_the_name_of_a_robot_has_its_mechanism() {
     let mut met = 0;
     for (name, chain) in described() {
         let Some(robot) = robots::by_name(&name) else { continue };
-        // A limb's joints have the names and limits of the whole robot: `LHipYawPitch`, where the chain has `HipYawPitch`.
+        // A chain's joints have the names and limits of the whole robot: `LHipYawPitch`, where the chain has `HipYawPitch`.
         let told = |joint: &Joint, named: &Joint| Joint {
             name: if named.name.ends_with(&joint.name) { named.name.clone() } else { joint.name.clone() },
             limits: joint.limits.or(named.limits),

@@ -1,4 +1,4 @@
-//! Two programs on one motor, composed into one.
+//! Two programs on one actuator, composed into one.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -6,10 +6,10 @@ use super::assert_joints;
 use crate::codegen::builder::*;
 use crate::codegen::samples::{pan_tilt, polar};
 use groebot::ErrorKind;
-use groebot::solver::{Block, Chart, Checks, Program, Rule, Step, Unit};
+use groebot::solver::{Block, Case, Checks, Program, Rule, Step, Unit};
 
-fn chart(steps: Vec<Step>) -> Chart {
-    Chart {
+fn case(steps: Vec<Step>) -> Case {
+    Case {
         label: "generic".into(),
         guard_code: vec![],
         guards: vec![],
@@ -25,7 +25,7 @@ fn chart(steps: Vec<Step>) -> Chart {
 fn slide() -> Program {
     let mut code = Code::default();
     let d = code.mul(parameter(2), unknown(0));
-    let block = Block::numbered("d", code.take(), vec![chart(vec![Step::Set { unknown: 2, value: d }])]);
+    let block = Block::numbered("d", code.take(), vec![case(vec![Step::Set { unknown: 2, value: d }])]);
     let set = |unknown| Step::Set { unknown, value: parameter(unknown) };
     let mut code = Code::default();
     let product = code.mul(parameter(2), unknown(0));
@@ -43,7 +43,7 @@ fn slide() -> Program {
     };
     Program {
         name: "slide".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: vec![input("pan", Unit::Radian), input("x", Unit::Metre)],
         conditions: vec![],
@@ -51,7 +51,7 @@ fn slide() -> Program {
         unknowns: ["c", "s", "d"].map(String::from).to_vec(),
         joints: vec![angle("pan", 0, 1), length("slide", 2)],
         scale: 2.0,
-        blocks: vec![Block::numbered("pan", vec![], vec![chart(vec![set(0), set(1)])]), block],
+        blocks: vec![Block::numbered("pan", vec![], vec![case(vec![set(0), set(1)])]), block],
         checks,
         preference: None,
         capacity: 1,
@@ -65,7 +65,7 @@ fn both() -> Program {
 }
 
 #[test]
-fn the_shared_motor_stands_once_and_is_no_input() {
+fn the_shared_actuator_stands_once_and_is_no_input() {
     let program = both();
     let inputs: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(inputs, ["dx", "dy", "dz", "b_x"]);
@@ -95,7 +95,7 @@ fn a_free_shared_joint_stays_free() {
     assert_eq!(answers[0].free, [0]);
 }
 
-/// Two slides on one motor at one `x`.
+/// Two slides on one actuator at one `x`.
 #[test]
 fn inputs_of_one_name_are_one_input() {
     let mut next = slide().prefixed("b_");
@@ -110,7 +110,7 @@ fn inputs_of_one_name_are_one_input() {
     assert_joints(&answers[0], &[0.3, reach, reach], 1e-15);
 }
 
-/// Without a shared motor all answers of one go with all of the other.
+/// Without a shared actuator all answers of one go with all of the other.
 #[test]
 fn without_shared_joints_the_answers_are_all_pairs() {
     let program = pan_tilt::program();

@@ -48,6 +48,6 @@ fn a_file_cut_short_says_the_line() {
         let error = Program::from_json(&text[..length]).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Syntax);
     }
-    let error = Program::from_json(&text.replacen("\"blocks\"", "\"charts\"", 1)).unwrap_err();
+    let error = Program::from_json(&text.replacen("\"blocks\"", "\"cases\"", 1)).unwrap_err();
     assert!(error.message().contains("blocks"), "{error}");
 }

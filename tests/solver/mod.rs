@@ -11,7 +11,7 @@ use crate::codegen::builder::*;
 use crate::codegen::samples::{arm, pan_tilt, polar, wrist};
 use groebot::ErrorKind;
 use groebot::kinematics::Solution;
-use groebot::solver::{Block, Chart, Checks, JointValue, Pivot, Program, Rule, Step, Unit};
+use groebot::solver::{Block, Case, Checks, JointValue, Pivot, Program, Rule, Step, Unit};
 
 fn close(a: f64, b: f64, tolerance: f64) -> bool {
     let turn = 2.0 * PI;
@@ -57,7 +57,7 @@ fn the_wrist_has_two_answers_and_the_generating_joints_are_one() {
 
 /// With the middle joint straight only the sum of the others is known, whatever rounding left in the third column.
 #[test]
-fn a_straight_wrist_is_one_family() {
+fn a_straight_wrist_is_one_self_motion() {
     let program = wrist::program(false);
     for k in 0..60 {
         let q = [0.3 + f64::from(k), 0.0, 0.5 - 0.37 * f64::from(k)];
@@ -72,9 +72,9 @@ fn a_straight_wrist_is_one_family() {
     }
 }
 
-/// Next to the pole the sample `pan = 0` happens to be an answer: an isolated one, not a member of a family.
+/// Next to the pole the sample `pan = 0` happens to be an answer: an isolated one, not a member of a self-motion.
 #[test]
-fn an_isolated_answer_at_a_sample_is_no_family() {
+fn an_isolated_answer_at_a_sample_is_no_self_motion() {
     for small in [1e-4, 1e-8, 1e-10] {
         let answers = pan_tilt::program().solve_numbers(&pan_tilt::direction(0.0, FRAC_PI_2 - small)).unwrap();
         assert_eq!(answers.len(), 2, "{answers:?}");
@@ -94,7 +94,7 @@ fn close_to_a_straight_wrist_the_two_answers_are_isolated() {
     }
 }
 
-/// Both values of `x` solve `(x - 1) (x - 2) = 0`; which is shown says which chart has run. The pivots are the inputs, or their
+/// Both values of `x` solve `(x - 1) (x - 2) = 0`; which is shown says which case has run. The pivots are the inputs, or their
 /// square roots.
 fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let mut code = Code::default();
@@ -114,7 +114,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         (code.sqrt(parameter(claim)), code.take())
     };
     let claim = |claim| if by_roots { root(claim) } else { (parameter(claim), vec![]) };
-    let chart = |value: f64, index: usize| Chart {
+    let case = |value: f64, index: usize| Case {
         label: format!("x = {value}"),
         guard_code: claim(index).1,
         guards: vec![],
@@ -126,7 +126,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     };
     let program = Program {
         name: "choice".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: vec![input("a", Unit::One), input("b", Unit::One)],
         conditions: vec![],
@@ -134,7 +134,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         unknowns: vec!["x".into()],
         joints: vec![length("x", 0)],
         scale: 1.0,
-        blocks: vec![Block::numbered("x", vec![], vec![chart(1.0, 0), chart(2.0, 1)])],
+        blocks: vec![Block::numbered("x", vec![], vec![case(1.0, 0), case(2.0, 1)])],
         checks,
         preference: None,
         capacity: 1,
@@ -146,7 +146,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
 }
 
 #[test]
-fn of_a_pivot_group_the_chart_with_the_greatest_magnitude_runs_and_the_first_of_equals() {
+fn of_a_pivot_group_the_case_with_the_greatest_magnitude_runs_and_the_first_of_equals() {
     assert_eq!(choice([3.0, 2.0], false), [1.0]);
     assert_eq!(choice([3.0, -4.0], false), [2.0]);
     assert_eq!(choice([-3.0, 3.0], false), [1.0]);
@@ -161,9 +161,9 @@ fn the_square_root_of_a_negative_number_is_zero() {
 }
 
 #[test]
-fn charts_of_a_pivot_group_share_their_branch_numbers() {
+fn cases_of_a_pivot_group_share_their_branch_numbers() {
     let block = &wrist::program(true).blocks[2];
-    assert_eq!(block.charts.iter().map(|chart| chart.first_branch).collect::<Vec<_>>(), [0, 0, 1]);
+    assert_eq!(block.cases.iter().map(|case| case.first_branch).collect::<Vec<_>>(), [0, 0, 1]);
     assert_eq!(block.branches(), 1);
     assert_eq!(wrist::program(true).blocks[1].branches(), 2);
     assert_eq!(arm::program().bound(), 4);
@@ -171,7 +171,7 @@ fn charts_of_a_pivot_group_share_their_branch_numbers() {
 
 /// `R33 = 1/2`: the last block has a gap there, which no choice before it may hide.
 #[test]
-fn an_open_chart_of_a_later_block_is_an_error() {
+fn an_open_case_of_a_later_block_is_an_error() {
     let program = wrist::program(true);
     let error = program.solve_numbers(&wrist::rotation([0.2, PI / 3.0, 0.4])).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
@@ -234,7 +234,7 @@ fn programs_survive_their_json() {
 #[test]
 fn a_plain_joint_is_sampled_at_its_own_values() {
     let mut program = polar::program();
-    let steps = &mut program.blocks[0].charts[1].steps;
+    let steps = &mut program.blocks[0].cases[1].steps;
     steps[0] = Step::Sample { joint: JointValue::Plain(0), values: vec![0.25, 0.0] };
     program.validate().unwrap();
     let answers = program.solve_numbers(&[0.0, 0.3, 0.0]).unwrap();

@@ -3,7 +3,7 @@
 use crate::codegen::builder::*;
 use crate::codegen::samples::{pan_tilt, wrist};
 use groebot::ErrorKind;
-use groebot::solver::{Chart, Condition, JointValue, Operand, Program, Step};
+use groebot::solver::{Case, Condition, JointValue, Operand, Program, Step};
 
 #[track_caller]
 fn refused(change: impl Fn(&mut Program), part: &str) {
@@ -18,8 +18,8 @@ fn refused(change: impl Fn(&mut Program), part: &str) {
 #[test]
 fn unknowns_are_set_once_along_every_path() {
     refused(|program| drop(program.blocks.remove(1)), "`x3` is not defined here");
-    refused(|program| program.blocks[1].charts[0].steps.truncate(2), "chart `s2 = 0` does not set");
-    refused(|program| program.blocks[1].charts[1].steps.clear(), "chart `s2 = 0` does not set");
+    refused(|program| program.blocks[1].cases[0].steps.truncate(2), "case `s2 = 0` does not set");
+    refused(|program| program.blocks[1].cases[1].steps.clear(), "case `s2 = 0` does not set");
     refused(|program| program.blocks.swap(0, 1), "`x1` is not defined here");
     refused(
         |program| {
@@ -31,10 +31,10 @@ fn unknowns_are_set_once_along_every_path() {
 }
 
 #[test]
-fn registers_belong_to_their_block_and_chart() {
-    refused(|program| program.blocks[2].charts[0].pivot.as_mut().unwrap().value = Operand::Register(6), "`r6`");
+fn registers_belong_to_their_block_and_case() {
+    refused(|program| program.blocks[2].cases[0].pivot.as_mut().unwrap().value = Operand::Register(6), "`r6`");
     refused(
-        |program| program.blocks[0].charts[0].steps.push(Step::Set { unknown: 2, value: Operand::Register(9) }),
+        |program| program.blocks[0].cases[0].steps.push(Step::Set { unknown: 2, value: Operand::Register(9) }),
         "`r9`",
     );
     refused(|program| program.blocks[2].code.swap(0, 1), "out of order");
@@ -44,24 +44,24 @@ fn registers_belong_to_their_block_and_chart() {
 #[test]
 fn steps_have_what_they_need() {
     let sample = |values| Step::Sample { joint: JointValue::Plain(2), values };
-    refused(|program| program.blocks[1].charts[1].steps[0] = sample(vec![]), "finite values");
-    refused(|program| program.blocks[1].charts[1].steps[0] = sample(vec![f64::NAN]), "finite values");
+    refused(|program| program.blocks[1].cases[1].steps[0] = sample(vec![]), "finite values");
+    refused(|program| program.blocks[1].cases[1].steps[0] = sample(vec![f64::NAN]), "finite values");
     refused(
         |program| {
-            let Step::Roots { typical, .. } = &mut program.blocks[0].charts[0].steps[2] else { panic!() };
+            let Step::Roots { typical, .. } = &mut program.blocks[0].cases[0].steps[2] else { panic!() };
             *typical = Some(unknown(5));
         },
         "`x5`",
     );
     refused(
         |program| {
-            let Step::Roots { polynomials, .. } = &mut program.blocks[0].charts[0].steps[2] else { panic!() };
+            let Step::Roots { polynomials, .. } = &mut program.blocks[0].cases[0].steps[2] else { panic!() };
             polynomials.clear();
         },
         "no polynomial",
     );
-    refused(|program| program.blocks[2].charts[0].open = true, "open chart");
-    refused(|program| program.blocks[1].charts[1].free = vec![3], "s2 = 0");
+    refused(|program| program.blocks[2].cases[0].open = true, "open case");
+    refused(|program| program.blocks[1].cases[1].free = vec![3], "s2 = 0");
 }
 
 #[test]
@@ -69,14 +69,14 @@ fn the_whole_has_its_bounds() {
     refused(|program| program.capacity = 0, "capacity");
     refused(|program| program.capacity = 4097, "capacity");
     refused(|program| program.blocks.clear(), "blocks");
-    refused(|program| program.blocks[1].charts[0].first_branch = usize::MAX, "generic");
+    refused(|program| program.blocks[1].cases[0].first_branch = usize::MAX, "generic");
     refused(|program| program.conditions = vec![Condition::Rotation(1)], "condition");
     refused(|program| program.conditions = vec![Condition::Unit(usize::MAX)], "condition");
-    refused(|program| program.blocks[1].charts.retain(|chart| chart.open), "no chart that goes on");
+    refused(|program| program.blocks[1].cases.retain(|case| case.open), "no case that goes on");
     refused(
         |program| {
             for block in &mut program.blocks {
-                block.charts[0].first_branch = 1 << 52;
+                block.cases[0].first_branch = 1 << 52;
             }
         },
         "branches",
@@ -84,11 +84,11 @@ fn the_whole_has_its_bounds() {
 }
 
 #[test]
-fn a_single_block_may_have_open_charts_only() {
+fn a_single_block_may_have_open_cases_only() {
     let whole = pan_tilt::program();
-    let gap = Chart { steps: vec![], open: true, ..whole.blocks[0].charts[0].clone() };
+    let gap = Case { steps: vec![], open: true, ..whole.blocks[0].cases[0].clone() };
     let mut block = whole.blocks[0].clone();
-    block.charts = vec![gap];
+    block.cases = vec![gap];
     let program = Program { blocks: vec![block], capacity: 0, ..whole };
     program.validate().unwrap();
     assert_eq!(program.solve_numbers(&[0.6, 0.0, 0.8]).unwrap_err().kind(), ErrorKind::Unsupported);

@@ -186,18 +186,18 @@ fn damaged_answers_are_found() {
 
 /// PUMA's straight wrist: joints 4 and 6 turn about one line, their sum counts.
 #[test]
-fn a_family_must_be_told() {
+fn a_self_motion_must_be_told() {
     let chain = robots::puma();
     let screws = ByScrews::new(&chain).unwrap();
     let silent = Changed { solver: &screws, change: |answers| answers.iter_mut().for_each(|a| a.free.clear()) };
     let options = Options { targets: 200, oracle: 0, exact: 0, seed: 1 };
     let faults = |report: &Report| {
         let failed =
-            |row: &&groebot::witness::Row| matches!(&row.verdict, Verdict::Fail(f) if f.contains(&Fault::Family));
+            |row: &&groebot::witness::Row| matches!(&row.verdict, Verdict::Fail(f) if f.contains(&Fault::SelfMotion));
         report.rows.iter().filter(|row| row.kind == Kind::Singular).filter(failed).count()
     };
     let (told, untold) = (faults(&run(&chain, &screws, None, options)), faults(&run(&chain, &silent, None, options)));
-    assert!(untold > told + 5, "{told} families without a word when they are told, {untold} when they are not");
+    assert!(untold > told + 5, "{told} self-motions without a word when they are told, {untold} when they are not");
 }
 
 /// Counts from two other sources: screw theory's answers, for robots whose solutions are known to be real and complete there.

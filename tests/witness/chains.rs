@@ -42,7 +42,7 @@ fn a_report_has_all_kinds_of_rows_and_the_same_bytes_every_time() {
 }
 
 #[test]
-fn equal_lengths_pass_with_the_family_at_the_base() {
+fn equal_lengths_pass_with_the_self_motion_at_the_base() {
     let source = from_text(&two_link_text("100", "200"));
     let report = assert_passes(&source, &derive(&source).program, 150);
     let at_base = report.rows.iter().filter(|row| row.target == [0.0, 0.0]);
@@ -132,7 +132,7 @@ fn a_planar_pose_of_three_joints_passes() {
     let source = from_text(THREE);
     let start = std::time::Instant::now();
     let program = derive(&source).program;
-    println!("derived in {:?}, {} charts", start.elapsed(), program.charts().count());
+    println!("derived in {:?}, {} cases", start.elapsed(), program.cases().count());
     let report = assert_passes(&source, &program, 100);
     println!("{}", report.summary());
     assert_eq!(report.summary().exact, 0, "a cosine of a double is not rational");
@@ -164,27 +164,27 @@ fn faults(verdict: &Verdict) -> Vec<Fault> {
     }
 }
 
-/// The program without one of its charts.
-fn without(program: &Program, chart: usize) -> Program {
+/// The program without one of its cases.
+fn without(program: &Program, case: usize) -> Program {
     let mut program = program.clone();
-    program.blocks[0].charts.remove(chart);
-    program.capacity = program.charts().map(Program::branches).sum();
+    program.blocks[0].cases.remove(case);
+    program.capacity = program.cases().map(Program::branches).sum();
     program
 }
 
 #[test]
-fn a_chart_that_is_left_out_is_missed() {
+fn a_case_that_is_left_out_is_missed() {
     let seed = read("nao_leg_sagittal");
     let equal = from_text(&two_link_text("100", "200"));
     let requested = compile(&seed.system.clone().unwrap(), &derive(&seed).requested).unwrap();
-    let labels: Vec<&str> = requested.charts().map(|chart| chart.label.as_str()).collect();
+    let labels: Vec<&str> = requested.cases().map(|case| case.label.as_str()).collect();
     assert!(labels.contains(&"pz = 0"), "{labels:?}");
     for (source, program) in [(&seed, requested), (&equal, derive(&equal).program)] {
-        for (index, chart) in program.charts().enumerate() {
-            println!("{}: {}", source.system.clone().unwrap().name, chart.label);
+        for (index, case) in program.cases().enumerate() {
+            println!("{}: {}", source.system.clone().unwrap().name, case.label);
             let report = check(source, &without(&program, index), 150);
             let missed = report.failures().filter(|row| faults(&row.verdict).contains(&Fault::Missing)).count();
-            assert!(missed > 0, "nobody misses the chart `{}`", chart.label);
+            assert!(missed > 0, "nobody misses the case `{}`", case.label);
         }
     }
 }
@@ -193,8 +193,8 @@ fn a_chart_that_is_left_out_is_missed() {
 fn a_lost_root_is_found() {
     let source = read("nao_leg_sagittal");
     let mut program = derive(&source).program;
-    for chart in &mut program.blocks[0].charts {
-        for step in &mut chart.steps {
+    for case in &mut program.blocks[0].cases {
+        for step in &mut case.steps {
             if let Step::Roots { polynomials, .. } = step {
                 // Without its highest coefficient a quadratic keeps one root, and a wrong one.
                 for coefficients in polynomials {
@@ -203,7 +203,7 @@ fn a_lost_root_is_found() {
             }
         }
     }
-    program.capacity = program.charts().map(Program::branches).sum();
+    program.capacity = program.cases().map(Program::branches).sum();
     assert!(check(&source, &program, 20).failures().count() > 10);
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use groebot::Watch;
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::robots;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};

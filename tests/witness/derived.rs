@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::derive::{Ends, InputFile, Proved};
 use groebot::kinematics::{Chain, Solution};
 use groebot::witness::chain::{ByScrews, Check, Solver};
@@ -23,7 +23,7 @@ use super::read;
 /// made exact first.
 const OTHER_WAYS: [&str; 3] = ["irb4600_rounded", "nao_arm_planar", "nao_leg_sagittal"];
 
-/// Folders of chains that have no order of joints: `tests/template`.
+/// Folders of chains that have no order of joints: `tests/eigenvalue`.
 const TOGETHER: [&str; 9] = [
     "booster_leg_like",
     "crx_like",
@@ -112,9 +112,9 @@ fn named(name: &str) -> (Chain, Derived) {
 }
 
 /// The hip's yaw is free where one ankle pitch brings the roll to a right angle; a tenth of a radian from it the other ankle pitch gives
-/// isolated answers. As many as by screws, and with the joints that made the target as a family.
+/// isolated answers. As many as by screws, and with the joints that made the target as a self-motion.
 #[test]
-fn a_family_leaves_the_isolated_answers_next_to_it() {
+fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
     let (chain, derived) = named("teo_leg");
     let screws = ByScrews::new(&chain).unwrap();
     let straight = [-1.7449671303623484, -FRAC_PI_2, 1.6596867378555082, PI, 1.04472323442393, 2.0882958610197297];
@@ -130,11 +130,11 @@ fn a_family_leaves_the_isolated_answers_next_to_it() {
     }
 }
 
-/// Isolated answers 0.001 to 0.02 rad beside a family of NAO's arm, for which they were taken, and a branching of a family within a tenth of
-/// a radian, which hid it, and a family of the elbow that meets one of the shoulder: as many answers and families as by screws, whose families
+/// Isolated answers 0.001 to 0.02 rad beside a self-motion of NAO's arm, for which they were taken, and a branching of a self-motion within a tenth of
+/// a radian, which hid it, and a self-motion of the elbow that meets one of the shoulder: as many answers and self-motions as by screws, whose self-motions
 /// may be told by several members.
 #[test]
-fn answers_beside_a_family_are_told_from_it() {
+fn answers_beside_a_self_motion_are_told_from_it() {
     let (chain, derived) = named("nao_left_arm");
     let screws = ByScrews::new(&chain).unwrap();
     for q in [
@@ -154,9 +154,9 @@ fn answers_beside_a_family_are_told_from_it() {
 }
 
 /// NAO's leg with the roll at its singular place and the knee folded to between 1e-4 and 6e-3 rad of half a turn: the hip's yaw is free in
-/// four families, as by screws, and nothing else is told but what these tell.
+/// four self-motions, as by screws, and nothing else is told but what these tell.
 #[test]
-fn a_family_next_to_a_folded_knee_is_found() {
+fn a_self_motion_next_to_a_folded_knee_is_found() {
     let (chain, derived) = named("nao_left_leg");
     let screws = ByScrews::new(&chain).unwrap();
     for q in [
@@ -188,16 +188,16 @@ fn a_family_next_to_a_folded_knee_is_found() {
         let target = derived.reached(&q).unwrap();
         let found = derived.program.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
-        let families = |list: &[Solution]| list.iter().filter(|answer| answer.free == [0]).count();
-        assert!(families(&found) >= families(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
+        let self_motions = |list: &[Solution]| list.iter().filter(|answer| answer.free == [0]).count();
+        assert!(self_motions(&found) >= self_motions(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
         assert!(found.iter().all(|answer| answer.free == [0]), "{q:?}: {found:?}");
     }
 }
 
-/// NAO's leg with the ankle's pitch next to a right angle: families of both bends of the knee, 8e-4 rad apart, which were told as two and
+/// NAO's leg with the ankle's pitch next to a right angle: self-motions of both bends of the knee, 8e-4 rad apart, which were told as two and
 /// are four, as by screws.
 #[test]
-fn families_next_to_each_other_are_told_apart() {
+fn self_motions_next_to_each_other_are_told_apart() {
     let (chain, derived) = named("nao_left_leg");
     let screws = ByScrews::new(&chain).unwrap();
     let q = [
@@ -209,9 +209,9 @@ fn families_next_to_each_other_are_told_apart() {
         -0.033058641838879854,
     ];
     let target = derived.reached(&q).unwrap();
-    let families = |list: Vec<Solution>| list.iter().filter(|answer| answer.free == [5]).count();
-    let expected = families(screws.solve(&target).unwrap());
-    assert_eq!((families(derived.program.solve_numbers(&target).unwrap()), expected), (4, 4));
+    let self_motions = |list: Vec<Solution>| list.iter().filter(|answer| answer.free == [5]).count();
+    let expected = self_motions(screws.solve(&target).unwrap());
+    assert_eq!((self_motions(derived.program.solve_numbers(&target).unwrap()), expected), (4, 4));
 }
 
 /// NAO's arm next to where its answers meet in pairs: eight, of which pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist,
@@ -226,10 +226,10 @@ fn answers_that_rounding_tells_apart_are_two() {
     assert_eq!((found.len(), expected.len()), (8, 8), "{found:?}\n{expected:?}");
 }
 
-/// The arm stretched and the wrist parallel to it: families that go round 0.046, 0.006 and 0.001 rad of the last joint's circle, which were
+/// The arm stretched and the wrist parallel to it: self-motions that go round 0.046, 0.006 and 0.001 rad of the last joint's circle, which were
 /// told by several isolated answers, none of them the joint values that made the target.
 #[test]
-fn a_family_on_a_small_part_of_the_circle_is_found() {
+fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     let (chain, derived) = named("ur5");
     for q in [
         [1.7831333503075366, 1.7935589547926682, 0.0, -1.596449081918493, PI, 2.6668881695581392],
@@ -248,7 +248,7 @@ fn a_family_on_a_small_part_of_the_circle_is_found() {
 /// Where the last axis is parallel to those of the arm, the wrist turns along a part of the circle only, as far as the elbow reaches: from
 /// the first of these joint values on to either side, from the second, the arm stretched, to one.
 #[test]
-fn a_family_along_a_part_of_the_circle_is_found() {
+fn a_self_motion_along_a_part_of_the_circle_is_found() {
     let (_, derived) = named("offset_wrist");
     let bent = [-2.3196916176, -2.0761626803, 0.0983141029, -1.5544591030, -FRAC_PI_2, 2.1506580949];
     let stretched = [1.5756778981, -0.2200531633, 0.0, -1.2689545032, -FRAC_PI_2, 1.8006871953];

@@ -1,7 +1,7 @@
 //! Arms on bases that are turned by angles whose sines are roots: the axes keep their relations, and the solvers their answers.
 
 use groebot::Watch;
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::{Chain, Geometry};
 use groebot::model::Robot;
 use groebot::witness::Options;

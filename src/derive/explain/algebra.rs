@@ -6,7 +6,7 @@ use num_traits::One;
 
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Relation};
-use crate::derive::lift::{Symbolic, TargetPoly, name};
+use crate::derive::sequential::{Symbolic, TargetPoly, name};
 use crate::number::{BigRational, Ring, Style};
 
 /// The most terms that are written out.

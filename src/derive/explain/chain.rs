@@ -4,7 +4,7 @@ use super::document::{Document, Line};
 use super::{forms, geometry, step};
 use crate::Result;
 use crate::derive::closure::{Mechanism, show};
-use crate::derive::lift::{Derived, joint_unknowns};
+use crate::derive::sequential::{Derived, joint_unknowns};
 use crate::kinematics::Task;
 use crate::solver::{Block, Program};
 
@@ -178,20 +178,20 @@ fn branches(page: &mut Document, derived: &Derived) {
 
 /// `0 to 1 generic, 2 where A = 0, B = 0`.
 fn digits(block: &Block) -> String {
-    let mut charts: Vec<(usize, usize, String)> = Vec::new();
-    for chart in &block.charts {
-        let last = (chart.first_branch + Program::branches(chart)).saturating_sub(1);
-        let label = if chart.label.contains('=') { format!("where ${}$", chart.label) } else { chart.label.clone() };
-        let entry = (chart.first_branch, last, label);
-        if !charts.contains(&entry) {
-            charts.push(entry);
+    let mut cases: Vec<(usize, usize, String)> = Vec::new();
+    for case in &block.cases {
+        let last = (case.first_branch + Program::branches(case)).saturating_sub(1);
+        let label = if case.label.contains('=') { format!("where ${}$", case.label) } else { case.label.clone() };
+        let entry = (case.first_branch, last, label);
+        if !cases.contains(&entry) {
+            cases.push(entry);
         }
     }
     let text = |(first, last, label): (usize, usize, String)| match last > first {
         true => format!("{first} to {last} {label}"),
         false => format!("{first} {label}"),
     };
-    charts.into_iter().map(text).collect::<Vec<_>>().join("; ")
+    cases.into_iter().map(text).collect::<Vec<_>>().join("; ")
 }
 
 fn singularities(page: &mut Document) {
@@ -203,7 +203,7 @@ fn singularities(page: &mut Document) {
          equal ones.",
     );
     page.say(
-        "Where a joint is free there is a family of solutions. The program puts an angle at eight places, a length at five, \
+        "Where a joint is free there is a self-motion. The program puts an angle at eight places, a length at five, \
          goes on with the steps behind, and returns the best member that it finds; the answer names the joints that are free, \
          and all members share one branch number.",
     );

@@ -4,7 +4,7 @@ use super::algebra::signs;
 use super::document::{Document, Line};
 use super::strata;
 use crate::Result;
-use crate::derive::lift::{Derived, Form, HalfAngle, HalfAngles, Template};
+use crate::derive::sequential::{Derived, Form, FormBasis, HalfAngle, HalfAngles};
 use crate::number::{Ring, Style};
 
 /// The equations of a form in its joint.
@@ -28,8 +28,8 @@ pub fn triangular(derived: &Derived, form: Form) -> Result<Vec<String>> {
     if let (Form::Quartic, Some(halves)) = (form, &derived.half_angles) {
         return half_angle(halves);
     }
-    let template = derived.templates.iter().find(|template| template.form == form);
-    Ok(template.and_then(|template| template.tree.solved()).map(strata::stairs).unwrap_or_default())
+    let form_basis = derived.form_bases.iter().find(|form_basis| form_basis.form == form);
+    Ok(form_basis.and_then(|form_basis| form_basis.tree.solved()).map(strata::stairs).unwrap_or_default())
 }
 
 fn half_angle(halves: &HalfAngles) -> Result<Vec<String>> {
@@ -87,7 +87,7 @@ pub fn singular(form: Form) -> &'static str {
     match form {
         Form::Angle => {
             "where $A^2 + B^2 = C^2$ the line touches the circle and the two branches meet. Where $A = B = 0$ the angle has dropped \
-             out: with $C = 0$ too it is free, and a family of solutions is returned; otherwise there is none."
+             out: with $C = 0$ too it is free, and a self-motion is returned; otherwise there is none."
         }
         Form::Turn => {
             "where $A = B = 0$ the vector that is turned lies on the axis: with $X = Y = 0$ the angle is free, otherwise nothing \
@@ -99,7 +99,7 @@ pub fn singular(form: Form) -> &'static str {
         }
         Form::Linear => "where $A = 0$ the length has dropped out.",
         Form::Quartic => {
-            "where two roots of the quartic meet, two branches do. Where all five symbols vanish the angle is free, and a family \
+            "where two roots of the quartic meet, two branches do. Where all five symbols vanish the angle is free, and a self-motion \
              of solutions is returned."
         }
         Form::Lengths => "where two roots meet, two branches do.",
@@ -119,30 +119,30 @@ pub fn explain(page: &mut Document, derived: &Derived) -> Result<()> {
          what the cofactors show. That nothing is missing is Buchberger's criterion: the S-polynomial of every two members, the \
          simplest combination in which their leading terms cancel, leaves the remainder zero.",
     );
-    for template in &derived.templates {
-        form(page, template)?;
+    for form_basis in &derived.form_bases {
+        form(page, form_basis)?;
     }
     derived.half_angles.iter().for_each(|halves| half_angles(page, halves));
     Ok(())
 }
 
-fn form(page: &mut Document, template: &Template) -> Result<()> {
-    let name = template.form.name();
+fn form(page: &mut Document, form_basis: &FormBasis) -> Result<()> {
+    let name = form_basis.form.name();
     page.paragraph(Line::of("The form ").name(name).and(". Its equations are"));
-    for (index, equation) in template.system.equations.iter().enumerate() {
+    for (index, equation) in form_basis.system.equations.iter().enumerate() {
         page.display(format!("f{} = {} = 0", index + 1, equation.expression));
     }
-    let order = template.system.order.join(" > ");
+    let order = form_basis.system.order.join(" > ");
     page.paragraph(
         Line::of("In the lexicographic order ")
             .formula(&order)
             .and(", denominators cleared, their reduced Groebner basis is"),
     );
-    if let Some(solved) = template.tree.solved() {
+    if let Some(solved) = form_basis.tree.solved() {
         strata::stairs(solved).into_iter().for_each(|stair| page.display(stair));
-        strata::proof(page, &template.tree.setting, &solved.certified)?;
+        strata::proof(page, &form_basis.tree.setting, &solved.certified)?;
     }
-    strata::degenerate(page, &template.tree, &|_| "the joint is".to_owned());
+    strata::degenerate(page, &form_basis.tree, &|_| "the joint is".to_owned());
     Ok(())
 }
 

@@ -5,11 +5,11 @@
 
 mod algebra;
 mod chain;
+mod coupled;
 mod document;
 mod forms;
 mod geometry;
 mod latex;
-mod limbs;
 mod markdown;
 mod step;
 mod strata;
@@ -29,6 +29,6 @@ pub fn explain(proved: &Proved) -> Result<Document> {
         Proved::Equations(derivation) => system::document(derivation),
         Proved::Chain(derived) => chain::document(derived),
         Proved::SixAxes(derived) => Ok(derived.document()),
-        Proved::Limbs(derived) => limbs::document(derived),
+        Proved::Coupled(derived) => coupled::document(derived),
     }
 }

@@ -7,8 +7,8 @@ use super::document::{Document, Line};
 use super::{forms, geometry, strata};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, ScrewJoint};
-use crate::derive::lift::{Derived, Elimination, Form, Lifted, name};
 use crate::derive::planner::Way;
+use crate::derive::sequential::{Derived, Elimination, Form, ProvedStep, name};
 use crate::number::{BigRational, Ring, Style};
 
 /// The longest combination that is written out, in characters.
@@ -26,7 +26,7 @@ struct Writer<'a> {
     page: &'a mut Document,
     derived: &'a Derived,
     mechanism: &'a Mechanism,
-    step: &'a Lifted,
+    step: &'a ProvedStep,
     index: usize,
     /// The relations by the joint's unknowns.
     sorted: Vec<Sorted>,

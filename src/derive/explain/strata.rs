@@ -75,7 +75,7 @@ fn tidy(text: &str) -> String {
     result + rest
 }
 
-/// Adds what happens where a denominator vanishes. `free` names the joints of a family.
+/// Adds what happens where a denominator vanishes. `free` names the joints of a self-motion.
 pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> String) {
     let mut items = Vec::new();
     for node in tree.walk().into_iter().skip(1) {
@@ -100,7 +100,7 @@ pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> Stri
 
 fn outcome(node: &Node, free: &dyn Fn(&Node) -> String) -> String {
     match &node.outcome {
-        Outcome::Family(_) => format!("every value solves the equations, {} free", free(node)),
+        Outcome::SelfMotion(_) => format!("every value solves the equations, {} free", free(node)),
         Outcome::Inconsistent(_) => "no solution, for 1 is a combination of the equations".to_owned(),
         Outcome::Seen(_) => "the same equations as at a stratum above".to_owned(),
         _ => describe(node),

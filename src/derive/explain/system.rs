@@ -90,9 +90,9 @@ fn tree(page: &mut Document, derivation: &Derivation, (index, title): (usize, &s
         strata::proof(page, &node.setting, &solved.certified)?;
     }
     let names = |node: &Node| match &node.outcome {
-        Outcome::Family(family) => {
+        Outcome::SelfMotion(self_motion) => {
             let names: Vec<&str> =
-                family.free.iter().map(|&joint| derivation.system.joints[joint].name.as_str()).collect();
+                self_motion.free.iter().map(|&joint| derivation.system.joints[joint].name.as_str()).collect();
             format!("{} {}", names.join(", "), if names.len() == 1 { "is" } else { "are" })
         }
         _ => String::new(),
@@ -134,11 +134,11 @@ fn branches(page: &mut Document, derivation: &Derivation) {
          smallest unknown first, and those of a stratum go on where the stratum before ends.",
     );
     let mut rows = vec![["branches", "stratum"].map(Line::of).to_vec()];
-    for chart in derivation.program.charts().filter(|chart| !chart.open) {
-        let end = chart.first_branch + Program::branches(chart);
+    for case in derivation.program.cases().filter(|case| !case.open) {
+        let end = case.first_branch + Program::branches(case);
         let stratum =
-            if chart.label.contains('=') { Line::default().formula(&chart.label) } else { Line::of(&chart.label) };
-        rows.push(vec![Line::of(&format!("{} to {}", chart.first_branch, end.saturating_sub(1))), stratum]);
+            if case.label.contains('=') { Line::default().formula(&case.label) } else { Line::of(&case.label) };
+        rows.push(vec![Line::of(&format!("{} to {}", case.first_branch, end.saturating_sub(1))), stratum]);
     }
     page.table(rows);
 }

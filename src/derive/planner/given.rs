@@ -7,7 +7,7 @@ use super::plan;
 use super::refuse::{self, driven};
 use super::types::Plan;
 use crate::derive::closure::Mechanism;
-use crate::derive::template::fits;
+use crate::derive::eigenvalue::fits;
 use crate::kinematics::Chain;
 use crate::{ErrorKind, Result, Watch};
 

@@ -58,17 +58,17 @@ impl Robot {
     }
 }
 
-/// A motor of a `<transmission>` that moves several joints; those that are not of that kind are extensions.
+/// An actuator of a `<transmission>` that moves several joints; those that are not of that kind are extensions.
 fn read_transmission(element: &Element) -> Option<Actuator> {
     let all = |name| element.children.iter().filter(move |child| child.name == name);
-    let mut motors = all("actuator");
-    let motor = motors.next().filter(|_| motors.next().is_none())?;
+    let mut actuators = all("actuator");
+    let actuator = actuators.next().filter(|_| actuators.next().is_none())?;
     let joint = |joint: &Element| {
         let reduction = joint.child("mechanicalReduction").ok().flatten().and_then(|child| child.text.parse().ok());
         Some((joint.attribute("name")?.to_owned(), reduction.unwrap_or(1.0)))
     };
     let joints: Vec<(String, f64)> = all("joint").map(joint).collect::<Option<_>>()?;
-    (joints.len() > 1).then_some(Actuator { name: motor.attribute("name")?.to_owned(), joints })
+    (joints.len() > 1).then_some(Actuator { name: actuator.attribute("name")?.to_owned(), joints })
 }
 
 /// Fails for a child whose name is nearly one of `parts`; other unknown ones are extensions.

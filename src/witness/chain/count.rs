@@ -59,18 +59,18 @@ struct Image {
     polynomial: Vec<u32>,
 }
 
-/// A chain whose joints are motors of a mechanism.
+/// A chain whose joints are actuators of a mechanism.
 struct Part {
     exact: ExactChain,
-    /// By joint: its motor.
-    motors: Vec<usize>,
+    /// By joint: its actuator.
+    actuators: Vec<usize>,
 }
 
-/// Counts the solutions of the equations of a chain, or of chains that share motors.
+/// Counts the solutions of the equations of a chain, or of chains that share actuators.
 pub(super) struct Counter {
     parts: Vec<Part>,
     names: Vec<String>,
-    /// The unknowns of each motor; `None` where it is given.
+    /// The unknowns of each actuator; `None` where it is given.
     unknowns: Vec<Option<Value>>,
     learned: Option<Learned>,
     /// How many targets have taken long.
@@ -80,50 +80,52 @@ pub(super) struct Counter {
 impl Counter {
     pub fn new(chain: &Chain, given: &[usize]) -> Self {
         let exact = ExactChain::new(chain);
-        let motors = (0..exact.joints()).collect();
-        Counter::of_parts(vec![Part { exact, motors }], given)
+        let actuators = (0..exact.joints()).collect();
+        Counter::of_parts(vec![Part { exact, actuators }], given)
     }
 
-    /// For chains whose joints have these motors; `None` where the axes of a motor's joints are vectors of different lengths, so that
+    /// For chains whose joints have these actuators; `None` where the axes of an actuator's joints are vectors of different lengths, so that
     /// it has no common unknowns.
-    pub fn of_limbs(limbs: &[(&Chain, &[usize])], given: &[usize]) -> Option<Self> {
-        let part =
-            |(chain, motors): &(&Chain, &[usize])| Part { exact: ExactChain::new(chain), motors: motors.to_vec() };
-        let parts: Vec<Part> = limbs.iter().map(part).collect();
+    pub fn of_coupled(members: &[(&Chain, &[usize])], given: &[usize]) -> Option<Self> {
+        let part = |(chain, actuators): &(&Chain, &[usize])| Part {
+            exact: ExactChain::new(chain),
+            actuators: actuators.to_vec(),
+        };
+        let parts: Vec<Part> = members.iter().map(part).collect();
         let square = |(part, joint): (&Part, usize)| part.exact.square(joint).clone();
-        let alike = |motor: usize| {
-            let mut squares = joints_of(&parts, motor).map(square);
+        let alike = |actuator: usize| {
+            let mut squares = joints_of(&parts, actuator).map(square);
             let first = squares.next();
             squares.all(|other| Some(other) == first)
         };
-        let count = limbs.iter().flat_map(|(_, motors)| motors.iter()).max().map_or(0, |last| last + 1);
+        let count = members.iter().flat_map(|(_, actuators)| actuators.iter()).max().map_or(0, |last| last + 1);
         (0..count).all(alike).then(|| Counter::of_parts(parts, given))
     }
 
     fn of_parts(parts: Vec<Part>, given: &[usize]) -> Self {
         let mut names = Vec::new();
         let mut unknowns = Vec::new();
-        for motor in 0.. {
-            let Some((part, joint)) = joints_of(&parts, motor).next() else { break };
-            if given.contains(&motor) {
+        for actuator in 0.. {
+            let Some((part, joint)) = joints_of(&parts, actuator).next() else { break };
+            if given.contains(&actuator) {
                 unknowns.push(None);
                 continue;
             }
             unknowns.push(Some(part.exact.unknown(joint, names.len())));
             let letters: &[&str] = if part.exact.turns(joint) { &["c", "s"] } else { &["d"] };
-            names.extend(letters.iter().map(|letter| format!("{letter}{}", motor + 1)));
+            names.extend(letters.iter().map(|letter| format!("{letter}{}", actuator + 1)));
         }
         Counter { parts, names, unknowns, learned: None, long: Cell::new(0) }
     }
 
-    /// The value of a motor at the rational point that `t` stands for, as [`ExactChain::value`].
-    pub fn value(&self, motor: usize, t: &BigRational) -> Option<Value> {
-        joints_of(&self.parts, motor).next().map(|(part, joint)| part.exact.value(joint, t))
+    /// The value of an actuator at the rational point that `t` stands for, as [`ExactChain::value`].
+    pub fn value(&self, actuator: usize, t: &BigRational) -> Option<Value> {
+        joints_of(&self.parts, actuator).next().map(|(part, joint)| part.exact.value(joint, t))
     }
 
-    /// The value of a motor as a double: radians, or the chain's length unit.
-    pub fn double(&self, motor: usize, value: &Value) -> f64 {
-        joints_of(&self.parts, motor).next().map_or(f64::NAN, |(part, joint)| part.exact.double(joint, value))
+    /// The value of an actuator as a double: radians, or the chain's length unit.
+    pub fn double(&self, actuator: usize, value: &Value) -> f64 {
+        joints_of(&self.parts, actuator).next().map_or(f64::NAN, |(part, joint)| part.exact.double(joint, value))
     }
 
     /// The number of distinct real solutions with the tip where it is at the joint values `values`; `None` when there are
@@ -163,17 +165,17 @@ impl Counter {
 
     /// The equations and the circle relations, with integer coefficients.
     fn system(&self, values: &[Value]) -> System {
-        let letter = |&motor: &usize| self.unknowns[motor].as_ref().unwrap_or(&values[motor]).clone();
+        let letter = |&actuator: &usize| self.unknowns[actuator].as_ref().unwrap_or(&values[actuator]).clone();
         let mut system = System::new();
-        for Part { exact, motors } in &self.parts {
-            let own: Vec<Value> = motors.iter().map(|&motor| values[motor].clone()).collect();
+        for Part { exact, actuators } in &self.parts {
+            let own: Vec<Value> = actuators.iter().map(|&actuator| values[actuator].clone()).collect();
             let reached: Reached = exact.reached(&own);
-            let letters: Vec<Value> = motors.iter().map(letter).collect();
+            let letters: Vec<Value> = actuators.iter().map(letter).collect();
             system.extend(exact.equations(&reached, &letters).iter().map(|form| self.integral(form)));
         }
         let mut first = 0;
-        for (motor, unknown) in self.unknowns.iter().enumerate() {
-            if let (Some(Value::Turn(_)), Some((part, joint))) = (unknown, joints_of(&self.parts, motor).next()) {
+        for (actuator, unknown) in self.unknowns.iter().enumerate() {
+            if let (Some(Value::Turn(_)), Some((part, joint))) = (unknown, joints_of(&self.parts, actuator).next()) {
                 system.push(self.circle(first, part.exact.square(joint)));
                 first += 1;
             }
@@ -335,9 +337,9 @@ impl Learned {
     }
 }
 
-/// The joints that a motor moves.
-fn joints_of(parts: &[Part], motor: usize) -> impl Iterator<Item = (&Part, usize)> {
-    parts.iter().filter_map(move |part| Some((part, part.motors.iter().position(|own| *own == motor)?)))
+/// The joints that an actuator moves.
+fn joints_of(parts: &[Part], actuator: usize) -> impl Iterator<Item = (&Part, usize)> {
+    parts.iter().filter_map(move |part| Some((part, part.actuators.iter().position(|own| *own == actuator)?)))
 }
 
 fn primes() -> impl Iterator<Item = u32> {

@@ -5,12 +5,12 @@
 //! [`Fault`] for what can be wrong.
 
 mod count;
+pub mod coupled;
 mod exact;
-mod family;
 mod form;
-pub mod limbs;
 mod model;
 mod rational;
+mod self_motion;
 mod singular;
 mod targets;
 
@@ -21,9 +21,9 @@ use crate::kinematics::{Chain, Solution, Task};
 use crate::solver::Program;
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
-use family::{Families, STEPS};
 use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
 use rational::Rationals;
+use self_motion::{STEPS, SelfMotions};
 use targets::{Target, Targets};
 
 /// What is checked: anything that solves targets given as numbers.
@@ -187,13 +187,13 @@ impl<'a> Check<'a> {
             answers[..index].iter().any(|b| self.model.distance(&a.q, &b.q) <= DUPLICATE)
         };
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
-        // A family may be told by several of its members.
+        // A self-motion may be told by several of its members.
         let single = answers.iter().filter(|answer| answer.free.is_empty()).count();
         let bound = self.bound.is_some_and(|bound| single > bound).then_some(Fault::Bound);
         duplicate.into_iter().chain(bound).collect()
     }
 
-    /// Whether the joint values that made the target are among the answers, and told as a family where they are of one.
+    /// Whether the joint values that made the target are among the answers, and told as a self-motion where they are of one.
     fn known(&self, row: &mut Row, answers: &[Solution]) -> Option<Fault> {
         let (q, target) = (row.joints.as_ref()?, &row.target);
         let gap = |answer: &Solution| self.model.distance(q, &answer.q);
@@ -202,20 +202,20 @@ impl<'a> Check<'a> {
             return None;
         }
         row.nearest = single;
-        if self.model.is_in_family(target, q) {
-            return Some(Fault::Family);
+        if self.model.is_in_self_motion(target, q) {
+            return Some(Fault::SelfMotion);
         }
         let is_same = |answer: &Solution| self.model.is_same(target, q, &answer.q);
         (!answers.iter().any(is_same)).then_some(Fault::Missing)
     }
 
-    /// Whether `q` is of a family that one of the answers stands for.
+    /// Whether `q` is of a self-motion that one of the answers stands for.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
-        let families = || answers.iter().filter(|answer| !answer.free.is_empty());
+        let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
         let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, &answer.q, &answer.free, step);
-        families().any(|answer| self.model.matches(target, q, &answer.q))
-            || STEPS.into_iter().any(|step| families().any(|answer| leads(answer, step)))
-            || families().any(|answer| self.model.runs_to(target, q, &answer.q))
+        self_motions().any(|answer| self.model.matches(target, q, &answer.q))
+            || STEPS.into_iter().any(|step| self_motions().any(|answer| leads(answer, step)))
+            || self_motions().any(|answer| self.model.runs_to(target, q, &answer.q))
     }
 
     /// Whether the number of answers hangs on rounding.

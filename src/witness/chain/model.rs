@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::DMatrix;
 
-use super::family::Families;
+use super::self_motion::SelfMotions;
 use super::singular::smallest_singular_value;
 use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
@@ -17,7 +17,7 @@ use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 pub(super) const RESIDUAL: f64 = 1e-11;
 /// An ordinary joint vector that misses by no more is a solution beyond doubt.
 pub(super) const EXACT: f64 = 1e-13;
-/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a family of them.
+/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a self-motion of them.
 pub(super) const SHARP: f64 = 1e-14;
 /// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
 pub(super) const ORDINARY: f64 = 1e-3;
@@ -228,7 +228,7 @@ pub(super) trait Configuration {
         self.distance(a, b) <= BLUR && self.matches(target, a, b)
     }
 
-    /// Whether `b` is the same answer as `a`, or of its family: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
+    /// Whether `b` is the same answer as `a`, or of its self-motion: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
     /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
     /// all the way.
     fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {

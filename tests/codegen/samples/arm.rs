@@ -1,8 +1,8 @@
-//! An arm with a turning base and two links: nested root steps, a chart with a free joint, an open chart, and charts out of
+//! An arm with a turning base and two links: nested root steps, a case with a free joint, an open case, and cases out of
 //! the order of their branches.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Chart, Checks, Guard, Operand, Preference, Program, Rule, Step, Unit};
+use groebot::solver::{Case, Checks, Guard, Operand, Preference, Program, Rule, Step, Unit};
 
 const UPPER: f64 = 0.5;
 const LOWER: f64 = 0.4;
@@ -28,7 +28,7 @@ pub fn program() -> Program {
     let distance = Rule::Root { code: code.take(), value };
     Program {
         name: "turning_arm".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: ["x", "y", "z"].map(|name| input(name, Unit::Metre)).to_vec(),
         parameters: vec![
@@ -50,7 +50,7 @@ pub fn program() -> Program {
     }
 }
 
-fn generic() -> Chart {
+fn generic() -> Case {
     let mut code = Code::default();
     let [x, y, z, d] = [0, 1, 2, 3].map(parameter);
     let (dd, zz) = (code.mul(d, d), code.mul(z, z));
@@ -67,16 +67,7 @@ fn generic() -> Chart {
     ]);
     steps.extend(links(&mut code, square));
     let guards = vec![away("d", d, Operand::Magnitude), away("d^2 + z^2", square, scale)];
-    Chart {
-        label: "generic".into(),
-        guard_code,
-        guards,
-        steps,
-        pivot: None,
-        free: vec![],
-        open: false,
-        first_branch: 0,
-    }
+    Case { label: "generic".into(), guard_code, guards, steps, pivot: None, free: vec![], open: false, first_branch: 0 }
 }
 
 /// Steps of the two links, given `h` and `square = h^2 + z^2`.
@@ -107,7 +98,7 @@ fn links(code: &mut Code, square: Operand) -> Vec<Step> {
 }
 
 /// On the axis of the first joint, which is free there.
-fn on_axis() -> Chart {
+fn on_axis() -> Case {
     let mut code = Code::default();
     let square = code.mul(parameter(2), parameter(2));
     let scale = code.mul(Operand::Magnitude, Operand::Magnitude);
@@ -116,14 +107,14 @@ fn on_axis() -> Chart {
         [(H, 0.0), (C1, 1.0), (S1, 0.0)].map(|(unknown, value)| Step::Set { unknown, value: constant(value) }).to_vec();
     steps.extend(links(&mut code, square));
     let guards = vec![near("d", parameter(3), Operand::Magnitude), away("z^2", square, scale)];
-    Chart { label: "d = 0".into(), guard_code, guards, steps, pivot: None, free: vec![0], open: false, first_branch: 4 }
+    Case { label: "d = 0".into(), guard_code, guards, steps, pivot: None, free: vec![0], open: false, first_branch: 4 }
 }
 
-fn at_origin() -> Chart {
+fn at_origin() -> Case {
     let guards: Vec<Guard> =
         [("d", 3), ("z", 2)].map(|(text, index)| near(text, parameter(index), Operand::Magnitude)).to_vec();
     let label = "d = z = 0".into();
-    Chart { label, guard_code: vec![], guards, steps: vec![], pivot: None, free: vec![], open: true, first_branch: 6 }
+    Case { label, guard_code: vec![], guards, steps: vec![], pivot: None, free: vec![], open: true, first_branch: 6 }
 }
 
 fn checks() -> Checks {

@@ -1,7 +1,7 @@
-//! A leg of two links in its sagittal plane: one chart, one quadratic root step.
+//! A leg of two links in its sagittal plane: one case, one quadratic root step.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Chart, Checks, Operand, Preference, Program, Rule, Step, Unit};
+use groebot::solver::{Case, Checks, Operand, Preference, Program, Rule, Step, Unit};
 
 const THIGH: f64 = 0.1;
 const SHIN: f64 = 0.1029;
@@ -19,7 +19,7 @@ pub fn foot(hip: f64, knee: f64) -> [f64; 2] {
 pub fn program() -> Program {
     Program {
         name: "leg".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: vec![input("px", Unit::Metre), input("pz", Unit::Metre)],
         parameters: vec![rule("px", Rule::Input(0)), rule("pz", Rule::Input(1))],
@@ -27,7 +27,7 @@ pub fn program() -> Program {
         joints: vec![angle("HipPitch", C3, S3), angle("KneePitch", C4, S4)],
         scale: THIGH + SHIN,
         conditions: vec![],
-        blocks: one_block(vec![chart()]),
+        blocks: one_block(vec![case()]),
         checks: checks(),
         preference: Some(Preference { unknown: S4, greatest: true }),
         capacity: 2,
@@ -36,7 +36,7 @@ pub fn program() -> Program {
     }
 }
 
-fn chart() -> Chart {
+fn case() -> Case {
     let mut code = Code::default();
     let (px, pz) = (parameter(0), parameter(1));
     let (xx, zz) = (code.mul(px, px), code.mul(pz, pz));
@@ -52,7 +52,7 @@ fn chart() -> Chart {
     let square_of_sine = Step::Compute(code.take());
     let s3 = hip(&mut code, [px, pz], -1.0, square);
     let c3 = hip(&mut code, [pz, px], 1.0, square);
-    Chart {
+    Case {
         label: "generic".into(),
         guard_code,
         guards: vec![away("px^2 + pz^2", square, scale)],

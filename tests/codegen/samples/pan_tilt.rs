@@ -1,9 +1,9 @@
-//! A camera that looks along a direction: two blocks, pan and tilt, and a family where it looks straight up or down.
+//! A camera that looks along a direction: two blocks, pan and tilt, and a self-motion where it looks straight up or down.
 
 use std::f64::consts::FRAC_PI_4;
 
 use crate::codegen::builder::*;
-use groebot::solver::{Block, Chart, Checks, Condition, JointValue, Program, Rule, Step, Unit};
+use groebot::solver::{Block, Case, Checks, Condition, JointValue, Program, Rule, Step, Unit};
 
 const H: usize = 0;
 const C1: usize = 1;
@@ -20,7 +20,7 @@ pub fn program() -> Program {
     let names = ["dx", "dy", "dz"];
     Program {
         name: "pan_tilt".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         conditions: vec![Condition::Unit(0)],
@@ -49,7 +49,7 @@ fn pan() -> Block {
     let minus_square = code.sub(constant(0.0), square);
     let before = code.take();
     let (c1, s1) = (code.div(dx, unknown(H)), code.div(dy, unknown(H)));
-    let generic = Chart {
+    let generic = Case {
         label: "generic".into(),
         guard_code: guard_code.clone(),
         guards: vec![away("dx^2 + dy^2", square, constant(1.0))],
@@ -66,7 +66,7 @@ fn pan() -> Block {
         first_branch: 0,
     };
     let values = (0..8).map(|k| f64::from(k) * FRAC_PI_4).collect();
-    let pole = Chart {
+    let pole = Case {
         label: "dx = dy = 0".into(),
         guard_code,
         guards: vec![near("sqrt(dx^2 + dy^2)", size, constant(1.0))],
@@ -87,7 +87,7 @@ fn tilt() -> Block {
     let mut code = Code::default();
     let (first, second) = (code.mul(unknown(C1), parameter(0)), code.mul(unknown(S1), parameter(1)));
     let along = code.add(first, second);
-    let chart = Chart {
+    let case = Case {
         label: "generic".into(),
         guard_code: vec![],
         guards: vec![],
@@ -97,7 +97,7 @@ fn tilt() -> Block {
         open: false,
         first_branch: 0,
     };
-    Block::numbered("tilt", code.take(), vec![chart])
+    Block::numbered("tilt", code.take(), vec![case])
 }
 
 fn checks() -> Checks {

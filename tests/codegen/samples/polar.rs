@@ -2,7 +2,7 @@
 //! two joints, and an unknown of the equations that is no joint's.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Chart, Checks, Operand, Preference, Program, Rule, Step, Unit};
+use groebot::solver::{Case, Checks, Operand, Preference, Program, Rule, Step, Unit};
 
 const RHO: usize = 0;
 const C: usize = 1;
@@ -16,7 +16,7 @@ pub fn program() -> Program {
     let distance = Rule::Root { code: code.take(), value };
     Program {
         name: "polar".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: vec![input("u", Unit::Metre), input("alpha", Unit::Radian), input("w", Unit::Metre)],
         parameters: vec![
@@ -47,7 +47,7 @@ fn point(code: &mut Code) -> [Operand; 2] {
     [code.sub(uc, ws), code.add(us, wc)]
 }
 
-fn generic() -> Chart {
+fn generic() -> Case {
     let mut code = Code::default();
     let [x, y] = point(&mut code);
     let square = code.mul(parameter(4), parameter(4));
@@ -61,7 +61,7 @@ fn generic() -> Chart {
     let inner = code.take();
     let minus_x = code.sub(constant(0.0), x);
     let s = code.div(y, unknown(RHO));
-    Chart {
+    Case {
         label: "generic */ \\".into(),
         guard_code: vec![],
         guards: vec![away("d", parameter(4), Operand::Magnitude)],
@@ -81,9 +81,9 @@ fn generic() -> Chart {
     }
 }
 
-fn at_pole() -> Chart {
+fn at_pole() -> Case {
     let values = [(RHO, 0.0), (C, 1.0), (S, 0.0), (SQUARE, 0.0)];
-    Chart {
+    Case {
         label: "d = 0".into(),
         guard_code: vec![],
         guards: vec![near("d", parameter(4), Operand::Magnitude)],

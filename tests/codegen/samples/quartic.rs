@@ -1,7 +1,7 @@
 //! The real roots of a polynomial of degree 4, 3 or 2, whichever leads; its names are awkward on purpose.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Chart, Checks, Joint, JointValue, Program, Rule, Unit};
+use groebot::solver::{Case, Checks, Joint, JointValue, Program, Rule, Unit};
 
 /// Coefficients of the monic polynomial with these roots, constant term first.
 pub fn with_roots(roots: [f64; 4]) -> [f64; 5] {
@@ -19,7 +19,7 @@ pub fn program() -> Program {
     let joint = Joint { name: "\"t\" */ ??/ \\ \u{e4}".into(), unit: Unit::One, value: JointValue::Plain(0) };
     Program {
         name: "quartic".into(),
-        version: "test */".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         parameters: (0..5).map(|i| rule(names[i], Rule::Input(i))).collect(),
@@ -27,7 +27,7 @@ pub fn program() -> Program {
         joints: vec![joint],
         scale: 1.0,
         conditions: vec![],
-        blocks: one_block(vec![chart()]),
+        blocks: one_block(vec![case()]),
         checks: checks(),
         preference: None,
         capacity: 4,
@@ -36,12 +36,12 @@ pub fn program() -> Program {
     }
 }
 
-fn chart() -> Chart {
+fn case() -> Case {
     let line = |length: usize| (0..length).map(parameter).collect::<Vec<_>>();
     let polynomials = vec![line(5), line(4), line(3)];
     let steps = vec![roots(0, polynomials)];
     let label = "generic".into();
-    Chart { label, guard_code: vec![], guards: vec![], steps, pivot: None, free: vec![], open: false, first_branch: 0 }
+    Case { label, guard_code: vec![], guards: vec![], steps, pivot: None, free: vec![], open: false, first_branch: 0 }
 }
 
 fn checks() -> Checks {

@@ -1,9 +1,9 @@
-//! A spherical wrist, `R = Rz(q1) Ry(q2) Rz(q3)`: three blocks, a family where the axes meet, and charts of which the best runs.
+//! A spherical wrist, `R = Rz(q1) Ry(q2) Rz(q3)`: three blocks, a self-motion where the axes meet, and cases of which the best runs.
 
 use std::f64::consts::FRAC_PI_4;
 
 use crate::codegen::builder::*;
-use groebot::solver::{Block, Chart, Checks, Condition, JointValue, Operand, Pivot, Program, Rule, Step, Unit};
+use groebot::solver::{Block, Case, Checks, Condition, JointValue, Operand, Pivot, Program, Rule, Step, Unit};
 
 const C2: usize = 0;
 const S2: usize = 1;
@@ -42,8 +42,8 @@ pub fn carried() -> Program {
     program.unknowns.extend(["x", "y", "z"].map(String::from));
     program.joints.splice(0..0, (0..3).map(|i| length(["x", "y", "z"][i], 6 + i)));
     let place = (0..3).map(|i| Step::Set { unknown: 6 + i, value: parameter(9 + i) }).collect();
-    program.blocks.push(Block::numbered("slides", vec![], vec![chart("generic", place)]));
-    let free = &mut program.blocks[1].charts[1].free;
+    program.blocks.push(Block::numbered("slides", vec![], vec![case("generic", place)]));
+    let free = &mut program.blocks[1].cases[1].free;
     *free = vec![free[0] + 3];
     let checks = &mut program.checks;
     let mut code = Code::after(checks.code.len());
@@ -69,7 +69,7 @@ pub fn program(gap: bool) -> Program {
     let name = |i: usize| format!("r{}{}", i / 3 + 1, i % 3 + 1);
     Program {
         name: "wrist".into(),
-        version: "test".into(),
+        format: Program::FORMAT,
         about: None,
         inputs: (0..9).map(|i| input(&name(i), Unit::One)).collect(),
         conditions: vec![Condition::Rotation(0)],
@@ -86,9 +86,9 @@ pub fn program(gap: bool) -> Program {
     }
 }
 
-fn chart(label: &str, steps: Vec<Step>) -> Chart {
+fn case(label: &str, steps: Vec<Step>) -> Case {
     let (pivot, free) = (None, vec![]);
-    Chart { label: label.into(), guard_code: vec![], guards: vec![], pivot, steps, free, open: false, first_branch: 0 }
+    Case { label: label.into(), guard_code: vec![], guards: vec![], pivot, steps, free, open: false, first_branch: 0 }
 }
 
 /// `s2^2 = r13^2 + r23^2`, `c2 = r33`.
@@ -106,7 +106,7 @@ fn middle() -> Block {
             typical: Some(constant(2.0)),
         },
     ];
-    Block::numbered("q2", vec![], vec![chart("generic", steps)])
+    Block::numbered("q2", vec![], vec![case("generic", steps)])
 }
 
 /// `(c1, s1) = (r13, r23) / s2`; free where `s2 = 0`.
@@ -116,11 +116,11 @@ fn first() -> Block {
     let steps =
         vec![Step::Compute(code.take()), Step::Set { unknown: C1, value: c1 }, Step::Set { unknown: S1, value: s1 }];
     let guards = vec![away("s2", unknown(S2), constant(1.0))];
-    let generic = Chart { guards, ..chart("generic", steps) };
+    let generic = Case { guards, ..case("generic", steps) };
     let values = (0..8).map(|k| f64::from(k) * FRAC_PI_4).collect();
     let sample = Step::Sample { joint: JointValue::Angle { cosine: C1, sine: S1 }, values };
     let guards = vec![near("s2", unknown(S2), constant(1.0))];
-    let straight = Chart { guards, free: vec![0], ..chart("s2 = 0", vec![sample]) };
+    let straight = Case { guards, free: vec![0], ..case("s2 = 0", vec![sample]) };
     Block::numbered("q1", vec![], vec![generic, straight])
 }
 
@@ -136,13 +136,13 @@ fn last(gap: bool) -> Block {
     let sine = Step::Set { unknown: S3, value: s3 };
     let cosine = Step::Set { unknown: C3, value: c3 };
     let doubled = code.mul(constant(2.0), c3);
-    let claim = |label: &str, guard_code, value, steps| Chart {
+    let claim = |label: &str, guard_code, value, steps| Case {
         guard_code,
         pivot: Some(Pivot { group: 7, value }),
-        ..chart(label, steps)
+        ..case(label, steps)
     };
     let half = code.div(doubled, constant(2.0));
-    let mut charts = vec![
+    let mut cases = vec![
         claim("by the sine", vec![], s3, vec![sine.clone(), cosine.clone()]),
         claim("by the cosine", code.take(), half, vec![cosine, sine]),
     ];
@@ -150,9 +150,9 @@ fn last(gap: bool) -> Block {
         let mut code = Code::after(6);
         let miss = code.sub(r(3, 3), constant(0.5));
         let guards = vec![near("r33 - 1/2", miss, constant(1.0))];
-        charts.push(Chart { guard_code: code.take(), guards, open: true, ..chart("r33 = 1/2", vec![]) });
+        cases.push(Case { guard_code: code.take(), guards, open: true, ..case("r33 = 1/2", vec![]) });
     }
-    Block::numbered("q3", block_code, charts)
+    Block::numbered("q3", block_code, cases)
 }
 
 /// All nine elements.

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use groebot::Watch;
-use groebot::derive::lift::Derived;
+use groebot::derive::sequential::Derived;
 use groebot::kinematics::Chain;
 use groebot::witness::chain::Check;
 use groebot::witness::{Options, Report};

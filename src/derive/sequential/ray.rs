@@ -1,0 +1,67 @@
+//! A ray as a pose: any turn about it is chosen, by two unit vectors across it.
+
+use nalgebra::Vector3;
+use num_traits::ToPrimitive;
+
+use super::emit::{Emitted, Emitter};
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::{Arithmetic, Mechanism};
+use crate::solver::{Block, Case, Operand, Pivot, Step};
+
+/// Where the parameters of a ray's direction stand.
+const DIRECTION: [Operand; 3] = [Operand::Parameter(3), Operand::Parameter(4), Operand::Parameter(5)];
+
+/// The block that finds two unit vectors across a ray and each other: the first is across a coordinate axis as well, that from which the
+/// ray is farthest.
+pub(super) fn across([first, second]: [[usize; 3]; 2]) -> Block {
+    let case = |axis: usize| {
+        let (mut assembler, d) = (Assembler::default(), DIRECTION);
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let squares = [assembler.mul(d[a], d[a]), assembler.mul(d[b], d[b])];
+        let square = assembler.add(squares[0], squares[1]);
+        let guard_code = assembler.take();
+        let length = assembler.sqrt(square);
+        let mut u = [Operand::Constant(0.0); 3];
+        u[a] = assembler.div(d[b], length);
+        let quotient = assembler.div(d[a], length);
+        u[b] = assembler.mul(Operand::Constant(-1.0), quotient);
+        let v: [Operand; 3] = std::array::from_fn(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let (left, right) = (assembler.mul(d[i], u[j]), assembler.mul(d[j], u[i]));
+            assembler.sub(left, right)
+        });
+        let sets = first.into_iter().zip(u).chain(second.into_iter().zip(v));
+        let sets = sets.map(|(unknown, value)| Step::Set { unknown, value });
+        Case {
+            label: format!("across {}", ["x", "y", "z"][axis]),
+            guard_code,
+            guards: Vec::new(),
+            pivot: Some(Pivot { group: 0, value: square }),
+            steps: [Step::Compute(assembler.take())].into_iter().chain(sets).collect(),
+            free: Vec::new(),
+            open: false,
+            first_branch: 0,
+        }
+    };
+    Block::numbered("directions across the ray", Vec::new(), (0..3).map(case).collect())
+}
+
+/// The pose that stands for a ray: its point, and the rotation from where the tip is at zero that takes the aim and two unit vectors across
+/// it to the direction and the unknowns `across`.
+pub(super) fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &mut Emitter<'_>) -> Vec<Emitted> {
+    let aim = mechanism.aim().each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
+    let aim = Vector3::from(aim).normalize();
+    let beside = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
+    let before = [aim, beside, aim.cross(&beside)];
+    let behind = [DIRECTION, across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
+    let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::code(Operand::Parameter(index))).collect();
+    for entry in 0..9 {
+        let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
+        let sum = terms.fold(Emitted::integer(0), |sum, (factor, value)| {
+            let term = Emitted::code(value).times(factor);
+            emitter.add(&sum, &term)
+        });
+        values.push(sum);
+    }
+    values
+}

@@ -1,0 +1,71 @@
+//! From the loop of an arm that stands upright back to the arm: its first joint from the loop's last, which is counted from the target's azimuth.
+
+use num_traits::ToPrimitive;
+
+use super::layout::Layout;
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::Standing;
+use crate::solver::{Block, Case, Guard, JointValue, Operand, Step};
+
+/// Makes `layout` that of the arm itself, and adds the block that finds its first joint to those of the loop. `reach` is the size of its
+/// positions.
+pub(super) fn close(standing: &Standing, layout: &mut Layout, blocks: &mut Vec<Block>, reach: f64) {
+    let count = standing.plain.joints().len();
+    let Some(first) = layout.swing else { return };
+    for case in blocks.iter_mut().flat_map(|block| &mut block.cases) {
+        case.free = case.free.iter().filter_map(|&joint| standing.upright.place(joint)).collect();
+    }
+    let radius =
+        standing.upright.chain.given().get(count_of_own(standing) + 2).map_or(0, |&joint| layout.given[joint][0]);
+    if let Some(JointValue::Angle { cosine, sine }) = layout.joints.last().copied() {
+        blocks.push(block(standing, [cosine, sine], first, radius, reach));
+    }
+    let place = |place: usize| {
+        if place == 0 { JointValue::Angle { cosine: first[0], sine: first[1] } } else { layout.joints[place - 1] }
+    };
+    let given = |place: usize| place.checked_sub(1).map_or_else(Vec::new, |place| layout.given[place].clone());
+    let (joints, given) = ((0..count).map(place).collect(), (0..count).map(given).collect());
+    (layout.joints, layout.given) = (joints, given);
+}
+
+/// How many of the loop's given joints are the arm's own.
+fn count_of_own(standing: &Standing) -> usize {
+    standing.plain.given().len()
+}
+
+/// The block of the first joint: `q1 = q + azimuth`, with the azimuth of a target on the first axis zero.
+fn block(standing: &Standing, [c, s]: [usize; 2], first: [usize; 2], radius: usize, reach: f64) -> Block {
+    let mut assembler = Assembler::default();
+    let axis = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
+    let [x, y] = [0, 1].map(|k| assembler.sub(Operand::Parameter(k), axis[k]));
+    let radius = Operand::Parameter(radius);
+    let [across, up] = [x, y].map(|way| assembler.div(way, radius));
+    let [c, s] = [c, s].map(Operand::Unknown);
+    let [cc, ss, sc, cs] = [(c, across), (s, up), (s, across), (c, up)].map(|(a, b)| assembler.mul(a, b));
+    let (cosine, sine) = (assembler.sub(cc, ss), assembler.add(sc, cs));
+    let turned = |assembler: &mut Assembler, sine: Operand| {
+        if standing.upright.is_down { assembler.mul(Operand::Constant(-1.0), sine) } else { sine }
+    };
+    let sine = turned(&mut assembler, sine);
+    let code = assembler.take();
+    let mut assembler = Assembler::default();
+    let straight = turned(&mut assembler, s);
+    let still = assembler.take();
+    let guard = |near: bool| Guard { text: "radius".to_owned(), value: radius, scale: Operand::Constant(reach), near };
+    let case = |label: &str, near: bool, code: Vec<_>, values: [Operand; 2]| {
+        let set = first.into_iter().zip(values).map(|(unknown, value)| Step::Set { unknown, value });
+        let compute = (!code.is_empty()).then_some(Step::Compute(code));
+        Case {
+            label: label.to_owned(),
+            guard_code: Vec::new(),
+            guards: vec![guard(near)],
+            pivot: None,
+            steps: compute.into_iter().chain(set).collect(),
+            free: Vec::new(),
+            open: false,
+            first_branch: 0,
+        }
+    };
+    let cases = vec![case("generic", false, code, [cosine, sine]), case("radius = 0", true, still, [c, straight])];
+    Block::numbered(&standing.plain.joints()[0].name, Vec::new(), cases)
+}

@@ -1,0 +1,116 @@
+//! The solver of six axes as a step of a program ([`SixAxes`]).
+
+use serde::{Deserialize, Serialize};
+
+use super::formulation::Formulation;
+use super::polish::Rigid;
+use super::screw::Line;
+use super::solve::{Answer, Answers, EigenvalueSolver, Layout};
+use crate::solver::{JointValue, Operand};
+use crate::{Error, ErrorKind, Result};
+
+/// The unknowns of six joints, found together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SixAxesParts", into = "SixAxesParts")]
+pub struct SixAxes {
+    parts: SixAxesParts,
+    solver: EigenvalueSolver,
+    back: Rigid,
+}
+
+/// What [`SixAxes`] is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SixAxesParts {
+    /// The axes at zero, from base to tip: directions of length one, points in the unit of the target.
+    pub lines: [Line<f64>; 6],
+    /// By joint: whether it slides.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub slides: [bool; 6],
+    /// A typical length of the chain, in the same unit.
+    pub length: f64,
+    /// The tip in the base frame at zero.
+    pub tip: Rigid,
+    /// The eigenvalue problems, in the order in which they are tried.
+    pub formulations: Vec<Formulation>,
+    /// The unknowns that are set: angles, and values of the joints that slide.
+    pub joints: [JointValue; 6],
+    /// The target: the position of the tip, then its rotation matrix by rows.
+    pub target: [Operand; 12],
+}
+
+impl SixAxes {
+    /// The step.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, an angle of a joint that slides
+    /// or another one that is no angle, no formulation, or one that is not for these joints.
+    pub fn new(parts: SixAxesParts) -> Result<Self> {
+        let is_unit = |line: &Line<f64>| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
+        let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
+        ensure(is_finite && parts.lines.iter().all(is_unit), "six axes: directions of length one are allowed")?;
+        ensure(parts.length.is_finite() && parts.length > 0.0, "six axes: a positive length is allowed")?;
+        let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
+        let suit = parts.joints.iter().zip(&parts.slides).all(suits);
+        ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
+        let known = !parts.formulations.is_empty() && parts.formulations.iter().all(Formulation::is_valid);
+        ensure(known, "six axes: one formulation at least, which hides one of joints 0 to 5, is allowed")?;
+        let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
+        let solver = EigenvalueSolver::new(&layout, parts.formulations.clone());
+        let back = parts.tip.inverse();
+        Ok(SixAxes { parts, solver, back })
+    }
+
+    /// What it is made of.
+    pub fn parts(&self) -> &SixAxesParts {
+        &self.parts
+    }
+
+    /// The answers at a target, which is its position, then its rotation matrix by rows, in ascending order of their joints; and
+    /// candidates to start from once more ([`Answers::lost`]).
+    pub(crate) fn solve(&self, target: &[f64; 12]) -> (Vec<Answer>, Answers) {
+        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| target[3 + 3 * i + j]));
+        let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
+        let answers = self.solver.solve(&pose.after(&self.back));
+        let mut found = answers.as_slice().to_vec();
+        found.sort_by(|a, b| a.q.partial_cmp(&b.q).unwrap_or(std::cmp::Ordering::Equal));
+        (found, answers)
+    }
+
+    /// What is computed once, and the base seen from the tip at zero.
+    pub(crate) fn tables(&self) -> (&EigenvalueSolver, &Rigid) {
+        (&self.solver, &self.back)
+    }
+
+    /// The step with other names of its unknowns and operands.
+    pub(crate) fn renamed(
+        &self,
+        joint: impl Fn(JointValue) -> JointValue,
+        operand: impl Fn(Operand) -> Operand,
+    ) -> Self {
+        let SixAxesParts { joints, target, .. } = self.parts.clone();
+        let parts = SixAxesParts { joints: joints.map(joint), target: target.map(operand), ..self.parts.clone() };
+        SixAxes { parts, ..self.clone() }
+    }
+}
+
+impl TryFrom<SixAxesParts> for SixAxes {
+    type Error = Error;
+
+    fn try_from(parts: SixAxesParts) -> Result<Self> {
+        SixAxes::new(parts)
+    }
+}
+
+impl From<SixAxes> for SixAxesParts {
+    fn from(step: SixAxes) -> Self {
+        step.parts
+    }
+}
+
+fn is_none(slides: &[bool; 6]) -> bool {
+    *slides == [false; 6]
+}
+
+fn ensure(holds: bool, text: &str) -> Result<()> {
+    if holds { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text)) }
+}

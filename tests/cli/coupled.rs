@@ -1,0 +1,206 @@
+//! CoupledChains that share actuators on the command line: two planar arms on one shoulder, derived, checked, solved and explained; NAO's legs as
+//! they are committed.
+
+use std::fs;
+use std::sync::OnceLock;
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{content, refused, root, succeed, text};
+
+/// An arm in the plane, of links of length one but the last, which has 1.25.
+fn arm(name: &str, joints: usize) -> String {
+    let joint =
+        |k: usize| format!("[[joint]]\nname = \"j{k}\"\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{k}, 0, 0]\n");
+    let joints_text: String = (0..joints).map(joint).collect();
+    format!(
+        "name = \"{name}\"\ntask = {{ kind = \"planar_position\", plane = \"xy\" }}\n{joints_text}[tip]\npoint = [{joints}.25, 0, 0]\n"
+    )
+}
+
+const ARMS: &str = "name = \"arms\"
+description = \"two arms on one shoulder\"
+shared = [[\"a.j0\", \"b.j0\"]]
+[[chain]]
+name = \"a\"
+chain = \"a.toml\"
+[[chain]]
+name = \"b\"
+chain = \"b.toml\"
+";
+
+/// A folder with the description of both arms.
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("0_coupled.toml"), ARMS).unwrap();
+    fs::write(folder.path().join("a.toml"), arm("first", 2)).unwrap();
+    fs::write(folder.path().join("b.toml"), arm("second", 3)).unwrap();
+    folder
+}
+
+/// The arms, derived once, and what `derive` said.
+fn arms() -> &'static (TempDir, String) {
+    static DERIVED: OnceLock<(TempDir, String)> = OnceLock::new();
+    DERIVED.get_or_init(|| {
+        let folder = folder();
+        let report = succeed(&["derive", text(folder.path())]);
+        (folder, report)
+    })
+}
+
+fn has(page: &str, words: &[&str]) {
+    for word in words {
+        assert!(page.contains(word), "`{word}` is not in:\n{page}");
+    }
+}
+
+#[test]
+fn derive_writes_every_stage_and_tells_of_each_member() {
+    let (folder, report) = arms();
+    has(
+        report,
+        &["arms: 4 solutions at most", "chain 1: a", "chain 2: b, with j0 where the chains before it have put it"],
+    );
+    has(report, &["of them: the screw solver", "Written to"]);
+    let files = content(folder.path());
+    let names: Vec<&str> = files.keys().map(String::as_str).collect();
+    assert_eq!(
+        names,
+        [
+            "0_coupled.toml",
+            "1_equations.txt",
+            "2_plan.txt",
+            "3_basis.txt",
+            "4_triangular.txt",
+            "5_program.json",
+            "5_solver.c",
+            "5_solver.h",
+            "5_solver.rs",
+            "6_check.csv",
+            "README.md",
+            "a.toml",
+            "b.toml",
+            "certificate.json"
+        ]
+    );
+    let page = String::from_utf8(files["README.md"].clone()).unwrap();
+    has(
+        &page,
+        &[
+            "# arms",
+            "two arms on one shoulder",
+            "## CoupledChain 2: b",
+            "## Accuracy, measured",
+            "a_px, a_py, b_px, b_py",
+        ],
+    );
+    let rows = String::from_utf8(files["6_check.csv"].clone()).unwrap();
+    assert!(rows.lines().skip(1).all(|row| row.ends_with(",pass")), "{rows}");
+    assert!(
+        rows.lines().any(|row| row.starts_with("rational,")) && rows.lines().any(|row| row.starts_with("singular,"))
+    );
+}
+
+#[test]
+fn another_folder_gets_the_chains_too() {
+    let (folder, _) = arms();
+    let elsewhere = tempdir().unwrap();
+    let out = elsewhere.path().join("out");
+    succeed(&["derive", text(&folder.path().join("0_coupled.toml")), "--quiet", "--out", text(&out)]);
+    assert_eq!(content(&out), content(folder.path()));
+}
+
+#[test]
+fn check_proves_it_again_and_finds_what_was_changed() {
+    let (folder, _) = arms();
+    let page = succeed(&["check", text(folder.path())]);
+    assert!(page.lines().all(|line| line.starts_with('\u{2713}')), "{page}");
+    has(&page, &["2 chains on 4 actuators", "a: 2 steps proved again", "targets solved again and right"]);
+    let copy = tempdir().unwrap();
+    for (name, bytes) in content(folder.path()) {
+        fs::write(copy.path().join(name), bytes).unwrap();
+    }
+    let chain = fs::read_to_string(copy.path().join("b.toml")).unwrap();
+    fs::write(copy.path().join("b.toml"), chain.replace("point = [3.25, 0, 0]", "point = [3.25, 1, 0]")).unwrap();
+    has(&refused(&["check", text(copy.path())]), &["certificate"]);
+}
+
+/// The first arm's tip is at (1, 1.25): its elbow at (1, 0), or mirrored at the line to the tip. From both the second one, of links of
+/// 1 and 1.25, reaches (1, 1.2) in two ways.
+#[test]
+fn solve_finds_all_ways_and_says_which_chain_fails() {
+    let (folder, _) = arms();
+    let answer: Value =
+        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,1,1.2"])).unwrap();
+    assert_eq!(answer["joints"], serde_json::json!(["j0", "a_j1", "b_j1", "b_j2"]));
+    assert_eq!(answer["solutions"].as_array().unwrap().len(), 4, "{answer}");
+    assert_eq!(answer.get("reason"), None);
+    let far = succeed(&["solve", text(folder.path()), "--target", "1,1.25,9,1", "--target", "5,1,1,1"]);
+    has(
+        &far,
+        &["no solution: the equations of chain `b` fail in each of the 2 ways", "the equations of chain `a` fail;"],
+    );
+    let far: Value =
+        serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,9,1"])).unwrap();
+    assert!(far["reason"].as_str().unwrap().contains("chain `b`"), "{far}");
+}
+
+#[test]
+fn info_and_explain_tell_of_actuators_and_chains() {
+    let (folder, _) = arms();
+    let page = succeed(&["info", text(folder.path())]);
+    has(&page, &["arms: 2 chains on 4 actuators", "j0    a.j0, b.j0", "chain b", "second: 3 joints"]);
+    let told = succeed(&["explain", text(folder.path())]);
+    has(
+        &told,
+        &["## The chains and their actuators", "has 4 complex solutions", "The user gives the value of joint 1"],
+    );
+    has(&refused(&["fk", text(folder.path()), "--q", "0,0,0,0"]), &["needs a chain"]);
+    has(&refused(&["plan", text(folder.path())]), &["needs a chain"]);
+}
+
+#[test]
+fn mistakes_name_file_and_line_and_write_nothing() {
+    let cases = [
+        ("0_coupled.toml", "\"a.j0\"", "\"a.j9\"", &["0_coupled.toml: line 3:", "there is no `j9`"][..]),
+        ("0_coupled.toml", "chain = \"b.toml\"", "chain = \"c.toml\"", &["c.toml", "No such file"]),
+        ("0_coupled.toml", "shared", "shered", &["0_coupled.toml: line 3:", "did you mean `shared`"]),
+        ("b.toml", "axis = [0, 0, 1]", "axis = [0, 0, 0]", &["b.toml: line 6:", "chain `b`"]),
+        ("b.toml", "name = \"j2\"", "name = \"j1\"", &["b.toml: line", "`j1`"]),
+    ];
+    for (file, from, to, words) in cases {
+        let folder = folder();
+        let path = folder.path().join(file);
+        let before = fs::read_to_string(&path).unwrap();
+        assert!(before.contains(from), "{from}");
+        fs::write(&path, before.replacen(from, to, 1)).unwrap();
+        let stood = content(folder.path());
+        has(&refused(&["derive", text(folder.path())]), words);
+        assert_eq!(content(folder.path()), stood);
+    }
+    let (folder, _) = arms();
+    has(&refused(&["derive", text(folder.path()), "--task", "pose"]), &["each chain states its own"]);
+    has(&refused(&["info", text(folder.path()), "--tip", "x"]), &["only a URDF has links"]);
+}
+
+/// NAO's two feet 0.01 rad off one hip: both can be reached, not together.
+#[test]
+fn poses_that_disagree_on_the_hip_are_refused_by_name() {
+    let folder = root("derivations/nao_legs_poses");
+    let rows = fs::read_to_string(folder.join("6_check.csv")).unwrap();
+    let cells: Vec<Vec<&str>> = rows.lines().map(|row| row.split(',').collect()).collect();
+    let column = |name: &str| cells[0].iter().position(|cell| *cell == name).unwrap();
+    let (first, hip) = (column("left_px"), column("HipYawPitch"));
+    let random: Vec<&Vec<&str>> = cells.iter().filter(|row| row[0] == "random").take(2).collect();
+    let poses = |left: &[&str], right: &[&str]| [left, right].concat().join(",");
+    let [one, other] = [random[0], random[1]].map(|row| (&row[first..first + 12], &row[first + 12..first + 24]));
+    let agreeing = succeed(&["solve", text(&folder), "--target", &poses(one.0, one.1)]);
+    has(&agreeing, &[" solutions"]);
+    let told = succeed(&["solve", text(&folder), "--target", &poses(one.0, other.1)]);
+    has(
+        &told,
+        &["no solution: the chains' targets contradict each other: chain `right` needs `HipYawPitch` at", "rad off"],
+    );
+    assert_ne!(random[0][hip], random[1][hip]);
+}

@@ -1,0 +1,114 @@
+//! Chains that no block solves: wrists and legs with offsets, a calibrated arm.
+
+use groebot::derive::eigenvalue;
+use groebot::kinematics::Chain;
+
+use super::{Random, chain, nearest, rational};
+
+/// Axes with coordinates in tenths of a millimetre and directions in millionths.
+type Axes = [([i64; 3], [i64; 3]); 6];
+
+const X: [i64; 3] = [1_000_000, 0, 0];
+const Y: [i64; 3] = [0, 1_000_000, 0];
+const Z: [i64; 3] = [0, 0, 1_000_000];
+
+/// An arm with an offset of 150 mm in its wrist, like FANUC's CRX-10iA/L (A. Abbes and G. Poisson, Robotics 13 (2024) 91).
+const OFFSET_WRIST: Axes = [
+    (Z, [0, 0, 0]),
+    (Y, [0, 0, 0]),
+    (Y, [0, 0, 5400]),
+    (X, [0, 0, 5400]),
+    (Y, [5400, 0, 5400]),
+    (X, [5400, -1500, 5400]),
+];
+
+/// A wrist whose last axis is 76 mm off, as UFACTORY's xArm6 has it.
+const SIDE_WRIST: Axes = [
+    (Z, [0, 0, 2670]),
+    (Y, [0, 0, 2670]),
+    (Y, [530, 0, 5515]),
+    (Z, [1305, 0, 5515]),
+    (Y, [1305, 0, 2090]),
+    (Z, [2065, 0, 2090]),
+];
+
+/// A wrist of axes at 55 degrees to each other that do not meet in a point, as Kinova's Jaco 2 has it.
+const SLANTED_WRIST: Axes = [
+    (Z, [0, 0, 2755]),
+    (Y, [0, 0, 2755]),
+    (Y, [0, 0, 6855]),
+    (Z, [0, 98, 6855]),
+    ([0, 819_152, -573_576], [0, 98, 9346]),
+    ([0, 939_693, 342_020], [0, 796, 8861]),
+];
+
+/// A leg whose hip axes and ankle axes do not meet, like Booster's K1 and T1.
+const OFFSET_LEG: Axes = [
+    (Y, [0, 0, 0]),
+    (X, [0, 0, -200]),
+    (Z, [0, 0, -810]),
+    (Y, [-140, 0, -2150]),
+    (Y, [-140, 0, -4950]),
+    (X, [-140, 0, -5070]),
+];
+
+/// A UR5 with every axis a little off: up to a thousandth of a radian and half a millimetre.
+const CALIBRATED: Axes = [
+    ([312, -541, 999_999], [1, -3, 0]),
+    ([-713, 999_999, 254], [4, 0, 894]),
+    ([422, 999_999, -631], [4252, -2, 888]),
+    ([-275, 999_999, 816], [8169, 5, 895]),
+    ([651, -333, -999_999], [8175, 1089, 3]),
+    ([87, 999_999, -478], [8170, 2, -57]),
+];
+
+fn robot(axes: &Axes) -> Chain {
+    let exact: Vec<_> = axes
+        .iter()
+        .map(|(axis, point)| (axis.map(|entry| rational(entry, 1_000_000)), point.map(|entry| rational(entry, 10_000))))
+        .collect();
+    chain(&exact)
+}
+
+fn misses(axes: &Axes, targets: usize) -> (usize, f64) {
+    let solver = eigenvalue::solver(&robot(axes)).unwrap();
+    let mut random = Random::new(14);
+    let (mut misses, mut worst) = (0, 0.0_f64);
+    for _ in 0..targets {
+        let q = random.angles();
+        let answers = solver.solve(&solver.forward(&q));
+        worst = answers.as_slice().iter().map(|answer| answer.residual).fold(worst, f64::max);
+        if nearest(&answers, &q) > 1e-6 {
+            misses += 1;
+            println!("missed: {q:?}");
+        }
+    }
+    (misses, worst)
+}
+
+const ROBOTS: [(&str, &Axes); 5] = [
+    ("offset wrist", &OFFSET_WRIST),
+    ("side wrist", &SIDE_WRIST),
+    ("slanted wrist", &SLANTED_WRIST),
+    ("offset leg", &OFFSET_LEG),
+    ("calibrated", &CALIBRATED),
+];
+
+#[test]
+fn robots_without_blocks_are_solved() {
+    for (name, axes) in ROBOTS {
+        let (misses, worst) = misses(axes, 2000);
+        assert!(misses == 0 && worst <= 1e-12, "{name}: {misses} misses, residual {worst:e}");
+    }
+}
+
+/// The figures of issue 9: `cargo test --release hundred_thousand -- --ignored --nocapture`.
+#[test]
+#[ignore = "a hundred thousand targets of each robot"]
+fn a_hundred_thousand_targets_of_each_robot() {
+    for (name, axes) in ROBOTS {
+        let (misses, worst) = misses(axes, 100_000);
+        println!("{name}: {misses} misses in 100000, worst residual {worst:e}");
+        assert!(misses <= 1 && worst <= 1e-12, "{name}");
+    }
+}
