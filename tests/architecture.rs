@@ -1,5 +1,6 @@
 //! The house rules of the design, enforced: who may use whom, sizes, what must not be left in the code.
 
+mod cycles;
 mod lexer;
 mod licences;
 mod scan;
@@ -161,6 +162,11 @@ fn assert_none(found: &[String]) {
 #[test]
 fn dependencies_run_one_way() {
     assert_none(&forbidden_uses(&sources()));
+}
+
+#[test]
+fn no_files_import_each_other() {
+    assert_none(&cycles::on_rings(&sources()));
 }
 
 #[test]

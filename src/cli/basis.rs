@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::basis_answer::{Answer, Question};
+use super::basis_answer::Answer;
+use super::basis_question::Question;
 use super::console;
 use super::progress::{Limits, Session, mebibytes, seconds};
 use super::{Outcome, basis_cover};

@@ -1,32 +1,19 @@
-//! From a system of polynomials to its basis, as text: the question, the engine for each field, the answer.
+//! From a question about a system of polynomials to its basis, as text: the engine for each field, the answer.
 
 use std::fmt;
 
 use super::basis_certificate::prove;
+use super::basis_question::Question;
 use crate::groebner::f4::MODULUS_LIMIT;
 use crate::groebner::modular::{self, Status};
 use crate::groebner::{Basis, Options, Settings, basis, basis_modulo_prime, f4_with, parametric};
 use crate::number::{BigRational, Field, Rationals, Zp};
-use crate::poly::system::{Format, Heading, PolynomialSystem};
-use crate::poly::{Block, Fraction, Fractions, Order, Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::poly::system::Heading;
+use crate::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
+use crate::{Result, Watch};
 
 /// The most standard monomials that are counted.
 const MAX_DEGREE: usize = 1_000_000;
-
-/// What is asked.
-pub struct Question {
-    pub system: PolynomialSystem,
-    /// The ring to compute in: eliminated variables first.
-    pub working: Heading,
-    /// The ring of the answer.
-    pub target: Heading,
-    pub eliminated: Vec<String>,
-    pub format: Format,
-    pub certificate: bool,
-    /// Whether nothing may rest on chance.
-    pub prove: bool,
-}
 
 /// The basis, printed, and what it says about the ideal.
 pub struct Answer {
@@ -147,37 +134,10 @@ impl fmt::Display for Verdict {
 }
 
 impl Question {
-    /// The basis of `system` in `order` (by default its own), without the variables `eliminated`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::UnknownName`] and [`ErrorKind::DuplicateName`] for names to eliminate; [`ErrorKind::BadValue`] when none stays, or the
-    /// order does not cover those that stay; [`ErrorKind::Unsupported`] when `format` cannot hold the answer.
-    pub fn new(
-        system: PolynomialSystem,
-        order: Option<Order>,
-        eliminated: &[String],
-        format: Format,
-        certificate: bool,
-        prove: bool,
-    ) -> Result<Question> {
-        check_eliminated(&system.heading, eliminated)?;
-        let kept = system.heading.variables.iter().filter(|name| !eliminated.contains(name));
-        let target = Heading { variables: kept.cloned().collect(), ..system.heading.clone() };
-        let order = match (order, &system.heading.order) {
-            (Some(order), _) => order,
-            (None, Order::Block(_)) if !eliminated.is_empty() => Order::GrevLex,
-            (None, order) => order.clone(),
-        };
-        let target = target.with_order(order).map_err(|error| error.with_context("--order"))?;
-        let working = working_heading(&target, eliminated);
-        target.print(format, &target.ring(Rationals)?, &[])?;
-        Ok(Question { system, working, target, eliminated: eliminated.to_vec(), format, certificate, prove })
-    }
-
     /// Computes the basis.
     ///
     /// # Errors
-    /// Those of [`PolynomialSystem::expand`] and of the engine; what `watch` stops with.
+    /// Those of [`PolynomialSystem::expand`](crate::poly::system::PolynomialSystem::expand) and of the engine; what `watch` stops with.
     pub fn answer(&self, watch: &Watch) -> Result<Answer> {
         compute(self, watch)
     }
@@ -211,42 +171,6 @@ impl Question {
         let is_free = |f: &&Polynomial<F::Element>| (0..self.eliminated.len()).all(|v| found.ring.degree_in(f, v) == 0);
         let polynomials = found.polynomials.iter().filter(is_free).map(|f| found.ring.transfer(f, &target));
         Ok(Basis { polynomials: polynomials.collect::<Result<_>>()?, ring: target, cofactors: Vec::new() })
-    }
-}
-
-fn check_eliminated(heading: &Heading, eliminated: &[String]) -> Result<()> {
-    let fail = |kind, text: String| Err(Error::new(kind, text).with_context("--eliminate"));
-    let known = heading.variables.join(", ");
-    for (index, name) in eliminated.iter().enumerate() {
-        if !heading.variables.contains(name) {
-            return fail(ErrorKind::UnknownName, format!("`{name}` is no variable; the variables are {known}"));
-        }
-        if eliminated[..index].contains(name) {
-            return fail(ErrorKind::DuplicateName, format!("`{name}` is named twice; name each variable once"));
-        }
-    }
-    if eliminated.len() == heading.variables.len() {
-        return fail(ErrorKind::BadValue, "no variable stays; leave one out".to_owned());
-    }
-    Ok(())
-}
-
-/// The eliminated variables in a graded block of their own, in front of `target`.
-fn working_heading(target: &Heading, eliminated: &[String]) -> Heading {
-    if eliminated.is_empty() {
-        return target.clone();
-    }
-    let size = target.variables.len();
-    let rest = match &target.order {
-        Order::GrevLex => vec![Block { size, graded: true }],
-        Order::Lex => vec![Block { size, graded: false }],
-        Order::Block(blocks) => blocks.clone(),
-    };
-    let front = Block { size: eliminated.len(), graded: true };
-    Heading {
-        variables: [eliminated, &target.variables].concat(),
-        order: Order::Block([vec![front], rest].concat()),
-        ..target.clone()
     }
 }
 

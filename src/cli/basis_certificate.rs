@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::basis_answer::Question;
+use super::basis_question::Question;
 use crate::groebner::Basis;
 use crate::groebner::verify::{Claim, verify};
 use crate::number::{Field, Ring, Style};

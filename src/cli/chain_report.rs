@@ -1,6 +1,6 @@
 //! What the derivation of a chain, or of chains that share actuators, found, for a person to read.
 
-use super::report::Page;
+use super::page::Page;
 use crate::derive::coupled::DerivedCoupled;
 use crate::derive::eigenvalue::DerivedSixAxes;
 use crate::derive::sequential::{Derived, Form};

@@ -30,7 +30,7 @@ const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
 const POLISHED: Options = Options { targets: 120, oracle: 2, exact: 0, seed: 1 };
 const IDEAL: Options = Options { targets: 40, oracle: 0, exact: 20, seed: 2 };
 /// How much is checked of chains that share actuators.
-const COUPLED: Options = Options { targets: 120, oracle: 1, exact: 6, seed: 1 };
+const COUPLED: Options = Options { targets: 60, oracle: 1, exact: 6, seed: 1 };
 
 /// A robot that is farther from the base frame, in its reaches, is called far.
 const FAR: f64 = 5.0;

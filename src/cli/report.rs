@@ -4,10 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Duration;
 
-use super::algebra::{divisor, readable, with_decimals, wrap};
+use super::algebra::{divisor, readable, with_decimals};
 use super::chain_report;
 use super::console::Paint;
 use super::files::without_ikfast;
+use super::page::Page;
 use super::strata;
 use crate::Result;
 use crate::derive::planner::fitting_task;
@@ -15,9 +16,6 @@ use crate::derive::setting::{Poly, Unknowns};
 use crate::derive::triangular::{Stair, Triangular};
 use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
 use crate::witness;
-
-/// The column where lines end.
-const WIDTH: usize = 100;
 
 /// What there is to tell.
 pub struct Report<'a> {
@@ -105,34 +103,6 @@ fn block(page: &mut Page, derivation: &Derivation) -> Result<()> {
     strata::describe(page, derivation);
     proofs(page, derivation);
     Ok(())
-}
-
-/// Headings and the lines under them.
-pub struct Page {
-    text: String,
-    paint: Paint,
-}
-
-impl Page {
-    /// A heading behind an empty line.
-    pub fn heading(&mut self, title: &str) {
-        self.text += &format!("\n{}\n", self.paint.bold(title));
-    }
-
-    /// A line, wrapped.
-    pub fn line(&mut self, text: &str) {
-        self.text += &format!("  {}\n", wrap(text, WIDTH, 2));
-    }
-
-    /// Pairs of a name and a text, the texts aligned and wrapped.
-    pub fn entries(&mut self, entries: &[(String, String)]) {
-        let width = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).min(WIDTH / 3);
-        for (name, text) in entries {
-            let padding = " ".repeat(width.saturating_sub(name.chars().count()));
-            let text = wrap(text, WIDTH, width + 4);
-            self.text += &format!("  {}{padding}  {text}\n", self.paint.dim(name));
-        }
-    }
 }
 
 fn introduce(page: &mut Page, system: &System) {

@@ -1,6 +1,6 @@
 //! Where formulas break down and what holds there, in words.
 
-use super::report::Page;
+use super::page::Page;
 use crate::Result;
 use crate::derive::plan::{self, Score};
 use crate::derive::tree::{Node, Outcome};

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::language::Language;
 use super::names::remark;
-use super::printer::{Language, number};
+use super::printer::number;
 use crate::solver::{About, Program};
 
 /// Lines of the head, and limits.

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::body::Scene;
+use super::language::Language;
 use super::names::remark;
-use super::printer::Language;
 use crate::solver::{Case, Condition};
 
 /// What inputs must fulfil.

@@ -1,12 +1,12 @@
-//! Bodies of the printed functions: cases, parameters, and the equations with their derivatives. Main type: [`Scene`].
+//! Bodies of the printed functions: blocks, parameters, and the equations with their derivatives. Main type: [`Scene`].
 
 use super::demand::{Demand, ParameterDemand};
+use super::language::Language;
 use super::mirror::Mirror;
 use super::names::Names;
 use super::needs::has_self_motions;
-use super::printer::{Language, Printer, number};
+use super::printer::{Printer, number};
 use super::samples::Table;
-use super::steps::Walk;
 use crate::solver::{Block, Case, Following, Guard, JointValue, Operand, Program, Rule, Step};
 
 /// What all bodies of one file share.
@@ -234,7 +234,7 @@ impl Scene<'_> {
     }
 
     /// A printer for a case of the block with this index, or for its code if nothing is `shared` yet.
-    fn block_printer(&self, block: usize, demand: Demand, shared: usize) -> Printer<'_> {
+    pub fn block_printer(&self, block: usize, demand: Demand, shared: usize) -> Printer<'_> {
         self.printer(demand).within_block(self.known_before(block), shared)
     }
 
@@ -249,21 +249,6 @@ impl Scene<'_> {
         (self.block_printer(index, demand, 0).code(&block.code), shared)
     }
 
-    /// The body of a case of the block with this index, without indentation; an open case's is its condition alone.
-    pub fn case(&self, index: usize, case: &Case) -> Vec<String> {
-        let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
-        let wanted = if index + 1 < self.program.blocks.len() { wanted } else { self.wanted() };
-        let demand = Demand::of_case(self.program, case, &wanted);
-        let mut printer = self.block_printer(index, demand, block.code.len());
-        let mut lines = printer.code(&case.guard_code);
-        if !case.guards.is_empty() {
-            let condition = self.condition(&case.guards, &mut printer);
-            let beside = case.is_of_stratum().then(|| condition.replace(", NEAR)", ", BESIDE)"));
-            lines.extend(self.language.leave_unless(&condition, case.is_rare(), beside.as_deref()));
-        }
-        Walk::new(self, index, case, lines).steps(&mut printer)
-    }
-
     /// The code before the condition of an open case or one with a pivot, the condition, and the pivot.
     pub fn claim(&self, index: usize, case: &Case) -> (Vec<String>, String, String) {
         let shared = self.program.blocks[index].code.len();
@@ -274,7 +259,8 @@ impl Scene<'_> {
         (lines, condition, value)
     }
 
-    fn condition(&self, guards: &[Guard], printer: &mut Printer<'_>) -> String {
+    /// Whether all of these guards hold, as an expression.
+    pub fn condition(&self, guards: &[Guard], printer: &mut Printer<'_>) -> String {
         let terms: Vec<String> = guards
             .iter()
             .map(|guard| {

@@ -1,8 +1,9 @@
 //! C99: a header and a source file, or one file that is its own header. Main type: [`Pair`].
 
 use super::joined::Declaration;
+use super::language::{Finish, Language, State};
 use super::outline::Outline;
-use super::printer::{Finish, INDENT, Language, State, in_rows, negation, spread};
+use super::printer::{INDENT, in_rows, negation, spread};
 use super::single::single;
 use crate::solver::Program;
 

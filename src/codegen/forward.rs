@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::body::Scene;
-use super::outline::Code;
+use super::code::Code;
 use super::printer::reads_places;
 use crate::solver::{Forward, JointValue, Operand, Reached};
 

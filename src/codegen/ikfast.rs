@@ -5,9 +5,10 @@
 use serde::Serialize;
 
 use super::c99::{self, C99};
+use super::language::Language;
 use super::names::is_word;
 use super::outline::Outline;
-use super::printer::{Language, number};
+use super::printer::number;
 use crate::document::word;
 use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
 use crate::{Error, ErrorKind, Result};

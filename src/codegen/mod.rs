@@ -1,7 +1,7 @@
 //! Printing a [`Program`] as a stand-alone solver: [`rust::emit`], [`c99::emit`] and [`ikfast::emit`].
 //!
 //! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
-//! allocation, and holds only what its program needs. A language is an expression printer (`printer::Language`) plus
+//! allocation, and holds only what its program needs. A language is an expression printer (`language::Language`) plus
 //! the skeleton of a file (`skeleton/`), filled from one `outline::Outline`.
 
 pub mod c99;
@@ -12,10 +12,12 @@ mod about;
 mod batch;
 mod blocks;
 mod body;
+mod code;
 mod demand;
 mod forward;
 mod joined;
 mod lanes;
+mod language;
 mod mirror;
 mod names;
 mod needs;

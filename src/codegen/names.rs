@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::printer::Language;
+use super::language::Language;
 use crate::document::word;
 use crate::solver::Program;
 

@@ -6,13 +6,15 @@ use super::about::AboutText;
 use super::batch::BatchText;
 use super::blocks::{BlockText, ConditionText};
 use super::body::Scene;
+use super::code::Code;
 use super::demand::{Demand, ParameterDemand};
 use super::forward::{self, ForwardText, equations, printed_forward};
 use super::lanes;
+use super::language::Language;
 use super::mirror::Mirror;
 use super::names::{Names, remark};
 use super::needs::{Needs, is_angle};
-use super::printer::{Language, number, reads_places};
+use super::printer::number;
 use super::quartic::Quartic;
 use super::samples::Table;
 use super::six_axes;
@@ -121,15 +123,6 @@ struct Parameters {
     /// The expression of the magnitude, if something reads it.
     magnitude: Option<String>,
     reads_target: bool,
-}
-
-/// Lines of code, values, and what they read.
-#[derive(Serialize)]
-pub(super) struct Code {
-    pub lines: Vec<String>,
-    pub values: Vec<String>,
-    pub reads_p: bool,
-    pub reads_at: bool,
 }
 
 #[derive(Serialize)]
@@ -294,19 +287,6 @@ impl Parameters {
             lines,
             fields: named.filter(|(_, read)| **read).map(|(name, _)| name.clone()).collect(),
             magnitude: demand.magnitude.then(|| scene.magnitude()),
-        }
-    }
-}
-
-impl Code {
-    /// The code, and what it reads.
-    pub fn new(language: &dyn Language, lines: Vec<String>, values: Vec<String>) -> Self {
-        let reads = |what: &str| lines.iter().chain(&values).any(|line| line.contains(what));
-        Code {
-            reads_p: reads(&language.field("")),
-            reads_at: lines.iter().chain(&values).any(|line| reads_places(line)),
-            lines,
-            values,
         }
     }
 }

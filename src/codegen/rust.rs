@@ -2,8 +2,9 @@
 
 use super::batch;
 use super::joined::Declaration;
+use super::language::{Finish, Language, State};
 use super::outline::Outline;
-use super::printer::{Finish, INDENT, Language, State, negation, spread};
+use super::printer::{INDENT, negation, spread};
 use crate::solver::Program;
 
 const SKELETON: &str = concat!(

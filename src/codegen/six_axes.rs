@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::printer::{Language, number};
+use super::language::Language;
+use super::printer::number;
 use crate::solver::eigenvalue::{Constants, Curve, ROOM, Rigid, SixAxes};
 use crate::solver::{Program, Step};
 

@@ -1,15 +1,34 @@
-//! The steps of a case as nested loops of text: [`Walk`].
+//! The bodies of cases: their steps as nested loops of text ([`Walk`]).
 
 use super::body::Scene;
+use super::demand::Demand;
+use super::language::{Finish, Language, State};
 use super::mirror::Mirror;
-use super::printer::{Finish, INDENT, Language, Printer, State};
+use super::printer::{INDENT, Printer};
 use super::samples::Table;
 use super::six_axes;
 use crate::solver::eigenvalue::SixAxes;
 use crate::solver::{Case, JointValue, Operand, Program, Step, square};
 
+impl Scene<'_> {
+    /// The body of a case of the block with this index, without indentation; an open case's is its condition alone.
+    pub fn case(&self, index: usize, case: &Case) -> Vec<String> {
+        let (block, wanted) = (&self.program.blocks[index], self.wanted_of(index));
+        let wanted = if index + 1 < self.program.blocks.len() { wanted } else { self.wanted() };
+        let demand = Demand::of_case(self.program, case, &wanted);
+        let mut printer = self.block_printer(index, demand, block.code.len());
+        let mut lines = printer.code(&case.guard_code);
+        if !case.guards.is_empty() {
+            let condition = self.condition(&case.guards, &mut printer);
+            let beside = case.is_of_stratum().then(|| condition.replace(", NEAR)", ", BESIDE)"));
+            lines.extend(self.language.leave_unless(&condition, case.is_rare(), beside.as_deref()));
+        }
+        Walk::new(self, index, case, lines).steps(&mut printer)
+    }
+}
+
 /// The steps of a case on their way to text.
-pub(super) struct Walk<'a> {
+struct Walk<'a> {
     scene: &'a Scene<'a>,
     block: usize,
     case: &'a Case,
@@ -27,7 +46,7 @@ pub(super) struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     /// At the case's first step, behind `lines`, in the block with this index.
-    pub fn new(scene: &'a Scene<'a>, block: usize, case: &'a Case, lines: Vec<String>) -> Self {
+    fn new(scene: &'a Scene<'a>, block: usize, case: &'a Case, lines: Vec<String>) -> Self {
         let (finds_roots, branch, loose, lost) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Walk { scene, block, case, lines, depth: 0, finds_roots, branch, loose, lost }
     }
@@ -45,7 +64,7 @@ impl<'a> Walk<'a> {
     }
 
     /// The lines of the whole case.
-    pub fn steps(mut self, printer: &mut Printer<'_>) -> Vec<String> {
+    fn steps(mut self, printer: &mut Printer<'_>) -> Vec<String> {
         if self.case.first_branch > 0 {
             self.branch.push(self.case.first_branch.to_string());
         }

@@ -9,6 +9,7 @@ use crate::{Result, Watch};
 
 /// A reduced Groebner basis of a setting's equations with the cofactors that prove it, already verified.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Certified {
     /// The unknowns, greatest first.
     pub order: Vec<String>,

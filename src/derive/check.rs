@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::radicals::check_root;
-use super::system::{
+use super::system_parts::{
     Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
     ParameterSource, Quantity, SystemParts, are_partners, complement, is_circle,
 };

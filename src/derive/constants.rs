@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use num_traits::Signed;
 
-use super::system::{Parameter, ParameterSource};
+use super::system_parts::{Parameter, ParameterSource};
 use crate::document::Node;
 use crate::number::{BigRational, Rationals};
 use crate::poly::{Expression, is_identifier, parse, rational_root};

@@ -27,7 +27,7 @@ pub enum Description {
     System(System),
     /// A robot with any number of chains: URDF, or TOML.
     Robot(Robot),
-    /// CoupledChains that share actuators.
+    /// Chains that share actuators.
     Coupled(Box<CoupledChains>),
 }
 

@@ -27,6 +27,7 @@ pub mod setting;
 pub mod stages;
 pub mod strata;
 mod system;
+mod system_parts;
 pub mod system_toml;
 pub mod tree;
 pub mod triangular;
@@ -39,7 +40,8 @@ pub use grow::{derive_tree, describe};
 pub use input::{Description, InputFile, Source};
 pub use proved::Proved;
 pub use prover::Orders;
-pub use system::{
+pub use system::System;
+pub use system_parts::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,
-    Parameter, ParameterSource, Quantity, System, SystemParts,
+    Parameter, ParameterSource, Quantity, SystemParts,
 };

@@ -13,6 +13,7 @@ const ALL_ORDERS: usize = 5;
 
 /// How badly the formulas of an order break down; smaller is better, compared field by field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub struct Score {
     /// Denominators whose zero set could not be described.
     pub open: usize,

@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::kinematics::Root;
 
-use super::system::{Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System};
+use super::system::System;
+use super::system_parts::{Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity};
 
 impl Display for Input {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

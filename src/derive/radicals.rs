@@ -3,7 +3,7 @@
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
-use super::system::{Parameter, ParameterSource};
+use super::system_parts::{Parameter, ParameterSource};
 use crate::number::Rationals;
 use crate::poly::{Expression, rational_root};
 use crate::{Error, ErrorKind, Result};

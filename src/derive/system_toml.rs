@@ -60,8 +60,9 @@ use std::path::Path;
 
 use super::check::{Mistake, Part};
 use super::constants::Constants;
-use super::system::{
-    Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
+use super::system::System;
+use super::system_parts::{
+    Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, SystemParts,
 };
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text};
 use crate::kinematics::{Choice, LengthUnit, Root};

@@ -28,6 +28,7 @@ pub struct Node {
 
 /// A factor of a denominator that is never zero on real parameters under the assumptions.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Excluded {
     /// The factor.
     pub factor: Expression,
@@ -52,6 +53,7 @@ pub enum Outcome {
 
 /// A lexicographic basis with its proof and triangular form.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Solved {
     /// The basis and its proof.
     pub certified: Certified,

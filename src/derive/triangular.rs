@@ -15,6 +15,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// How one unknown follows from the smaller ones.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stair {
     /// Index of the unknown in the ring.
     pub unknown: usize,
@@ -24,6 +25,7 @@ pub struct Stair {
 
 /// A system solved one unknown at a time.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Triangular {
     /// The ring, its variables greatest first, lexicographic.
     pub ring: Unknowns,

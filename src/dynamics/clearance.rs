@@ -18,6 +18,7 @@ struct Capsule {
 
 /// Two links that touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Touch {
     /// The links, by their places in the robot.
     pub links: [usize; 2],

@@ -10,6 +10,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// A joint of a model: what moves one body against another.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModelJoint {
     /// Its name in the robot.
     pub name: String,

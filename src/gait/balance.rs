@@ -4,7 +4,8 @@ use nalgebra::{Point2, Vector3};
 
 use super::biped::Biped;
 use super::footprint::Side;
-use super::motion::Motion;
+use super::legs::Legs;
+use super::motion::{Motion, realise};
 use super::parts::in_parts;
 use super::polygon::Polygon;
 use super::reference::Reference;
@@ -18,6 +19,7 @@ const TOUCH: f64 = 1e-6;
 
 /// The balance at a sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Balance {
     /// The support polygon.
     pub support: Polygon,
@@ -66,6 +68,23 @@ pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f
         })
     };
     (0..motion.postures.len()).map(at).collect()
+}
+
+/// The motion of given references and its balance.
+///
+/// # Errors
+/// As [`realise`] and [`balance`].
+pub(super) fn realised(
+    biped: &Biped,
+    legs: &Legs,
+    references: &[Reference],
+    alike: Option<&Motion>,
+    tick: f64,
+    watch: &Watch,
+) -> Result<(Motion, Vec<Balance>)> {
+    let motion = realise(biped, legs, references, alike, tick, watch)?;
+    let balances = balance(biped, references, &motion, tick)?;
+    Ok((motion, balances))
 }
 
 /// The support polygon of a reference.

@@ -48,6 +48,7 @@ pub enum Fault {
 
 /// A fault with its place.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Found {
     /// The sample.
     pub sample: usize,
@@ -59,6 +60,7 @@ pub struct Found {
 
 /// What is asked of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Demand {
     /// The least margin of the zero moment point \[m\].
     pub margin: f64,

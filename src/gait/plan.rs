@@ -1,18 +1,17 @@
-//! A walk from request to checked joint angles; what would fall is slowed down or refused. Main types: [`Request`], [`Walk`].
+//! A walk from request to checked joint angles; what would fall is slowed down or refused. Main type: [`Walk`].
 
 use nalgebra::Point2;
 
-use super::balance::{Balance, balance};
+use super::balance::{Balance, realised};
 use super::biped::Biped;
 use super::check::{Demand, Found, faults, feet_meet};
-use super::footprint::Route;
 use super::legs::Legs;
-use super::motion::{Motion, realise};
-use super::one_step::OneStep;
+use super::motion::Motion;
 use super::preview;
-use super::reference::{Reference, Style, seed_centre, soles};
+use super::reference::{Reference, seed_centre, soles};
 use super::refusal;
-use super::schedule::{Action, Durations, Schedule};
+use super::request::{Gait, Request};
+use super::schedule::Schedule;
 use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -24,53 +23,6 @@ const SLOWER: f64 = 1.15;
 const SLOWEST: f64 = 12.0;
 /// The most samples of a walk: half an hour at 100 Hz.
 const MOST_SAMPLES: usize = 180_000;
-
-/// How the centre of mass is moved.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Gait {
-    /// The seed's sine, NAO (6.8.1): over one foot the centre of mass rests.
-    #[default]
-    Seed,
-    /// Preview control of the zero moment point (Kajita and others 2003): the centre of mass never rests.
-    Preview,
-    /// One step goal, RH0 3.3 and 3.5: orient, lean, lift, land, balance.
-    OneStep(OneStep),
-}
-
-impl Gait {
-    /// Whether it is a one-step-goal gait.
-    pub fn is_one_step(&self) -> bool {
-        matches!(self, Gait::OneStep(_))
-    }
-
-    /// The phases of a walk of `steps` steps.
-    pub fn actions(&self, steps: usize) -> Vec<Action> {
-        if let Gait::OneStep(one_step) = self {
-            return one_step.actions(steps);
-        }
-        let walk = (0..steps).flat_map(|step| [Action::Shift(step), Action::Swing(step)]);
-        [Action::Rest].into_iter().chain(walk).chain([Action::Shift(steps), Action::Rest]).collect()
-    }
-}
-
-/// What walk is wanted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Request {
-    /// The way.
-    pub route: Route,
-    /// How the centre of mass is moved.
-    pub gait: Gait,
-    /// The figures of the gait.
-    pub style: Style,
-    /// How long the phases are to last.
-    pub durations: Durations,
-    /// The least distance of the zero moment point from the border of the support polygon \[m\].
-    pub margin: f64,
-    /// The greatest share of its own speed that a joint may have.
-    pub speed_share: f64,
-    /// The time between two samples \[s\].
-    pub tick: f64,
-}
 
 /// A checked walk.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +73,7 @@ pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Res
             return Err(refusal::of(biped, &schedule, request, &found));
         }
         let (motion, balances) = match request.gait {
-            Gait::Seed | Gait::OneStep(_) => moved(biped, legs, request, &references, None, watch)?,
+            Gait::Seed | Gait::OneStep(_) => realised(biped, legs, &references, None, request.tick, watch)?,
             Gait::Preview => preview::moved(biped, legs, request, &schedule, &mut references, watch)?,
         };
         let demand = Demand {
@@ -136,23 +88,6 @@ pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Res
         }
         slow_down(biped, &schedule, request, &found, &mut slowed)?;
     }
-}
-
-/// The motion of given references and its balance.
-///
-/// # Errors
-/// As [`realise`] and [`balance`].
-pub(super) fn moved(
-    biped: &Biped,
-    legs: &Legs,
-    request: &Request,
-    references: &[Reference],
-    alike: Option<&Motion>,
-    watch: &Watch,
-) -> Result<(Motion, Vec<Balance>)> {
-    let motion = realise(biped, legs, references, alike, request.tick, watch)?;
-    let balances = balance(biped, references, &motion, request.tick)?;
-    Ok((motion, balances))
 }
 
 /// What is asked of feet and torso at each sample, for preview control with the seed's law for the centre of mass.

@@ -3,13 +3,13 @@
 
 use nalgebra::{Matrix4, Point2, RowVector4, Vector2, Vector3, Vector4};
 
-use super::balance::Balance;
+use super::balance::{Balance, realised};
 use super::biped::Biped;
 use super::footprint::Footprint;
 use super::legs::Legs;
 use super::motion::Motion;
-use super::plan::{Request, moved as realised};
 use super::reference::{Reference, Style, on_the_way, smooth};
+use super::request::Request;
 use super::schedule::{Action, Schedule};
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -163,7 +163,7 @@ pub(super) fn moved(
             zmp_reference(&request.style, schedule, action, &feet, share)
         })
         .collect();
-    let resting = realised(biped, legs, request, &references[..1], None, watch)?;
+    let resting = realised(biped, legs, &references[..1], None, request.tick, watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
@@ -173,7 +173,7 @@ pub(super) fn moved(
     let mut alike: Option<Motion> = None;
     for _ in 0..FEEDBACKS {
         aim(references, &centres);
-        let (motion, balances) = realised(biped, legs, request, references, alike.as_ref(), watch)?;
+        let (motion, balances) = realised(biped, legs, references, alike.as_ref(), request.tick, watch)?;
         alike = Some(motion);
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
@@ -182,7 +182,7 @@ pub(super) fn moved(
         }
     }
     aim(references, &centres);
-    realised(biped, legs, request, references, alike.as_ref(), watch)
+    realised(biped, legs, references, alike.as_ref(), request.tick, watch)
 }
 
 /// Asks the references for these centres of mass.

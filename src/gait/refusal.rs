@@ -5,8 +5,8 @@ use nalgebra::Point2;
 use super::biped::Biped;
 use super::check::{Fault, Found};
 use super::one_step::{Laws, OneStep};
-use super::plan::{Gait, Request};
 use super::reference::Style;
+use super::request::{Gait, Request};
 use super::schedule::{Action, Schedule};
 use crate::{Error, ErrorKind};
 

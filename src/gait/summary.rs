@@ -3,11 +3,13 @@
 use std::fmt;
 
 use super::biped::Biped;
-use super::plan::{Gait, Walk};
+use super::plan::Walk;
+use super::request::Gait;
 use super::schedule::Action;
 
 /// A figure at its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Extreme {
     /// The figure.
     pub value: f64,
@@ -17,6 +19,7 @@ pub struct Extreme {
 
 /// What a walk comes to.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Summary {
     /// The name of the robot.
     pub robot: String,

@@ -5,8 +5,9 @@ use std::borrow::Cow;
 use super::biped::Biped;
 use super::footprint::Route;
 use super::legs::Legs;
-use super::plan::{Gait, Request, Walk, plan};
+use super::plan::{Walk, plan};
 use super::reference::Style;
+use super::request::{Gait, Request};
 use super::schedule::Durations;
 use crate::{ErrorKind, Result, Watch};
 

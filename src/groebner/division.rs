@@ -6,6 +6,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// `f = sum quotients[k] * divisors[k] + remainder`; no term of the remainder is divisible by a leading monomial.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Division<E> {
     /// One quotient a divisor.
     pub quotients: Vec<Polynomial<E>>,

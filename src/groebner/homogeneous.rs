@@ -3,11 +3,9 @@
 //! C. Traverso, "Hilbert functions and the Buchberger algorithm", J. Symbolic Computation 22 (1996): once the leading monomials of a
 //! degree are as many as the series says, all pairs of that degree reduce to zero and are skipped.
 
-use num_traits::ToPrimitive;
-
 use super::engine::basis_towards;
-use super::hilbert::{excess, is_homogeneous, numerator};
-use super::pairs::Head;
+use super::goal::another_series;
+use super::hilbert::is_homogeneous;
 use super::{Basis, HilbertSeries, Options, Strategy};
 use crate::number::Field;
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term};
@@ -106,42 +104,4 @@ pub fn hilbert_driven<F: Field>(
     let options = Options { strategy: Strategy::Sugar, ..Options::default() };
     let found = basis_towards(ring, generators, &options, Some(series), watch)?;
     if found.hilbert_series()? == *series { Ok(found) } else { Err(another_series()) }
-}
-
-fn another_series() -> Error {
-    Error::new(
-        ErrorKind::BadValue,
-        "the Hilbert series is not that of the ideal; take it from a basis of the same ideal",
-    )
-}
-
-/// The known Hilbert series of a running computation, which takes pairs by degree.
-#[derive(Debug)]
-pub(super) struct Goal<'a> {
-    series: &'a HilbertSeries,
-    /// The degree that the computation is at, and the number of elements with which it is full.
-    stage: Option<(u32, usize)>,
-}
-
-impl<'a> Goal<'a> {
-    pub fn new(series: &'a HilbertSeries) -> Self {
-        Goal { series, stage: None }
-    }
-
-    /// Whether all leading monomials of `degree` are there: each new element has one more.
-    pub fn is_full<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &[Head], degree: u32) -> Result<bool> {
-        let size = match self.stage {
-            Some((at, size)) if at == degree => size,
-            _ => heads.len().saturating_add(self.missing(ring, heads, degree)?),
-        };
-        self.stage = Some((degree, size));
-        Ok(heads.len() >= size)
-    }
-
-    fn missing<F: Field>(&self, ring: &PolynomialRing<F>, heads: &[Head], degree: u32) -> Result<usize> {
-        let leads = heads.iter().map(|head| ring.layout().exponents(&head.monomial)).collect();
-        let current = HilbertSeries { numerator: numerator(leads), variables: ring.variables().len() };
-        let missing = excess(&current, self.series, degree as usize).ok_or_else(another_series)?;
-        Ok(missing.to_usize().unwrap_or(usize::MAX))
-    }
 }

@@ -1,10 +1,42 @@
-//! From a Groebner basis to the reduced one.
+//! From a Groebner basis to the reduced one, a [`Basis`].
 
-use super::Basis;
-use super::engine::{Tracked, leads_divide, monic, reduce};
+use super::tracked::{Tracked, monic, reduce};
 use crate::number::Field;
-use crate::poly::{Polynomial, PolynomialRing};
+use crate::poly::{Polynomial, PolynomialRing, Width};
 use crate::{Result, Watch};
+
+/// A reduced Groebner basis: monic, sorted by leading monomial from the smallest, unique for ideal and order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis<F: Field> {
+    /// The ring and its order; its lanes are wider than those of the ring asked for when the basis does not fit those.
+    pub ring: PolynomialRing<F>,
+    /// The basis; empty for the zero ideal, `[1]` for the unit ideal.
+    pub polynomials: Vec<Polynomial<F::Element>>,
+    /// With [`Options::cofactors`](super::Options::cofactors):
+    /// `polynomials[i] = sum over j of cofactors[i][j] * generators[j]`, else empty.
+    pub cofactors: Vec<Vec<Polynomial<F::Element>>>,
+}
+
+impl<F: Field> Basis<F> {
+    /// The same basis with exponent lanes of `width`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Overflow`] when a degree does not fit.
+    pub fn with_width(self, width: Width) -> Result<Self> {
+        let ring = self.ring.with_width(width);
+        let transfer = |list: &[Polynomial<F::Element>]| -> Result<Vec<_>> {
+            list.iter().map(|f| self.ring.transfer(f, &ring)).collect()
+        };
+        let polynomials = transfer(&self.polynomials)?;
+        let cofactors = self.cofactors.iter().map(|row| transfer(row)).collect::<Result<_>>()?;
+        Ok(Basis { ring, polynomials, cofactors })
+    }
+
+    /// Whether the ideal is the whole ring: the equations have no solution in any extension field.
+    pub fn is_unit_ideal(&self) -> bool {
+        self.polynomials.iter().any(|f| self.ring.as_constant(f).is_some_and(|c| !self.ring.field().is_zero(&c)))
+    }
+}
 
 /// The reduced basis of a Groebner basis that came about elsewhere, its cofactors (one row a polynomial) carried along.
 ///
@@ -44,6 +76,12 @@ pub(super) fn interreduce<F: Field>(
         minimal.insert(index, element);
     }
     Ok(minimal)
+}
+
+/// Whether the leading monomial of `a` divides that of `b`.
+fn leads_divide<F: Field>(ring: &PolynomialRing<F>, a: &Polynomial<F::Element>, b: &Polynomial<F::Element>) -> bool {
+    let leads = a.leading().zip(b.leading());
+    leads.is_some_and(|(a, b)| ring.layout().divides(&a.monomial, &b.monomial))
 }
 
 fn compare_leads<F: Field>(

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::chain::{along_z, show};
+use super::parts::{along_z, show};
 use super::validate::{Fault, Part, check_count};
 use super::{Chain, ChainParts, Choice, ExactVector, Joint, JointKind, Placement, Plane, Root, Task, Tip, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};

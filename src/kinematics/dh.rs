@@ -4,8 +4,8 @@
 
 use std::convert::Infallible;
 
-use super::chain::{Meant, along_z};
 use super::frame::{Frame, Rationality, Reading};
+use super::parts::{Meant, along_z};
 use super::validate::{Fault, check_count};
 use super::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
 use crate::Result;

@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
-use super::chain::along_z;
 use super::chain_toml::{line_of, read_given, read_limits, read_task};
+use super::parts::along_z;
 use super::validate::Fault;
 use super::{Chain, DhConvention, DhRow, DhTable, ExactVector, JointKind, Placement, Task, Turn};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};

@@ -1,49 +1,10 @@
 //! Numeric forward kinematics as a product of exponentials (Brockett 1984; RH0 2.1.4).
 
-use nalgebra::{Point3, Translation3, Unit, Vector3};
+use nalgebra::{Unit, Vector3};
 
-use super::{Chain, ChainParts, Joint, JointKind};
-use crate::spatial::exact::{normalized, numeric_rotation, point};
+use super::Chain;
 use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
-
-/// The screws and the tip of a chain in doubles, in the base frame at the zero configuration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Numeric {
-    screws: Vec<Screw>,
-    base_from_tip: Pose,
-    aim: Unit<Vector3<f64>>,
-    reach: f64,
-}
-
-impl Numeric {
-    pub(super) fn of(parts: &ChainParts) -> Result<Self> {
-        let screws = parts.joints.iter().map(Joint::screw).collect::<Result<_>>()?;
-        let translation = Translation3::from(point(&parts.tip.point).coords);
-        let base_from_tip = Pose::from_parts(translation, numeric_rotation(&parts.tip.rotation));
-        let points = parts.joints.iter().map(Joint::location).chain([Point3::from(translation.vector)]);
-        Ok(Numeric { screws, base_from_tip, aim: normalized(&parts.direction), reach: length(points) })
-    }
-}
-
-impl Joint {
-    /// The unit vector along the axis.
-    pub fn direction(&self) -> Unit<Vector3<f64>> {
-        normalized(&self.axis)
-    }
-
-    /// The point on the axis, in the chain's length unit.
-    pub fn location(&self) -> Point3<f64> {
-        point(&self.point)
-    }
-
-    fn screw(&self) -> Result<Screw> {
-        match self.kind {
-            JointKind::Revolute => Screw::revolute(self.direction().into_inner(), self.location()),
-            JointKind::Prismatic => Screw::prismatic(self.direction().into_inner()),
-        }
-    }
-}
 
 impl Chain {
     /// The unit vector, in the tip frame, of the direction that the tasks `ray` and `direction` aim.
@@ -86,10 +47,4 @@ impl Chain {
     pub fn reach(&self) -> f64 {
         self.numeric.reach
     }
-}
-
-/// The length of a zigzag over these points.
-fn length(points: impl Iterator<Item = Point3<f64>>) -> f64 {
-    let points: Vec<Point3<f64>> = points.collect();
-    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }

@@ -14,6 +14,7 @@ pub const TOLERANCE: f64 = 1e-9;
 
 /// Two neighbouring joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Neighbours {
     /// The place of the first one; the other follows it.
     pub first: usize,
@@ -25,6 +26,7 @@ pub struct Neighbours {
 
 /// Consecutive revolute joints whose axes meet in one point.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Meeting {
     /// The places of the joints: two or more.
     pub joints: std::ops::Range<usize>,

@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::chain::{Meant, along_z};
 use super::frame::{Frame, Rationality, Reading};
+use super::parts::{Meant, along_z};
 use super::telescope::{Telescope, joined};
 use super::{Chain, ChainParts, Joint, JointKind, LengthUnit, Mimic, Task, Tip};
 use crate::document::shown;

@@ -10,7 +10,7 @@
 use num_traits::{ToPrimitive, Zero};
 
 use super::Target;
-use super::chain::along_z;
+use super::parts::along_z;
 use super::{Chain, ChainParts, ExactVector, Joint, JointKind, Task, Tip};
 use crate::number::BigRational;
 use crate::spatial::{Pose, angle};
@@ -21,6 +21,7 @@ pub const GIVEN: [&str; 4] = ["roll", "pitch", "radius", "height"];
 
 /// The loop of a chain for its task `position_pitch_roll`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Upright {
     /// The joints behind the first one, roll, pitch, a turn about the vertical, radius, height, and last the first joint, counted from the target's
     /// azimuth, with its own name; the task is the pose, which is to be the identity.

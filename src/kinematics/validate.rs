@@ -3,8 +3,7 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::chain::{ChainParts, Joint, JointKind, Tip, show};
-use super::ideal::TOLERANCE;
+use super::parts::{ChainParts, Joint, JointKind, TOLERANCE, Tip, show};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};

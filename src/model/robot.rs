@@ -3,26 +3,11 @@
 use num_traits::{One, Zero};
 
 use super::check;
-use super::{Actuator, Joint, JointType, Link, Mimic};
+use super::{Actuator, Joint, JointType, Link, Mimic, RobotParts};
 use crate::document::shown;
 use crate::number::BigRational;
 use crate::spatial::Inertia;
 use crate::{ErrorKind, Result};
-
-/// The plain data of a [`Robot`], not yet checked.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RobotParts {
-    /// Its name.
-    pub name: String,
-    /// Where its figures come from.
-    pub source: Option<String>,
-    /// The links.
-    pub links: Vec<Link>,
-    /// The joints.
-    pub joints: Vec<Joint>,
-    /// The actuators; a joint that none of them names has its own.
-    pub actuators: Vec<Actuator>,
-}
 
 /// A checked tree of links and joints, with masses and shapes. It never changes.
 #[derive(Clone, Debug, PartialEq)]

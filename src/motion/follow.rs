@@ -25,6 +25,7 @@ pub enum Pace {
 
 /// Where a path must jump from one branch to another, and why.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Jump {
     /// The pose that is jumped to, from 0.
     pub sample: usize,
@@ -38,6 +39,7 @@ pub struct Jump {
 
 /// A path, and where it jumps.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Followed {
     /// The path.
     pub trajectory: Trajectory,

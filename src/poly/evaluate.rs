@@ -97,6 +97,7 @@ impl Expression {
 
 /// Bounds on an expanded polynomial; infinite when they exceed a double.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ExpansionBound {
     /// The number of terms.
     pub terms: f64,

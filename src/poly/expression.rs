@@ -2,15 +2,11 @@
 
 use std::collections::HashSet;
 use std::fmt::{self, Display, Formatter};
-use std::str::FromStr;
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed};
 use serde::{Deserialize, Serialize, Serializer};
-
-use super::parse::parse;
-use crate::{Error, Result};
 
 /// An exact algebraic expression, as it was written: nothing is expanded or simplified.
 ///
@@ -19,6 +15,8 @@ use crate::{Error, Result};
 /// equal expression, as long as it keeps within [`MAX_LENGTH`](super::MAX_LENGTH), [`MAX_DEPTH`](super::MAX_DEPTH)
 /// and [`MAX_EXPONENT`](super::MAX_EXPONENT). Serde writes and reads that text. All functions recurse to the height of
 /// the tree: a tree built by hand should keep to `MAX_DEPTH` too.
+///
+/// [`parse`]: super::parse()
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(try_from = "String")]
 pub enum Expression {
@@ -173,7 +171,7 @@ enum Level {
     Atom,
 }
 
-fn single(mut parts: Vec<Expression>) -> std::result::Result<Expression, Vec<Expression>> {
+fn single(mut parts: Vec<Expression>) -> Result<Expression, Vec<Expression>> {
     if parts.len() == 1 { Ok(parts.remove(0)) } else { Err(parts) }
 }
 
@@ -261,24 +259,8 @@ impl Display for Expression {
     }
 }
 
-impl FromStr for Expression {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        parse(text)
-    }
-}
-
-impl TryFrom<String> for Expression {
-    type Error = Error;
-
-    fn try_from(text: String) -> Result<Self> {
-        parse(&text)
-    }
-}
-
 impl Serialize for Expression {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
 }

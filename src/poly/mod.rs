@@ -5,6 +5,7 @@
 //! compute modulo primes on machine words (`words`), and prove what they find by division. [`system`] reads and prints systems
 //! in the formats of `groebot basis`.
 
+mod arithmetic;
 mod evaluate;
 mod expression;
 mod factor;

@@ -18,12 +18,14 @@
 //! [`MAX_LENGTH`]: super::MAX_LENGTH
 //! [`MAX_DEPTH`]: super::MAX_DEPTH
 
+use std::str::FromStr;
+
 use num_traits::Zero;
 
 use super::Expression;
 use super::grammar::{Dialect, Parser};
 use super::token::{Cursor, Kind, Token};
-use crate::Result;
+use crate::{Error, Result};
 
 /// Whether `text` is an identifier `[A-Za-z_][A-Za-z0-9_]*`.
 pub fn is_identifier(text: &str) -> bool {
@@ -36,6 +38,22 @@ pub fn is_identifier(text: &str) -> bool {
 /// [`ErrorKind::Syntax`](crate::ErrorKind::Syntax) with the column (in characters, from 1) and what is allowed there.
 pub fn parse(text: &str) -> Result<Expression> {
     Parser::new(tokens(text)?, Dialect::Text).whole()
+}
+
+impl FromStr for Expression {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        parse(text)
+    }
+}
+
+impl TryFrom<String> for Expression {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self> {
+        parse(&text)
+    }
 }
 
 /// Reads `a = b` as the expression `a - b` (`a` alone when `b` is 0), and `a` without `=` as `a = 0`.

@@ -14,6 +14,7 @@ use crate::{Result, Watch};
 
 /// A closed interval of rationals around a real number.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Enclosure {
     /// The lower end.
     pub low: BigRational,
@@ -45,6 +46,7 @@ const TIE: u64 = 256;
 
 /// An isolated real solution of a system.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RealSolution {
     /// One interval a variable: the sides of a box in which no other real solution lies.
     pub coordinates: Vec<Enclosure>,

@@ -15,6 +15,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// A real root: its isolating interval and its multiplicity.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct RealRoot {
     /// The isolating interval; its open ends are no roots of the whole polynomial.
     pub interval: Interval,

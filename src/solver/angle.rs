@@ -4,9 +4,7 @@
 //! `|z| <= tan(pi/8)` is `z + z^3 P(z^2)`, where `P` interpolates `(atan(z) / z - 1) / z^2` at eleven Chebyshev points of `z^2` (found
 //! with 60 digits; its share of the angle is off by 7e-18).
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-
-use super::refine::half_open;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// Coefficients of `P`, constant term first.
 pub(crate) const SERIES: [f64; 11] = [
@@ -46,6 +44,16 @@ pub(crate) fn angle(cosine: f64, sine: f64) -> f64 {
         angle = PI - (angle - 4.0 * REST);
     }
     half_open(angle.copysign(sine)) + 0.0
+}
+
+/// The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi.
+fn half_open(angle: f64) -> f64 {
+    if angle <= -PI { angle + TAU } else { angle }
+}
+
+/// The angle moved by whole turns into (-pi, pi].
+pub(super) fn wrap(angle: f64) -> f64 {
+    half_open(angle - TAU * (angle / TAU).round())
 }
 
 /// `P(u)`.

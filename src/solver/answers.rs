@@ -1,18 +1,31 @@
 //! From candidates to answers: each is polished, measured by the equations, and merged with those equal to it.
 
-use super::angle::angle;
-use super::apart::difference;
+use serde::Serialize;
+
+use super::angle::{angle, wrap};
 use super::approach::{Approach, approached};
-use super::evaluate::Nearest;
 use super::frame::Frame;
+use super::joint::JointValue;
 use super::pairs::{Pairs, UsualPairs};
-use super::program::{JointValue, Program};
-use super::refine::{self, Fit, Joints, NONE_FREE};
-use super::walk::Path;
+use super::path::Path;
+use super::program::Program;
+use super::refine::{self, Fit, Joints, NONE_FREE, difference};
 use super::{
     ADRIFT, ALONE, APART, FARTHER, FARTHEST, LEVER, MAX_JOINTS, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN, TWINS_AT,
 };
 use crate::kinematics::Solution;
+
+/// A candidate that does not solve the equations.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Nearest {
+    /// Joint values in the program's joint order.
+    pub q: Vec<f64>,
+    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
+    pub residual: f64,
+    /// The largest share of an equation's value in its size.
+    pub relative: f64,
+}
 
 /// A solution with the largest share of an equation's value in its scale.
 pub(super) struct Answer {
@@ -177,7 +190,7 @@ impl<'a> Answers<'a> {
         let mut start = *q;
         for (index, joint) in self.program.joints.iter().enumerate() {
             let value = q[index] + difference(self.program, index, q, end);
-            start[index] = if matches!(joint.value, JointValue::Angle { .. }) { refine::wrap(value) } else { value };
+            start[index] = if matches!(joint.value, JointValue::Angle { .. }) { wrap(value) } else { value };
         }
         let fit = refine::polished(self.program, &mut start, &NONE_FREE, &mut self.frame);
         self.keep(path, &start, &fit);
@@ -210,11 +223,9 @@ impl<'a> Answers<'a> {
         if fit.relative > ALONE {
             return self.miss(q, fit);
         }
-        let program = self.program;
-        let joints = &q[..program.joints.len()];
+        let joints = &q[..self.program.joints.len()];
         let is_listed = self.list.iter().any(|a| a.is_isolated() && self.are_near(&a.solution.q, joints, MERGE));
-        let mut freed = program.freed().filter(|_| !is_listed);
-        let joint = freed.find(|&joint| self.lies_on_self_motion(joints, &[joint], fit.relative));
+        let joint = if is_listed { None } else { self.joint_on_self_motion(joints, fit.relative) };
         let mut alone = *path;
         alone.free = std::array::from_fn(|other| Some(other) == joint);
         let known = self.list.len();

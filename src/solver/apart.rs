@@ -1,10 +1,9 @@
 //! How far answers are from one another, and whether two next to each other are one.
 
-use std::f64::consts::{PI, TAU};
-
+use super::angle::wrap;
 use super::answers::{Answer, Answers};
-use super::program::{JointValue, Program};
-use super::refine::{self, NONE_FREE};
+use super::joint::JointValue;
+use super::refine::{self, NONE_FREE, difference};
 use super::{ALIKE, BLUR, DISTINCT, MAX_JOINTS, ROUNDING};
 use crate::kinematics::Solution;
 
@@ -27,7 +26,7 @@ impl Answers<'_> {
     pub(super) fn displaced(&self, value: f64, joint: usize, way: f64) -> f64 {
         let moved = value + way * self.size(joint, value);
         match self.program.joints[joint].value {
-            JointValue::Angle { .. } => refine::wrap(moved),
+            JointValue::Angle { .. } => wrap(moved),
             JointValue::Plain(_) => moved,
         }
     }
@@ -73,15 +72,5 @@ impl Answers<'_> {
             *slot = b[joint] + 0.5 * difference(self.program, joint, a, b);
         }
         refine::nearly_holds(self.program, &middle, bound, held, &mut self.frame)
-    }
-}
-
-/// `a - b` for one joint, for an angle by the shorter way round.
-pub(super) fn difference(program: &Program, joint: usize, a: &[f64], b: &[f64]) -> f64 {
-    let difference = a[joint] - b[joint];
-    match program.joints[joint].value {
-        JointValue::Angle { .. } if difference > PI => difference - TAU,
-        JointValue::Angle { .. } if difference < -PI => difference + TAU,
-        _ => difference,
     }
 }

@@ -1,9 +1,11 @@
 //! The short way from a candidate of a nearby mechanism's formulas to the answer next to it: [`approached`].
 
+use super::angle::wrap;
 use super::frame::Frame;
 use super::instruction::Operand;
-use super::program::{JointValue, Program, Short};
-use super::refine::{Fit, Joints, measure_unknowns, measured, wrap};
+use super::joint::JointValue;
+use super::program::{Program, Short};
+use super::refine::{Fit, Joints, measure_unknowns, measured};
 use super::{APPROACHES, MAX_JOINTS, PLAIN, ROUNDING, TURN};
 
 /// Where the short way has led.

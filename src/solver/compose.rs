@@ -2,7 +2,8 @@
 //! first has put them ([`Program::followed_by`]).
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{Block, Case, Checks, Condition, Guard, Joint, JointValue, Pivot, Program, Step};
+use super::joint::{Joint, JointValue};
+use super::program::{Block, Case, Checks, Condition, Guard, Pivot, Program, Step};
 use super::refine::measured;
 use super::rule::{ParameterRule, Rule};
 use super::validate::MOST_ANSWERS;

@@ -1,27 +1,14 @@
 //! Running a [`Program`]: the target becomes parameters, the blocks propose candidates, and what solves the equations remains.
 
-use serde::Serialize;
-
-use super::answers::Answers;
+use super::answers::{Answers, Nearest};
 use super::frame::Frame;
-use super::pairs::UsualPairs;
+use super::pairs::{Pairs, UsualPairs};
 use super::program::Program;
 use super::rule::Rule;
 use super::walk::Walk;
 use super::{MERGE, refine};
 use crate::kinematics::{InverseKinematics, Solution, Target};
 use crate::{Error, ErrorKind, Result};
-
-/// A candidate that does not solve the equations.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Nearest {
-    /// Joint values in the program's joint order.
-    pub q: Vec<f64>,
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// The largest share of an equation's value in its size.
-    pub relative: f64,
-}
 
 impl Program {
     /// All real solutions for `target` and the values `given` of the joints that the user gives, by branch: empty when the target is unreachable. Lengths
@@ -58,6 +45,19 @@ impl Program {
         Ok(solutions)
     }
 
+    /// The answers of [`Program::solve_numbers`] by cosines and sines. Where all candidates solve the equations within rounding and are apart, as
+    /// at ordinary targets, these are the numbers that angles are taken of, and printed solvers take none; else they are those of
+    /// the angles.
+    ///
+    /// # Errors
+    /// As [`Program::solve_numbers`].
+    pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
+        let usual = if self.compares_tip() { UsualPairs::none_yet() } else { UsualPairs::unwanted() };
+        let mut pairs = self.walk(target, usual, |answers| answers.into_pairs())?;
+        pairs.sort_by_key(|pairs| pairs.branch);
+        Ok(pairs)
+    }
+
     /// Of the candidates for `target` that are no solution, the one that misses the equations by the least share of their size, as
     /// far as polishing brings it; none when there is no such candidate.
     ///
@@ -68,7 +68,7 @@ impl Program {
     }
 
     /// What is taken of the answers for a target; they are noted as `pairs` too, if these are wanted.
-    pub(super) fn walk<T>(&self, target: &[f64], pairs: UsualPairs, take: impl Fn(Answers<'_>) -> T) -> Result<T> {
+    fn walk<T>(&self, target: &[f64], pairs: UsualPairs, take: impl Fn(Answers<'_>) -> T) -> Result<T> {
         self.check_target(target)?;
         let mut target = target.to_vec();
         self.conform(&mut target)?;

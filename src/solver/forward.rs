@@ -6,7 +6,8 @@
 use super::angle::angle;
 use super::frame::Frame;
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{JointValue, Program};
+use super::joint::JointValue;
+use super::program::Program;
 use super::refine::unknowns_of;
 use super::rule::Rule;
 

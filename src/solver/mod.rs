@@ -15,7 +15,9 @@ mod evaluate;
 mod forward;
 mod frame;
 mod instruction;
+mod joint;
 mod pairs;
+mod path;
 mod program;
 mod prune;
 mod refine;
@@ -27,15 +29,14 @@ mod walk;
 pub(crate) use crate::roots::quartic;
 pub use about::About;
 pub(crate) use angle::{EIGHTH, REST, SERIES};
+pub use answers::Nearest;
 pub use batch::Batch;
-pub use evaluate::Nearest;
 pub use forward::{Forward, Reached};
 pub use instruction::{Instruction, Operand, Operation};
+pub use joint::{Joint, JointValue, Unit};
 pub use pairs::Pairs;
 pub(crate) use program::square;
-pub use program::{
-    Block, Case, Checks, Condition, Guard, Input, Joint, JointValue, Pivot, Preference, Program, Short, Step, Unit,
-};
+pub use program::{Block, Case, Checks, Condition, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};
 
 /// An equation holds when its value is at most this share of the sum of its terms' magnitudes.

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::instruction::{Instruction, Operand, Operation};
-use super::program::{JointValue, Program, Step};
-use super::walk::Path;
+use super::joint::{Joint, JointValue};
+use super::path::Path;
+use super::program::{Program, Step};
 use super::{BLUR, refine};
-use crate::Result;
 use crate::kinematics::Solution;
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -26,19 +26,6 @@ pub struct Pairs {
 }
 
 impl Program {
-    /// The answers of [`Program::solve_numbers`] by cosines and sines. Where all candidates solve the equations within rounding and are apart, as
-    /// at ordinary targets, these are the numbers that angles are taken of, and printed solvers take none; else they are those of
-    /// the angles.
-    ///
-    /// # Errors
-    /// As [`Program::solve_numbers`].
-    pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
-        let usual = if self.compares_tip() { UsualPairs::none_yet() } else { UsualPairs::unwanted() };
-        let mut pairs = self.walk(target, usual, |answers| answers.into_pairs())?;
-        pairs.sort_by_key(|pairs| pairs.branch);
-        Ok(pairs)
-    }
-
     pub(super) fn pairs_of(&self, solution: &Solution) -> Pairs {
         let mut unknowns = vec![0.0; self.unknowns.len()];
         refine::unknowns_of(self, &solution.q, &mut unknowns);
@@ -118,7 +105,7 @@ impl UsualPairs {
     pub fn add(&mut self, program: &Program, path: &Path, residual: f64, unknowns: &[f64]) {
         let Some(list) = &mut self.0 else { return };
         let joints = program.joint_pairs(unknowns);
-        let tells = |(joint, (a, b)): (&super::Joint, (&[f64; 2], &[f64; 2]))| {
+        let tells = |(joint, (a, b)): (&Joint, (&[f64; 2], &[f64; 2]))| {
             matches!(joint.value, JointValue::Angle { .. }) && a[0] * b[0] + a[1] * b[1] < FAR_APART
         };
         let is_apart = |other: &Pairs| {

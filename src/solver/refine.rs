@@ -1,8 +1,12 @@
 //! Measuring an answer by the original equations, and polishing it by Newton steps in the joints.
 
+use std::f64::consts::{PI, TAU};
+
+use super::angle::wrap;
 use super::frame::Frame;
 use super::instruction::Operand;
-use super::program::{Checks, JointValue, Program};
+use super::joint::JointValue;
+use super::program::{Checks, Program};
 use super::{
     ACCEPT, DAMPINGS, INVERSIONS, LEAPS, MAX_JOINTS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
     ROUNDING, SHORT, STIFF,
@@ -256,15 +260,14 @@ pub(super) fn moved(program: &Program, q: &Joints, step: &Joints) -> Joints {
     moved
 }
 
-/// The angle in (-pi, pi]: -pi, which atan2 gives for a negative zero sine, becomes pi.
-pub(super) fn half_open(angle: f64) -> f64 {
-    if angle <= -std::f64::consts::PI { angle + std::f64::consts::TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-pub(super) fn wrap(angle: f64) -> f64 {
-    let turn = std::f64::consts::TAU;
-    half_open(angle - turn * (angle / turn).round())
+/// `a - b` for one joint, for an angle by the shorter way round.
+pub(super) fn difference(program: &Program, joint: usize, a: &[f64], b: &[f64]) -> f64 {
+    let difference = a[joint] - b[joint];
+    match program.joints[joint].value {
+        JointValue::Angle { .. } if difference > PI => difference - TAU,
+        JointValue::Angle { .. } if difference < -PI => difference + TAU,
+        _ => difference,
+    }
 }
 
 /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f` at the joints that were measured last; `None` when it is singular. The rows

@@ -1,8 +1,7 @@
 //! Whether answers are members of a self-motion, and of which: free joints are moved, and the others follow.
 
 use super::answers::Answers;
-use super::apart::difference;
-use super::refine::{self, Fit, Joints, NONE_FREE};
+use super::refine::{self, Fit, Joints, NONE_FREE, difference};
 use super::{ARRIVED, ASIDE, DOUBLINGS, MAX_JOINTS, NARROWS, REGULAR, ROUNDING, SINGULAR, STAGES};
 use crate::kinematics::Solution;
 
@@ -11,8 +10,20 @@ impl Answers<'_> {
     /// side at least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small
     /// part of the circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
     pub(super) fn lies_on_self_motion(&mut self, q: &[f64], free: &[usize], bound: f64) -> bool {
-        let (mut way, bound) = (ASIDE, bound.max(ROUNDING));
         let regularity = refine::regularity(self.program, &padded(q), &mut self.frame);
+        self.leads_to_self_motion(q, free, bound, regularity)
+    }
+
+    /// A joint that lies alone on a self-motion, as [`Answers::lies_on_self_motion`] says, the first of those that some case frees.
+    pub(super) fn joint_on_self_motion(&mut self, q: &[f64], bound: f64) -> Option<usize> {
+        let mut freed = self.program.freed().peekable();
+        freed.peek()?;
+        let regularity = refine::regularity(self.program, &padded(q), &mut self.frame);
+        freed.find(|&joint| self.leads_to_self_motion(q, &[joint], bound, regularity))
+    }
+
+    fn leads_to_self_motion(&mut self, q: &[f64], free: &[usize], bound: f64, regularity: f64) -> bool {
+        let (mut way, bound) = (ASIDE, bound.max(ROUNDING));
         if regularity > REGULAR {
             return false;
         }

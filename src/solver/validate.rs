@@ -1,7 +1,8 @@
 //! The check that a program is well formed: [`Program::validate`].
 
 use super::instruction::{Instruction, Operand};
-use super::program::{Block, Case, Checks, Condition, JointValue, Program, Short, Step};
+use super::joint::JointValue;
+use super::program::{Block, Case, Checks, Condition, Program, Short, Step};
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
 use crate::{Error, ErrorKind, Result, roots};

@@ -6,27 +6,14 @@ use super::answers::Answers;
 use super::eigenvalue::SixAxes;
 use super::frame::Frame;
 use super::instruction::Operand;
-use super::program::{Block, Case, JointValue, Program, Step, square};
-use super::{BESIDE, GRAZING, MAX_JOINTS, MEETING, NEAR, PIVOT};
+use super::joint::JointValue;
+use super::path::Path;
+use super::program::{Block, Case, Program, Step, square};
+use super::{BESIDE, GRAZING, MEETING, NEAR, PIVOT};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The coefficients of a polynomial, constant term first.
 type Coefficients = SmallVec<[f64; roots::MAX_DEGREE + 1]>;
-
-/// The choices made on the way to a candidate.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Path {
-    /// The branch number as far as it is known, in mixed radix over the blocks.
-    pub branch: usize,
-    /// The end of the branch numbers of the first block's case.
-    pub last: usize,
-    /// The choice of roots in the running case, in mixed radix over its root steps.
-    choice: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
-    pub close: bool,
-    /// By joint: whether a case on the way leaves it free.
-    pub free: [bool; MAX_JOINTS],
-}
 
 /// What is known of a block before it runs.
 struct Place {

@@ -9,6 +9,7 @@ mod inertia;
 pub mod intersection;
 pub mod line;
 pub mod matrix;
+mod moment;
 pub mod pose;
 pub mod roll_pitch_yaw;
 pub mod rotation;

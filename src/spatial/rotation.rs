@@ -2,8 +2,6 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::matrix::skew;
-use super::screw_coordinates::length;
 use crate::{Error, ErrorKind, Result};
 
 /// How far `R' R` of a given rotation matrix may be from the identity (Frobenius norm).
@@ -11,7 +9,7 @@ pub const ORTHONORMAL: f64 = 1e-9;
 
 /// The rotation by `angle` \[rad\] about `direction`, right-handed, by Rodrigues' formula RH0 (2-9).
 pub fn rodrigues(direction: &Unit<Vector3<f64>>, angle: f64) -> Rotation3<f64> {
-    let w = skew(direction);
+    let w = direction.cross_matrix();
     Rotation3::from_matrix_unchecked(Matrix3::identity() + w * angle.sin() + w * w * versine(angle))
 }
 
@@ -95,6 +93,11 @@ fn versine(angle: f64) -> f64 {
 /// `sin(x) / x`.
 pub(super) fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
+}
+
+/// The length of `x`, zero only when `x` is: the squares of its entries do not underflow or overflow.
+pub(super) fn length(x: &Vector3<f64>) -> f64 {
+    x.x.hypot(x.y).hypot(x.z)
 }
 
 /// Pitch and roll \[rad\] of a rotation Rz(yaw) Ry(pitch) Rx(roll): by its third row, -sin pitch, cos pitch sin roll, cos pitch cos roll.

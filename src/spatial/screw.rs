@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::{Pose, Twist, rotation};
+use super::{Pose, rotation};
 use crate::{Error, ErrorKind, Result};
 
 /// A directed line: the axis of a revolute joint. Coordinates in the base frame, metres.
@@ -119,12 +119,6 @@ impl Axis {
     pub fn moved(&self, motion: &Pose) -> Axis {
         Axis { direction: motion.rotation * self.direction, point: motion * self.point }
     }
-
-    /// The unit twist of this axis, RH0 (2-25).
-    pub fn twist(&self) -> Twist {
-        let w = self.direction.into_inner();
-        Twist { v: -w.cross(&self.point.coords), w }
-    }
 }
 
 impl Screw {
@@ -142,14 +136,6 @@ impl Screw {
     /// [`ErrorKind::BadValue`] when `direction` is zero or not finite.
     pub fn prismatic(direction: Vector3<f64>) -> Result<Self> {
         Ok(Screw::Prismatic(unit(direction)?))
-    }
-
-    /// The unit twist of the joint: RH0 (2-25) when revolute, (2-26) when prismatic.
-    pub fn twist(&self) -> Twist {
-        match self {
-            Screw::Revolute(axis) => axis.twist(),
-            Screw::Prismatic(direction) => Twist { v: direction.into_inner(), w: Vector3::zeros() },
-        }
     }
 
     /// The same joint carried along by `motion`: `motion exp(q) motion^-1`.

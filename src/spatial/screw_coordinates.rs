@@ -1,9 +1,6 @@
-//! Axis, pitch and magnitude of twists, RH0 (2-11) to (2-13), and of wrenches, RH0 (2-17) to (2-19).
-//!
-//! Both are a line vector (`w` of a twist, `f` of a wrench) with a moment (`v`, `tau`): one set of formulas serves
-//! both.
+//! Twists and wrenches as screws: axis, pitch and magnitude. Main type: [`ScrewCoordinates`].
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 use super::{Axis, Twist, Wrench};
 use crate::{Error, ErrorKind, Result};
@@ -84,31 +81,4 @@ impl ScrewCoordinates {
         }
         (line, self.axis.point().coords.cross(&line) + line * self.pitch)
     }
-}
-
-pub(super) fn axis(line: &Vector3<f64>, moment: &Vector3<f64>) -> Result<Axis> {
-    let size = length(line);
-    if size == 0.0 {
-        return Axis::new(*moment, Point3::origin());
-    }
-    if !pitch(line, moment).is_finite() {
-        let text = format!("pitch {}: give a line part that is not so small", pitch(line, moment));
-        return Err(Error::new(ErrorKind::BadValue, text));
-    }
-    Axis::new(*line, Point3::from((line / size).cross(&(moment / size))))
-}
-
-pub(super) fn pitch(line: &Vector3<f64>, moment: &Vector3<f64>) -> f64 {
-    let size = length(line);
-    if size == 0.0 { f64::INFINITY } else { (line / size).dot(&(moment / size)) }
-}
-
-pub(super) fn magnitude(line: &Vector3<f64>, moment: &Vector3<f64>) -> f64 {
-    let size = length(line);
-    if size == 0.0 { length(moment) } else { size }
-}
-
-/// The length of `x`, zero only when `x` is: the squares of its entries do not underflow or overflow.
-pub(super) fn length(x: &Vector3<f64>) -> f64 {
-    x.x.hypot(x.y).hypot(x.z)
 }

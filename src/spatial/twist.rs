@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use nalgebra::{Translation3, Vector3, Vector6};
 
-use super::{Axis, Pose, rotation, screw_coordinates};
+use super::{Axis, Pose, Screw, moment, rotation};
 use crate::Result;
 
 /// An element of se(3), linear part first: RH0 (2-5).
@@ -66,17 +66,17 @@ impl Twist {
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) when the twist is zero or not finite.
     pub fn axis(&self) -> Result<Axis> {
-        screw_coordinates::axis(&self.w, &self.v).map_err(|error| error.with_context("twist"))
+        moment::axis(&self.w, &self.v).map_err(|error| error.with_context("twist"))
     }
 
     /// Translation per rotation `w.v / w.w`, in metres per radian; infinite when `w` is zero, RH0 (2-11).
     pub fn pitch(&self) -> f64 {
-        screw_coordinates::pitch(&self.w, &self.v)
+        moment::pitch(&self.w, &self.v)
     }
 
     /// The length of `w` \[rad\]; when `w` is zero the length of `v` \[m\], RH0 (2-13).
     pub fn magnitude(&self) -> f64 {
-        screw_coordinates::magnitude(&self.w, &self.v)
+        moment::magnitude(&self.w, &self.v)
     }
 
     /// The twist of magnitude one of which this is a multiple; zero stays zero.
@@ -84,6 +84,24 @@ impl Twist {
     pub fn unit(&self) -> Twist {
         let magnitude = self.magnitude();
         if magnitude == 0.0 { *self } else { Twist { v: self.v / magnitude, w: self.w / magnitude } }
+    }
+}
+
+impl Axis {
+    /// The unit twist of this axis, RH0 (2-25).
+    pub fn twist(&self) -> Twist {
+        let w = self.direction().into_inner();
+        Twist { v: -w.cross(&self.point().coords), w }
+    }
+}
+
+impl Screw {
+    /// The unit twist of the joint: RH0 (2-25) when revolute, (2-26) when prismatic.
+    pub fn twist(&self) -> Twist {
+        match self {
+            Screw::Revolute(axis) => axis.twist(),
+            Screw::Prismatic(direction) => Twist { v: direction.into_inner(), w: Vector3::zeros() },
+        }
     }
 }
 

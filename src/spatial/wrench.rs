@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::{Axis, Pose, Twist, screw_coordinates};
+use super::{Axis, Pose, Twist, moment};
 use crate::Result;
 
 /// A generalised force, linear part first: RH0 (2-16).
@@ -45,16 +45,16 @@ impl Wrench {
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) when the wrench is zero or not finite.
     pub fn axis(&self) -> Result<Axis> {
-        screw_coordinates::axis(&self.f, &self.tau).map_err(|error| error.with_context("wrench"))
+        moment::axis(&self.f, &self.tau).map_err(|error| error.with_context("wrench"))
     }
 
     /// Torque per force `f.tau / f.f` \[m\]; infinite when `f` is zero, RH0 (2-17).
     pub fn pitch(&self) -> f64 {
-        screw_coordinates::pitch(&self.f, &self.tau)
+        moment::pitch(&self.f, &self.tau)
     }
 
     /// The length of `f` \[N\]; when `f` is zero the length of `tau` \[N m\], RH0 (2-19).
     pub fn magnitude(&self) -> f64 {
-        screw_coordinates::magnitude(&self.f, &self.tau)
+        moment::magnitude(&self.f, &self.tau)
     }
 }

@@ -6,6 +6,7 @@ use super::report::{Kind, Report, Row, Verdict};
 
 /// The targets of one distance from the singular ones.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Class {
     /// What they have in common: `ordinary`, `1e-6 of singular`, ...
     pub name: String,
@@ -23,6 +24,7 @@ pub struct Class {
 
 /// The classes of a report that have rows.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Accuracy {
     /// From ordinary to singular, then the rest.
     pub classes: Vec<Class>,

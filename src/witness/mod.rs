@@ -149,26 +149,16 @@ impl<'a> Check<'a> {
 
     /// Checks each answer by itself, and records the worst residual.
     fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
-        let mut faults = Vec::new();
-        let mut add = |wrong: bool, fault: Fault| {
-            if wrong && !faults.contains(&fault) {
-                faults.push(fault);
-            }
-        };
-        for answer in answers {
-            if !self.model.is_well_formed(&answer.q) {
-                add(true, Fault::Range);
-                continue;
-            }
-            let misfit = self.model.misfit(&row.target, &answer.q);
-            row.worst_residual = Some(row.worst_residual.map_or(misfit, |worst| worst.max(misfit)));
-            let chain = self.source.chain.as_ref();
-            let missed = chain.map_or(0.0, |chain| screws::misplacement(chain, &answer.q, &row.target));
-            add(misfit.max(missed) > RESIDUAL, Fault::Residual);
-            let free = !answer.free.is_empty();
-            add(free && self.model.sigma(&row.target, &answer.q) > SINGULAR, Fault::Free);
-        }
-        faults
+        let target = row.target.clone();
+        faults_of_each(row, answers, |answer| {
+            self.model.is_well_formed(&answer.q).then(|| {
+                let misfit = self.model.misfit(&target, &answer.q);
+                let chain = self.source.chain.as_ref();
+                let missed = chain.map_or(0.0, |chain| screws::misplacement(chain, &answer.q, &target));
+                let is_too_free = !answer.free.is_empty() && self.model.sigma(&target, &answer.q) > SINGULAR;
+                Judged { told: misfit, is_missed: misfit.max(missed) > RESIDUAL, is_too_free }
+            })
+        })
     }
 
     /// Checks the answers as a set.
@@ -261,4 +251,34 @@ impl<'a> Check<'a> {
 fn equations(source: &Source) -> Result<&crate::derive::System> {
     let text = "the source has no equations to be solved together";
     source.system.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(&source.path))
+}
+
+/// What is found of one answer by itself.
+struct Judged {
+    /// The residual that the row tells.
+    told: f64,
+    /// Whether the answer misses its target.
+    is_missed: bool,
+    /// Whether it has free joints where the configuration is not singular.
+    is_too_free: bool,
+}
+
+/// The faults of answers, each by itself; `judge` gives none for one that is not well formed. Records the worst residual.
+fn faults_of_each(row: &mut Row, answers: &[Solution], judge: impl Fn(&Solution) -> Option<Judged>) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let mut add = |wrong: bool, fault: Fault| {
+        if wrong && !faults.contains(&fault) {
+            faults.push(fault);
+        }
+    };
+    for answer in answers {
+        let Some(judged) = judge(answer) else {
+            add(true, Fault::Range);
+            continue;
+        };
+        row.worst_residual = Some(row.worst_residual.map_or(judged.told, |worst| worst.max(judged.told)));
+        add(judged.is_missed, Fault::Residual);
+        add(judged.is_too_free, Fault::Free);
+    }
+    faults
 }

@@ -134,6 +134,7 @@ pub struct Report {
 
 /// A report in a few numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Summary {
     /// Targets.
     pub rows: usize,

@@ -129,16 +129,15 @@ fn import_group(tokens: &[Token], start: usize, prefix: &[String]) -> (Vec<Impor
 
 /// What the crate root lends a second name, as (name, path from the root): `pub use error::Error`.
 pub fn exports(root: &[Token]) -> Vec<(String, Vec<String>)> {
-    let starts = (0..root.len()).filter(|&i| text(root, i) == "use" && text(root, i + 1) != "<");
-    let leaves = starts.flat_map(|start| imports(root, start + 1, &[]).0);
-    leaves.filter(|leaf| leaf.path.len() > 1).map(|leaf| (leaf.name, strip_root(leaf.path))).collect()
+    lent(root, &[])
 }
 
-fn strip_root(mut path: Vec<String>) -> Vec<String> {
-    if path[0] == "crate" || path[0] == "self" {
-        path.remove(0);
-    }
-    path
+/// What the module with these tokens lends a second name, as (name, path from the root).
+pub fn lent(tokens: &[Token], module: &[String]) -> Vec<(String, Vec<String>)> {
+    let starts = (0..tokens.len()).filter(|&i| text(tokens, i) == "use" && text(tokens, i + 1) != "<");
+    let leaves = starts.flat_map(|start| imports(tokens, start + 1, &[]).0).filter(|leaf| leaf.path.len() > 1);
+    let local = |path: &[String]| module.iter().chain(path).cloned().collect();
+    leaves.map(|leaf| (leaf.name, resolve(&leaf.path, module.to_vec()).unwrap_or_else(|| local(&leaf.path)))).collect()
 }
 
 /// `path` from the crate root, seen from the module `here`; `None` for what another crate or a local name starts.

@@ -15,6 +15,21 @@ fn words(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_ring_of_files_is_found_behind_lent_names() {
+    let house = |ring: &str| {
+        let file = |name: &str, text: &str| Source::new(&format!("src/room/{name}.rs"), text.to_owned());
+        let facade = "mod ring;\nmod stone;\nmod way;\npub use ring::Ring;\npub use stone::Stone;";
+        let (stone, way) = ("use super::way::f;\npub struct Stone;", "use super::{Ring, stone};\npub fn f() {}");
+        super::cycles::on_rings(&[file("mod", facade), file("ring", ring), file("stone", stone), file("way", way)])
+    };
+    let ring = ["room::stone imports room::way", "room::way imports room::stone"];
+    assert_eq!(house("pub struct Ring;"), ring);
+    let all = house("use super::Stone;\npub struct Ring;");
+    assert_eq!(all.len(), 4, "{all:?}");
+    assert!(all.contains(&"room::ring imports room::stone".to_owned()), "{all:?}");
+}
+
+#[test]
 fn a_forbidden_use_is_found_however_it_is_written() {
     for text in [
         "use crate::solver::Program;",

@@ -1,4 +1,4 @@
-//! CoupledChains that share actuators on the command line: two planar arms on one shoulder, derived, checked, solved and explained; NAO's legs as
+//! Chains that share actuators on the command line: two planar arms on one shoulder, derived, checked, solved and explained; NAO's legs as
 //! they are committed.
 
 use std::fs;
@@ -87,13 +87,7 @@ fn derive_writes_every_stage_and_tells_of_each_member() {
     let page = String::from_utf8(files["README.md"].clone()).unwrap();
     has(
         &page,
-        &[
-            "# arms",
-            "two arms on one shoulder",
-            "## CoupledChain 2: b",
-            "## Accuracy, measured",
-            "a_px, a_py, b_px, b_py",
-        ],
+        &["# arms", "two arms on one shoulder", "## Chain 2: b", "## Accuracy, measured", "a_px, a_py, b_px, b_py"],
     );
     let rows = String::from_utf8(files["6_check.csv"].clone()).unwrap();
     assert!(rows.lines().skip(1).all(|row| row.ends_with(",pass")), "{rows}");

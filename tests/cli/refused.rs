@@ -123,9 +123,12 @@ fn programs() {
     let absent = refused(&["solve", text(folder.path()), "--target", "1,2"]);
     assert!(absent.contains("5_program.json") && absent.contains("groebot derive"), "{absent}");
     let file = folder.path().join("5_program.json");
-    fs::write(&file, "{\n \"name\": 3 }").unwrap();
+    fs::write(&file, "{ \"format\": 2,\n \"name\": 3 }").unwrap();
     let malformed = refused(&["solve", text(folder.path()), "--target", "1,2"]);
     assert!(malformed.contains("5_program.json: line 2:"), "{malformed}");
+    fs::write(&file, "{ \"name\": \"leg\",\n \"version\": \"0.1.0\" }").unwrap();
+    let old = refused(&["solve", text(folder.path()), "--target", "1,2"]);
+    assert!(old.contains("written by groebot 0.1.0; 2 is read: `groebot derive`"), "{old}");
     fs::write(&file, noise(100_000)).unwrap();
     refused(&["solve", text(&file), "--target", "1,2"]);
     let robot = root("tests/corpus/urdf/ur5.urdf");

@@ -18,10 +18,10 @@ fn targets(folder: &Path, program: &Program, most: usize) -> Vec<Vec<f64>> {
 
 #[test]
 fn committed_solvers_of_coupled_chains_answer_like_their_programs() {
-    for (name, least) in [("nao_legs", 192), ("nao_legs_poses", 48), ("nao_legs_yaw", 48)] {
+    for (name, least) in [("nao_legs_poses", 16), ("nao_legs_yaw", 16)] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name);
         let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
-        let mut targets = targets(&folder, &program, 3);
+        let mut targets = targets(&folder, &program, 1);
         targets.push(vec![9.0; program.inputs.len()]);
         if let Some(report) = compare(&program, &targets) {
             assert!(report.answers >= least && report.refused == 1, "{name}: {report:?}");

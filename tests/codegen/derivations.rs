@@ -122,7 +122,7 @@ pub fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
 fn printed_solvers_of_chains_answer_like_the_program() {
     for stored in named(&["puma", "nao_left_leg", "iiwa14", "rrp"]) {
         if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 200)) {
-            assert!(report.answers > 200 && report.refused > 10, "{report:?}");
+            assert!(report.answers > 200 && report.refused >= 10, "{report:?}");
         }
     }
 }

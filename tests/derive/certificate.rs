@@ -64,7 +64,7 @@ fn forged_claims_are_refused_and_located() {
     let error = damaged(|v| v["requested"][0]["claim"]["order"] = serde_json::json!(["c4", "c3", "s4", "c4"]));
     expect(&error, "the order is not one of the unknowns");
     let error = damaged(|v| v["name"] = "another".into());
-    expect(&error, "this certificate is of format");
+    expect(&error, "this certificate proves the equations `another`");
     let error = damaged(|v| drop(v.as_object_mut().unwrap().remove("requested")));
     assert_eq!(error.kind(), ErrorKind::Syntax, "{error}");
 }

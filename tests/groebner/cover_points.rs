@@ -124,11 +124,9 @@ fn specialised_bases_over_finite_fields() {
 }
 
 #[test]
-fn specialised_bases_over_larger_primes() {
-    for p in [101, 251, 1009] {
-        let points: usize = all().iter().map(|system| compared_over_prime(system, p)).sum();
-        assert!(points >= 150, "only {points} points modulo {p}");
-    }
+fn specialised_bases_over_a_larger_prime() {
+    let points: usize = all().iter().map(|system| compared_over_prime(system, 251)).sum();
+    assert!(points >= 150, "only {points} points");
 }
 
 fn compared_over_prime(system: &System, p: u64) -> usize {

@@ -140,7 +140,7 @@ fn by_links(name: &str, q: &[f64]) -> Matrix {
 }
 
 proptest! {
-    #![proptest_config(crate::cases(256))]
+    #![proptest_config(crate::cases(64))]
 
     #[test]
     fn chains_are_the_robots_of_their_sources(q in prop::array::uniform6(-4.0..4.0f64)) {

@@ -77,6 +77,7 @@ pub fn carry<A: Arithmetic>(
 }
 
 /// An evaluation in progress.
+#[non_exhaustive]
 pub struct Evaluation<'a, A: Arithmetic> {
     pub mechanism: &'a Mechanism,
     pub assignment: &'a Assignment<A::Value>,

@@ -9,6 +9,7 @@ use crate::{Error, ErrorKind, Result};
 /// A joint's screw in the base frame at the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and
 /// s' = s / |w|; a prismatic one d' = d / |w|: so no root enters the algebra.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ScrewJoint {
     /// The name of the joint.
     pub name: String,
@@ -76,6 +77,7 @@ pub struct Mechanism {
 
 /// The loop of a [chain that stands upright](Chain::upright), as a mechanism with a target that never changes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Standing {
     /// The chain itself.
     pub plain: Mechanism,

@@ -25,7 +25,7 @@ struct Record {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Proof {
-    member: String,
+    chain: String,
     certificate: Value,
 }
 
@@ -43,9 +43,9 @@ impl DerivedCoupled {
             chains: Vec::new(),
         };
         for stage in &self.stages {
-            let member = self.coupled.chains()[stage.member].name.clone();
+            let chain = self.coupled.chains()[stage.member].name.clone();
             let certificate = serde_json::from_str(&certificate::write(&stage.derived)?).map_err(|e| unread(&e))?;
-            record.chains.push(Proof { member, certificate });
+            record.chains.push(Proof { chain, certificate });
         }
         Ok(written(&record))
     }
@@ -60,7 +60,7 @@ impl DerivedCoupled {
         check_head((record.proves, &record.name), (Proves::CoupledChains, &coupled.parts().name))?;
         let mut stored = record.chains.iter();
         let mut prove = |member: usize, chain: &Chain| match stored.next() {
-            Some(proof) if proof.member == coupled.chains()[member].name => {
+            Some(proof) if proof.chain == coupled.chains()[member].name => {
                 certificate::prove(chain, &proof.certificate.to_string())
             }
             _ => Err(refused("its certificate is missing or not in its place".to_owned())),
@@ -74,7 +74,7 @@ impl DerivedCoupled {
         let derived = DerivedCoupled::assemble(coupled, simultaneous, &mut prove)?;
         match stored.next() {
             None => Ok(derived),
-            Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.member))),
+            Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.chain))),
         }
     }
 }

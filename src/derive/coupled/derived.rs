@@ -10,6 +10,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// A chain's derivation, and its place in the solver of all.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ChainStage {
     /// Index of the chain.
     pub member: usize,

@@ -11,6 +11,7 @@ use crate::{Result, Watch};
 
 /// The chain at which a target fails.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Explanation {
     /// Its name.
     pub member: String,
@@ -25,6 +26,7 @@ pub struct Explanation {
 
 /// A shared actuator that two chains need at different values, of all their ways to reach their targets the two that differ least.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Disagreement {
     /// The actuator's name.
     pub actuator: String,

@@ -1,4 +1,4 @@
-//! CoupledChains that share actuators, such as two legs on one hip actuator: a solver for the targets of all chains together ([`DerivedCoupled`]).
+//! Chains that share actuators, such as two legs on one hip actuator: a solver for the targets of all chains together ([`DerivedCoupled`]).
 //!
 //! The chains are derived one after the other as chains ([`super::sequential`]); a joint that a chain before has found is given for those
 //! behind it. So no solution is lost: each solution of all chains is one of the first chain, continued by one of the next with the

@@ -22,6 +22,7 @@ const NEAR: usize = ALL - 2 * FAR;
 
 /// The determinant of a formulation's equations at a random reachable target and a random half angle modulo a prime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Determinant {
     /// The prime.
     pub prime: u64,

@@ -25,6 +25,7 @@ pub struct Choice {
 
 /// A joint that might be given.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Candidate {
     /// Its name.
     pub joint: String,

@@ -21,6 +21,7 @@ pub type Sample = [u64; SPECIMENS];
 pub type Sight = Vec<(Factors, Sample)>;
 
 /// The relations of a mechanism at random targets.
+#[non_exhaustive]
 pub struct Sights<'a> {
     pub mechanism: &'a Mechanism,
     pub relations: &'a [Relation],

@@ -48,6 +48,7 @@ pub struct PlanStep {
 
 /// What a random reachable pose modulo a prime showed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Evidence {
     /// The prime.
     pub prime: u32,

@@ -10,8 +10,8 @@ use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::determinant::by_determinant;
-use super::shape::{Symbolic, TargetPoly};
 use super::squares::by_squares;
+use super::symbolic::{Symbolic, TargetPoly};
 use crate::derive::closure::{Factor, Mechanism, Relation};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis, divide};
@@ -31,6 +31,7 @@ type Entry = (Vec<Factor>, Vec<(BigRational, Option<usize>)>);
 
 /// Where a symbol's value stands: the coefficient of a product of unknowns in one of the relations.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SymbolPlace {
     /// Index of the relation.
     pub relation: usize,

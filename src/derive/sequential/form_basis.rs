@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ProvedStep, half_angle};
+use super::ProvedStep;
 use crate::derive::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -14,6 +14,11 @@ use crate::derive::{
 };
 use crate::poly::parse;
 use crate::{Result, Watch};
+
+/// The equation of a [`Form::Quartic`].
+pub(super) const QUARTIC: &str = "A*c*s + B*s^2 + C*c + D*s + E";
+/// Its symbols.
+pub(super) const QUARTIC_SYMBOLS: [&str; 5] = ["A", "B", "C", "D", "E"];
 
 /// The shape of a step's equations in its joint: `c` and `s` are the cosine and sine of an angle, `d` is a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -62,16 +67,12 @@ impl Form {
                 equations: &["A*c + B*s - X", "E*c + F*s - Y"],
             },
             Form::Linear => Words { symbols: &["A", "B"], unknowns: &["d"], equations: &["A*d + B"] },
-            Form::Quartic => Words {
-                symbols: &half_angle::SYMBOLS,
-                unknowns: &["c", "s"],
-                equations: &[half_angle::EQUATION, "c^2 + s^2 - 1"],
-            },
-            Form::Lengths => Words {
-                symbols: &half_angle::SYMBOLS,
-                unknowns: &["d"],
-                equations: &["A*d^4 + B*d^3 + C*d^2 + D*d + E"],
-            },
+            Form::Quartic => {
+                Words { symbols: &QUARTIC_SYMBOLS, unknowns: &["c", "s"], equations: &[QUARTIC, "c^2 + s^2 - 1"] }
+            }
+            Form::Lengths => {
+                Words { symbols: &QUARTIC_SYMBOLS, unknowns: &["d"], equations: &["A*d^4 + B*d^3 + C*d^2 + D*d + E"] }
+            }
             Form::Quadratic => Words {
                 symbols: &["A", "B", "C"],
                 unknowns: &["d", "w"],

@@ -8,16 +8,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::ProvedStep;
-use super::form_basis::Form;
+use super::form_basis::{Form, QUARTIC, QUARTIC_SYMBOLS};
 use crate::groebner::verify::{Claim, verify};
 use crate::groebner::{Options, Strategy, basis};
 use crate::number::{BigRational, Rationals, Ring, Style};
 use crate::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The symbols of `A c s + B s^2 + C c + D s + E`.
-pub(super) const SYMBOLS: [&str; 5] = ["A", "B", "C", "D", "E"];
-pub(super) const EQUATION: &str = "A*c*s + B*s^2 + C*c + D*s + E";
 /// Cosine and sine of the directions f, as fractions.
 const DIRECTIONS: [(i32, i32, i32); 5] = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1), (3, 4, 5)];
 
@@ -25,6 +22,7 @@ type Poly = Polynomial<BigRational>;
 
 /// One direction with the basis that eliminates the angle's cosine and sine.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HalfAngle {
     /// Q[c, s, t, A, B, C, D, E].
     pub ring: PolynomialRing<Rationals>,
@@ -127,12 +125,12 @@ impl HalfAngle {
 
 /// The ring and the equations of a direction.
 fn setting((x, y, r): (i32, i32, i32)) -> Result<(PolynomialRing<Rationals>, Vec<Poly>)> {
-    let names: Vec<&str> = ["c", "s", "t"].into_iter().chain(SYMBOLS).collect();
-    let blocks = [2, 1, SYMBOLS.len()].map(|size| Block { size, graded: true });
+    let names: Vec<&str> = ["c", "s", "t"].into_iter().chain(QUARTIC_SYMBOLS).collect();
+    let blocks = [2, 1, QUARTIC_SYMBOLS.len()].map(|size| Block { size, graded: true });
     let ring = PolynomialRing::new(Rationals, &names, Order::Block(blocks.to_vec()))?;
     let (cosine, sine) = (format!("(({x})*c + ({y})*s)/{r}"), format!("(({x})*s - ({y})*c)/{r}"));
     let texts = [
-        EQUATION.to_owned(),
+        QUARTIC.to_owned(),
         format!("t*(1 + {cosine}) - {sine}"),
         format!("1 - {cosine} - t*{sine}"),
         "c^2 + s^2 - 1".to_owned(),

@@ -5,6 +5,7 @@ mod cases;
 pub mod certificate;
 mod checks;
 mod circle;
+mod context;
 mod determinant;
 mod eliminate;
 mod emit;
@@ -21,6 +22,7 @@ mod slack;
 mod squares;
 mod stages;
 mod standing;
+mod symbolic;
 mod symbols;
 mod target;
 
@@ -30,10 +32,10 @@ pub(super) use frame::frame_of;
 pub use half_angle::{HalfAngle, HalfAngles};
 pub(super) use program::checks_on;
 pub use shape::Shape;
-pub(super) use shape::{Symbolic, TargetPoly};
 pub(super) use simultaneous::Stored as StoredSimultaneous;
 pub use simultaneous::{Side, Simultaneous};
 pub(super) use stages::{joint_unknowns, name};
+pub(super) use symbolic::{Symbolic, TargetPoly};
 
 use slack::Slack;
 
@@ -46,6 +48,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// A step of a plan whose equations have been recognised.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ProvedStep {
     /// The place of the joint.
     pub joint: usize,

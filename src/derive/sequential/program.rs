@@ -2,8 +2,9 @@
 
 use super::cases::{Place, Sized, cases, quartic, tell_spread};
 use super::checks::polishing;
+use super::context::Context;
 use super::form_basis::{Form, FormBasis};
-use super::frame::framed;
+use super::frame::{framed, given, reach};
 use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::ray;
@@ -13,8 +14,8 @@ use super::symbols::Symbols;
 use super::{Parts, ProvedStep, standing};
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
-use crate::kinematics::{Chain, LengthUnit};
-use crate::solver::{Block, Case, Checks, Guard, Joint, JointValue, NEAR, Operand, Program, Step, Unit};
+use crate::kinematics::Chain;
+use crate::solver::{Block, Checks, Guard, NEAR, Operand, Program};
 use crate::{Error, ErrorKind, Result};
 
 /// Two linear equations are nearly dependent when their determinant is below this share of its size.
@@ -75,27 +76,6 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
     Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
 }
 
-/// The size of the chain's positions; one when it is a point.
-pub(super) fn reach(chain: &Chain) -> f64 {
-    let first = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
-    let reach = chain.reach() + first;
-    if reach > 0.0 { reach } else { 1.0 }
-}
-
-pub(super) fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
-    let unit = |value: &JointValue| match (value, chain.length_unit()) {
-        (JointValue::Angle { .. }, _) => Unit::Radian,
-        (JointValue::Plain(_), LengthUnit::Metre) => Unit::Metre,
-        (JointValue::Plain(_), LengthUnit::Millimetre) => Unit::Millimetre,
-    };
-    let joint = |(joint, value): (&crate::kinematics::Joint, &JointValue)| Joint {
-        name: joint.name.clone(),
-        unit: unit(value),
-        value: *value,
-    };
-    chain.joints().iter().zip(&layout.joints).map(joint).collect()
-}
-
 fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
     let missing = || Error::new(ErrorKind::Certificate, format!("the form `{}` is missing", form.name()));
     form_bases.iter().find(|form_basis| form_basis.form == form).ok_or_else(missing)
@@ -106,44 +86,6 @@ fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
 fn free(mechanism: &Mechanism, steps: &[ProvedStep]) -> usize {
     let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
     own.unwrap_or(0)
-}
-
-/// The block that puts a given joint where the user says.
-pub(super) fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
-    let unknowns = match layout.joints[joint] {
-        JointValue::Angle { cosine, sine } => vec![cosine, sine],
-        JointValue::Plain(unknown) => vec![unknown],
-    };
-    let values = layout.given[joint].iter().map(|&parameter| Operand::Parameter(parameter));
-    let steps = unknowns.into_iter().zip(values).map(|(unknown, value)| Step::Set { unknown, value }).collect();
-    let label = mechanism.joints()[joint].name.as_str();
-    let case = Case {
-        label: "given".to_owned(),
-        guard_code: Vec::new(),
-        guards: Vec::new(),
-        pivot: None,
-        steps,
-        free: Vec::new(),
-        open: false,
-        first_branch: 0,
-    };
-    Block::numbered(label, Vec::new(), vec![case])
-}
-
-/// A step and what is known when it runs.
-pub(super) struct Context<'a> {
-    pub mechanism: &'a Mechanism,
-    pub known: &'a [usize],
-    pub step: &'a ProvedStep,
-    /// The joint that is told as free where the step's is.
-    pub free: usize,
-    pub reach: f64,
-    pub slack: Slack,
-    pub samples: Samples,
-    /// The unknowns that tell whether joints are free.
-    pub spreads: &'a [usize],
-    /// The mechanism that all relations but the first belong to, where it is another, and where its target stands.
-    pub partner: Option<(&'a Mechanism, &'a Layout)>,
 }
 
 impl Context<'_> {

@@ -6,16 +6,11 @@ use num_traits::Zero;
 
 use super::eliminate::Elimination;
 use super::form_basis::Form;
-use crate::derive::closure::{
-    Arithmetic, Assignment, Factor, JointValue, Mechanism, Multilinear, Relation, Target, evaluate,
-};
+use super::symbolic::{Symbolic, TargetPoly};
+use crate::derive::closure::{Factor, Mechanism, Multilinear, Relation};
 use crate::derive::planner::{PlanStep, Way};
-use crate::number::{BigRational, Rationals, Ring};
-use crate::poly::{Order, Polynomial, PolynomialRing};
+use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
-
-/// A polynomial in the numbers of the target.
-pub(in crate::derive) type TargetPoly = Polynomial<BigRational>;
 
 /// The shape of a step's equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,49 +19,6 @@ pub struct Shape {
     pub form: Form,
     /// Of a [`Form::Turn`]: `k` with `b2 = k a1` and `k b1 = -n a2`, where `ai c + bi s'` are the two equations.
     pub ratio: Option<BigRational>,
-}
-
-/// Polynomials in the numbers of the target.
-pub(in crate::derive) struct Symbolic {
-    pub ring: PolynomialRing<Rationals>,
-}
-
-impl Arithmetic for Symbolic {
-    type Value = TargetPoly;
-
-    fn rational(&mut self, number: &BigRational) -> TargetPoly {
-        self.ring.constant(number.clone())
-    }
-    fn add(&mut self, a: &TargetPoly, b: &TargetPoly) -> TargetPoly {
-        self.ring.add(a, b)
-    }
-    fn sub(&mut self, a: &TargetPoly, b: &TargetPoly) -> TargetPoly {
-        self.ring.sub(a, b)
-    }
-    fn mul(&mut self, a: &TargetPoly, b: &TargetPoly) -> TargetPoly {
-        self.ring.mul(a, b)
-    }
-    fn neg(&mut self, a: &TargetPoly) -> TargetPoly {
-        self.ring.neg(a)
-    }
-    fn is_zero(&self, a: &TargetPoly) -> bool {
-        a.is_zero()
-    }
-}
-
-impl Symbolic {
-    /// The ring of the target's numbers.
-    pub fn new(mechanism: &Mechanism) -> Result<Self> {
-        Ok(Symbolic { ring: PolynomialRing::new(Rationals, &mechanism.parameters(), Order::GrevLex)? })
-    }
-
-    /// `relation` as a polynomial in the unknowns of all joints.
-    pub fn polynomial(&mut self, mechanism: &Mechanism, relation: &Relation) -> Result<Multilinear<TargetPoly>> {
-        let parameters: Vec<TargetPoly> = (0..self.ring.variables().len()).map(|v| self.ring.variable(v)).collect();
-        let target = Target::new(mechanism, &parameters, self)?;
-        let joints = vec![JointValue::Unknown; mechanism.joints().len()];
-        evaluate(mechanism, relation, &Assignment { joints, target }, self)
-    }
 }
 
 /// The shape of `step` in its joint.

@@ -8,14 +8,16 @@
 use serde::{Deserialize, Serialize};
 
 use super::certificate::{Proof, form_proofs, prove_forms};
+use super::context::Context;
 use super::eliminate::{self, Elimination};
 use super::form_basis::{Form, FormBasis};
+use super::frame::{given, reach};
 use super::half_angle::{self, HalfAngles};
 use super::layout::Layout;
-use super::program::{Context, given, reach};
 use super::samples::Samples;
-use super::shape::{Shape, Symbolic, eliminated};
+use super::shape::{Shape, eliminated};
 use super::slack::Slack;
+use super::symbolic::Symbolic;
 use super::{ProvedStep, forms};
 use crate::derive::certificate::refused;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
@@ -28,6 +30,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// A chain, and what stands before its names in a program.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Side<'a> {
     /// The chain.
     pub chain: &'a Chain,
@@ -37,6 +40,7 @@ pub struct Side<'a> {
 
 /// One or two unknown joints that two chains share, found from one relation of each.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Simultaneous {
     /// The number of joints, given ones too, that stand first in both chains and are shared.
     pub shared: usize,

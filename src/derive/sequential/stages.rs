@@ -5,7 +5,7 @@ use std::fmt::Write;
 use num_traits::One;
 
 use super::form_basis::{Form, FormBasis};
-use super::shape::{Symbolic, TargetPoly};
+use super::symbolic::{Symbolic, TargetPoly};
 use super::{Derived, Elimination, ProvedStep, certificate};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Multilinear};

@@ -3,11 +3,11 @@
 use num_traits::{Signed, ToPrimitive};
 
 use super::cases::Sized;
+use super::context::Context;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
 use super::form_basis::Form;
 use super::layout::Layout;
-use super::program::Context;
 use super::shape::Shape;
 use crate::Result;
 use crate::derive::assemble::{Assembler, FlatTerm, of_least_work};

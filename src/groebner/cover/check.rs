@@ -1,14 +1,11 @@
 //! An independent proof that a cover is one: small, slow, and without the steps by which it was made.
-//!
-//! Emptiness of a region is decided by Rabinowitsch's trick, with one new variable for each exclusion.
 
-use super::ideals::groebner;
-use super::proof::{Claims, prove_basis};
+use super::emptiness::Regions;
+use super::proof::{Claims, prove_basis, refused};
 use super::{Cover, Region, Stratum};
-use crate::groebner::normal_form;
 use crate::number::{Field, Ring};
-use crate::poly::{Fractions, Order, Polynomial, PolynomialRing};
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::poly::{Fractions, Polynomial};
+use crate::{Result, Watch};
 
 /// What [`check`] has proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +22,7 @@ pub struct Checked {
 /// its stratum over every extension field, a Groebner basis of what `generators` become there.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] that says what does not hold; [`ErrorKind::Overflow`]; what `watch` stops with.
+/// [`crate::ErrorKind::Certificate`] that says what does not hold; [`crate::ErrorKind::Overflow`]; what `watch` stops with.
 pub fn check<F: Field>(
     cover: &Cover<F>,
     generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
@@ -44,10 +41,6 @@ pub fn check<F: Field>(
     Ok(Checked { strata: cover.strata.len(), disjoint_pairs, s_polynomials })
 }
 
-pub(super) fn refused(text: impl Into<String>) -> Error {
-    Error::new(ErrorKind::Certificate, text)
-}
-
 fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
     Region {
         equations: [a.equations.as_slice(), &b.equations].concat(),
@@ -55,47 +48,7 @@ fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
     }
 }
 
-/// Questions about regions of the parameters of `ring`.
-pub(super) struct Regions<'a, F: Field> {
-    pub ring: &'a PolynomialRing<F>,
-    pub watch: &'a Watch,
-}
-
 impl<F: Field> Regions<'_, F> {
-    /// Whether `region` has no point over any extension field: whichever polynomial of each exclusion is chosen, the equations
-    /// contradict that they all have inverses.
-    pub fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
-        let taken = |name: &String| self.ring.generator(name).is_some();
-        let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(region.exclusions.len());
-        let names: Vec<String> = fresh.chain(self.ring.variables().iter().cloned()).collect();
-        let ring = PolynomialRing::new(self.ring.field().clone(), &names, Order::GrevLex)?;
-        let moved = |list: &[Polynomial<F::Element>]| -> Result<Vec<_>> {
-            list.iter().map(|f| self.ring.transfer(f, &ring)).collect()
-        };
-        let exclusions = region.exclusions.iter().map(|exclusion| moved(exclusion)).collect::<Result<Vec<_>>>()?;
-        self.contradicts(&ring, &moved(&region.equations)?, &exclusions)
-    }
-
-    fn contradicts(
-        &self,
-        ring: &PolynomialRing<F>,
-        equations: &[Polynomial<F::Element>],
-        exclusions: &[Vec<Polynomial<F::Element>>],
-    ) -> Result<bool> {
-        let basis = groebner(ring, equations, self.watch)?;
-        let unit = basis.iter().any(|f| ring.as_constant(f).is_some());
-        let Some((first, rest)) = exclusions.split_first() else { return Ok(unit) };
-        for f in if unit { &[] } else { first.as_slice() } {
-            let f = normal_form(ring, f, &basis)?;
-            let inverse = ring.checked_mul(&ring.variable(rest.len()), &f)?;
-            let step = ring.sub(&inverse, &ring.one());
-            if !self.contradicts(ring, &[basis.as_slice(), &[step]].concat(), rest)? {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-
     /// Takes one stratum after the other out of the space.
     fn nothing_is_left(&self, cover: &Cover<F>) -> Result<()> {
         let exclusions = cover.space.nonzero.iter().map(|f| vec![f.clone()]).collect();

@@ -5,6 +5,7 @@
 //! ISSAC 2010 (the splitting); Montes and Wibmer, J. Symbolic Computation 45 (2010) (few segments).
 
 mod check;
+mod emptiness;
 mod flat;
 mod ideals;
 mod merge;
@@ -21,11 +22,11 @@ mod tidy;
 mod words;
 
 pub use check::{Checked, check};
-pub use real::{RealPoints, rational_roots};
+pub use real::rational_roots;
 pub use region::Region;
 pub use sample::{Candidates, sample};
 pub use space::Space;
-pub use stratum::{Element, Kind, Stratum};
+pub use stratum::{Element, Kind, RealPoints, Stratum};
 
 use crate::number::{Field, Ring};
 use crate::poly::{Fractions, Polynomial, PolynomialRing};
@@ -35,6 +36,7 @@ use ideals::Ideals;
 
 /// Disjoint strata that together make the parameter space.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Cover<F: Field> {
     /// The unknowns, over the rational functions of the parameters; the bases are sorted by its order.
     pub ring: PolynomialRing<Fractions<F>>,

@@ -4,14 +4,14 @@
 //! combination of the generators modulo the stratum's equations, and that generators and S-polynomials reduce to zero when
 //! they are multiplied by leading coefficients on the way (Buchberger's criterion at every point at once).
 
-use super::check::{Regions, refused};
+use super::emptiness::Regions;
 use super::flat::Flat;
 use super::ideals::Ideals;
 use super::pseudo::{cancelled, lead, modulo};
 use super::{Region, Stratum};
 use crate::number::{Field, Ring};
 use crate::poly::{Fractions, Monomial, Polynomial, PolynomialRing};
-use crate::{Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 type Parametric<F> = Polynomial<<Fractions<F> as Ring>::Element>;
 
@@ -56,6 +56,11 @@ impl<F: Field> Claims<'_, F> {
         }
         Ok(())
     }
+}
+
+/// The refusal of a claim.
+pub(super) fn refused(text: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Certificate, text)
 }
 
 /// Every choice of one representative for each element.

@@ -4,26 +4,13 @@ use super::ideals::{Ideal, Ideals};
 use super::region::Region;
 use super::sample::sample;
 use super::signs::{Sign, changes_sign, forced_zeros};
-use super::{Cover, Stratum};
+use super::{Cover, RealPoints, Stratum};
 use crate::number::{BigInt, BigRational, Rationals, Ring, Style};
 use crate::poly::univariate::Univariate;
 use crate::poly::{Polynomial, PolynomialRing, rational_root};
 use crate::{Result, Watch};
 
 type Poly = Polynomial<BigRational>;
-
-/// What is known of the real points of a stratum.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RealPoints {
-    /// There is none, for this reason.
-    None(String),
-    /// This rational point lies on it, one value a parameter.
-    At(Vec<BigRational>),
-    /// There are some, for this reason.
-    Some(String),
-    /// Neither was asked or neither was found.
-    Unknown,
-}
 
 impl Cover<Rationals> {
     /// The same cover with what could be found out about the real points of each stratum.

@@ -1,13 +1,14 @@
 //! One stratum: a region of parameters, and the basis that holds there.
 
-use super::{Cover, RealPoints, Region};
+use super::{Cover, Region};
 use crate::groebner::{Basis, reduced_basis};
-use crate::number::Field;
+use crate::number::{BigRational, Field};
 use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// A region of parameters on which the leading monomials of the reduced basis stay the same.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stratum<F: Field> {
     /// Where it is.
     pub region: Region<F::Element>,
@@ -41,6 +42,19 @@ pub enum Kind {
     Finite(usize),
     /// Infinitely many solutions; the ideal has this dimension.
     Family(usize),
+}
+
+/// What is known of the real points of a stratum.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RealPoints {
+    /// There is none, for this reason.
+    None(String),
+    /// This rational point lies on it, one value a parameter.
+    At(Vec<BigRational>),
+    /// There are some, for this reason.
+    Some(String),
+    /// Neither was asked or neither was found.
+    Unknown,
 }
 
 impl Kind {

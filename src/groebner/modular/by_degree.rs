@@ -2,7 +2,7 @@
 
 use super::super::prime_field::reordered;
 use super::super::{Basis, Trace};
-use super::learned::{Image, LANES};
+use super::seen::Image;
 use super::system::{System, modulo};
 use crate::number::{Rationals, Zp};
 use crate::poly::{Monomial, PolynomialRing, Term};
@@ -33,15 +33,15 @@ impl ByDegree {
     }
 
     /// The bases in the order of `target` modulo further primes; `None` where the graded one goes another way.
-    pub(super) fn replay(
+    pub(super) fn replay<const N: usize>(
         &self,
         graded: &System,
         target: &PolynomialRing<Rationals>,
-        primes: [u32; LANES],
+        primes: [u32; N],
         watch: &Watch,
-    ) -> Result<[Option<Basis<Zp>>; LANES]> {
+    ) -> Result<[Option<Basis<Zp>>; N]> {
         let replayed = self.trace.replay(primes, &graded.lanes(primes), watch)?;
-        let mut found = [const { None }; LANES];
+        let mut found = [const { None }; N];
         for ((found, image), p) in found.iter_mut().zip(replayed).zip(primes) {
             if let Some(image) = image {
                 *found = reordered(&self.basis(p, &image)?, &modulo(target, p)?, watch)?;

@@ -1,7 +1,8 @@
 //! Candidates for the shape of the basis, the images that each has gathered, and the lift of one to Q.
 
 use super::super::Basis;
-use super::learned::{Image, Input, LANES, Learned, Seen, Shape};
+use super::learned::{Input, LANES, Learned};
+use super::seen::{Image, Seen, Shape};
 use super::system::{System, no_primes};
 use super::vectors::{Tables, Vector};
 use crate::number::{BigRational, Rationals, Ring};

@@ -1,35 +1,16 @@
-//! What one prime teaches: the basis there, its shape, and how to compute it modulo other primes.
+//! What one prime teaches: the basis there, and how to compute it modulo other primes.
 
 use super::super::prime_field::by_degree_first;
-use super::super::{Basis, Options, Trace, basis, f4};
+use super::super::{Options, Trace, basis, f4};
 use super::by_degree::ByDegree;
+use super::seen::{Image, Seen};
 use super::system::System;
-use crate::number::{BigRational, Rationals, Zp};
-use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Width};
+use crate::number::{BigRational, Rationals};
+use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
 /// How many primes a replay takes at once.
 pub(super) const LANES: usize = 4;
-
-/// The coefficients of all polynomials of a [`Shape`] modulo one prime.
-pub(super) type Image = Vec<Vec<u32>>;
-
-/// The monomials of the basis polynomials and, behind them, of their cofactors, row by row.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Shape {
-    pub supports: Vec<Vec<Monomial>>,
-    /// The number of basis polynomials.
-    pub elements: usize,
-}
-
-/// A basis modulo a prime.
-pub(super) struct Seen {
-    pub prime: u32,
-    /// The width of the monomials' lanes.
-    pub width: Width,
-    pub shape: Shape,
-    pub image: Image,
-}
 
 /// A basis modulo a prime and how it was computed.
 pub(super) struct Learned {
@@ -113,33 +94,5 @@ impl Learned {
                 Ok(images)
             }
         }
-    }
-}
-
-impl Shape {
-    /// The coefficients of `basis` on the supports; `None` when it has other leading monomials, or a term elsewhere.
-    fn image(&self, basis: &Basis<Zp>) -> Option<Image> {
-        let fits = basis.polynomials.len() == self.supports.len();
-        let rows = basis.polynomials.iter().zip(&self.supports).map(|(f, support)| on_support(f, support));
-        if fits { rows.collect() } else { None }
-    }
-}
-
-/// The coefficients of `f` on `support`, both greatest first and with the same leading monomial.
-fn on_support(f: &Polynomial<u64>, support: &[Monomial]) -> Option<Vec<u32>> {
-    let mut terms = f.terms().iter().peekable();
-    let coefficient =
-        |m: &Monomial| terms.next_if(|term| term.monomial == *m).map_or(0, |term| term.coefficient as u32);
-    let row: Vec<u32> = support.iter().map(coefficient).collect();
-    (terms.next().is_none() && row.first() != Some(&0)).then_some(row)
-}
-
-impl Seen {
-    fn new(prime: u32, basis: &Basis<Zp>) -> Self {
-        let all = || basis.polynomials.iter().chain(basis.cofactors.iter().flatten());
-        let support = |f: &Polynomial<u64>| f.terms().iter().map(|term| term.monomial.clone()).collect();
-        let coefficients = |f: &Polynomial<u64>| f.terms().iter().map(|term| term.coefficient as u32).collect();
-        let shape = Shape { supports: all().map(support).collect(), elements: basis.polynomials.len() };
-        Seen { prime, width: basis.ring.layout().width(), shape, image: all().map(coefficients).collect() }
     }
 }

@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
+use super::divisors::{Batch, Divisors, LANES};
 use super::system::{Integral, refuse};
-use super::vanish::{Batch, Divisors, LANES};
 use crate::poly::{Layout, Monomial};
 use crate::{Error, ErrorKind, Result, Watch};
 

@@ -8,8 +8,10 @@
 mod arnold;
 mod by_degree;
 mod candidate;
+mod divisors;
 mod learned;
 mod matrix;
+mod seen;
 mod system;
 mod terms;
 mod vanish;

@@ -8,45 +8,18 @@
 use num_traits::Signed;
 
 use super::super::pairs::{Head, Pairs, Strategy};
+use super::divisors::Divisors;
 use super::matrix::Matrix;
-use super::system::{Integral, combination, modulo, no_primes, refuse};
+use super::system::{Integral, combination};
 use super::vectors::{Tables, Vector};
-use crate::number::{BigInt, BigRational, Field, Rationals, primes_below, residue};
-use crate::poly::{Monomial, Polynomial, PolynomialRing};
+use crate::number::BigInt;
+use crate::poly::Monomial;
 use crate::{Result, Watch};
-
-/// How many primes are divided by at once.
-pub(super) const LANES: usize = 8;
 
 /// How many targets share one matrix.
 const TARGETS: usize = 64;
 
-/// Polynomials to divide by, and their images modulo as many primes as were needed so far.
-pub(super) struct Divisors<'a> {
-    pub ring: &'a PolynomialRing<Rationals>,
-    pub elements: Vec<Integral>,
-    /// The greatest coefficient of each.
-    heights: Vec<BigInt>,
-    batches: Vec<Batch>,
-}
-
-/// The divisors modulo some primes.
-pub(super) struct Batch {
-    pub primes: [u32; LANES],
-    /// The coefficients of the monic images.
-    pub images: Vec<Vec<[u32; LANES]>>,
-    /// The inverses of the leading coefficients.
-    pub inverses: Vec<[u32; LANES]>,
-}
-
-impl<'a> Divisors<'a> {
-    /// Divisors that are not zero.
-    pub(super) fn new(ring: &'a PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Self {
-        let elements: Vec<_> = basis.iter().enumerate().map(|(index, f)| Integral::new(index, f)).collect();
-        let heights = elements.iter().map(Integral::height).collect();
-        Divisors { ring, elements, heights, batches: Vec::new() }
-    }
-
+impl Divisors<'_> {
     /// Proves that the S-pairs which the criteria of Buchberger and of Gebauer and Moeller leave reduce to zero: the divisors
     /// are a Groebner basis of the ideal that they generate.
     ///
@@ -131,34 +104,5 @@ impl<'a> Divisors<'a> {
         let bound = 2 * (sum + &denominator * target.height());
         let quotients = Vector { numerators, denominator };
         Ok(bound < *tables.modulus() && tables.agree(&quotients, rows))
-    }
-
-    fn add_batch(&mut self) -> Result<()> {
-        let good = |&p: &u32| self.elements.iter().all(|f| residue(f.leading_coefficient(), p) != 0);
-        let mut primes = primes_below(1 << 31).map(|p| p as u32).filter(good).skip(self.batches.len() * LANES);
-        let mut batch = [0; LANES];
-        for p in &mut batch {
-            *p = primes.next().ok_or_else(no_primes)?;
-        }
-        drop(primes);
-        self.batches.push(self.batch(batch)?);
-        Ok(())
-    }
-
-    fn batch(&self, primes: [u32; LANES]) -> Result<Batch> {
-        let mut inverses = vec![[0; LANES]; self.elements.len()];
-        let mut images: Vec<_> = self.elements.iter().map(|f| vec![[0; LANES]; f.terms.len()]).collect();
-        for (lane, &p) in primes.iter().enumerate() {
-            let field = *modulo(self.ring, p)?.field();
-            for (element, f) in self.elements.iter().enumerate() {
-                let lead = u64::from(residue(f.leading_coefficient(), p));
-                let inverse = field.inverse(&lead).ok_or_else(|| refuse("a prime divides a leading coefficient"))?;
-                inverses[element][lane] = inverse as u32;
-                for (image, (_, c)) in images[element].iter_mut().zip(&f.terms) {
-                    image[lane] = (u64::from(residue(c, p)) * inverse % u64::from(p)) as u32;
-                }
-            }
-        }
-        Ok(Batch { primes, images, inverses })
     }
 }

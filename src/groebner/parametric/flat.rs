@@ -1,10 +1,14 @@
 //! The system with the parameters as variables of the lowest block: unknowns first, each compared as before.
 
-use super::system::common_multiple;
+use super::lift::image;
+use super::prime::Prime;
 use super::{Ideal, Poly, Ring};
 use crate::Result;
-use crate::number::{BigRational, Field, Rationals, Ring as _};
-use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term};
+use crate::number::{BigRational, Field, Rationals, Ring as _, Zp};
+use crate::poly::{Block, Order, Polynomial, PolynomialRing, Term, gcd};
+
+/// The terms of each equation over Q, greatest first.
+pub(super) type Equations = Vec<Vec<Term<BigRational>>>;
 
 /// The ring of unknowns and parameters over `field`.
 ///
@@ -28,7 +32,7 @@ pub(super) fn flat_ring<F: Field>(ring: &Ring, field: F) -> Result<PolynomialRin
 ///
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree outgrows the flat ring.
-pub(super) fn equations<F: Field>(ideal: &Ideal<'_>, flat: &PolynomialRing<F>) -> Result<Vec<Vec<Term<BigRational>>>> {
+pub(super) fn equations<F: Field>(ideal: &Ideal<'_>, flat: &PolynomialRing<F>) -> Result<Equations> {
     let field = ideal.ring.field();
     let ground = field.ring();
     let mut equations = Vec::with_capacity(ideal.generators.len());
@@ -64,6 +68,21 @@ fn flatten<F: Field>(ring: &Ring, flat: &PolynomialRing<F>, f: &Poly) -> Result<
     Ok(terms)
 }
 
+/// The least common multiple of denominators.
+pub(super) fn common_multiple<'a>(
+    ring: &Ring,
+    denominators: impl Iterator<Item = &'a Polynomial<BigRational>>,
+) -> Polynomial<BigRational> {
+    let ground = ring.field().ring();
+    denominators.fold(ground.one(), |product, f| {
+        if ground.is_one(f) || product == *f {
+            return if ground.is_one(f) { product } else { f.clone() };
+        }
+        let shared = gcd(ground, &product, f);
+        ground.mul(&product, &ground.exact_div(f, &shared).expect("a gcd divides"))
+    })
+}
+
 /// The terms of `coefficient` times the monomial of unknowns with these exponents.
 fn append<F: Field>(
     terms: &mut Vec<Term<BigRational>>,
@@ -80,4 +99,19 @@ fn append<F: Field>(
         terms.push(Term { coefficient: term.coefficient.clone(), monomial: flat.monomial(&exponents)? });
     }
     Ok(())
+}
+
+/// The equations modulo a prime; `None` when it divides a coefficient.
+pub(super) fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: Prime) -> Option<Vec<Polynomial<u64>>> {
+    let term = |term: &Term<BigRational>| {
+        let coefficient = image(field, &term.coefficient);
+        (coefficient != 0).then(|| Term { coefficient, monomial: term.monomial.clone() })
+    };
+    let image = |terms: &Vec<Term<BigRational>>| Some(flat.descending(terms.iter().map(term).collect::<Option<_>>()?));
+    equations.iter().map(image).collect()
+}
+
+/// Whether the prime divides no numerator and no denominator of a coefficient.
+pub(super) fn admit(equations: &Equations, field: Prime) -> bool {
+    equations.iter().flatten().all(|term| image(field, &term.coefficient) != 0)
 }

@@ -3,9 +3,8 @@
 //! A replay looks at no row again that came to nothing when the trace was learned. Where it should not have, because the prime or the
 //! point was an unlucky one, the replays agree with each other and all miss an element.
 
-use super::flat::flat_ring;
+use super::flat::{Equations, admit, flat_ring, image_of};
 use super::lift::{Primes, image};
-use super::modular::{Equations, admit, image_of};
 use super::prime::{Prime, Stream};
 use super::{Ideal, Poly};
 use crate::groebner::f4::leading_monomials;

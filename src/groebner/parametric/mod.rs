@@ -60,6 +60,7 @@ pub struct Options {
 
 /// A basis over the rational functions and how it came about.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Parametric {
     /// The reduced basis, for generic values of the parameters.
     pub basis: Basis<Fractions<Rationals>>,

@@ -5,23 +5,21 @@
 //! coefficient is rebuilt from as few primes as it takes and agrees with the first prime, from which it was not made.
 
 use super::assemble::{Element, assemble};
-use super::flat::{equations, flat_ring};
+use super::flat::{Equations, admit, equations, flat_ring, image_of};
 use super::lift::{Primes, Residues, image};
-use super::pilot::Pilot;
+use super::pilot::{Pilot, minimal};
 use super::prime::Prime;
 use super::{Ideal, fresh, is_free};
 use crate::groebner::Basis;
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Rationals, Zp};
-use crate::poly::{Fractions, Polynomial, PolynomialRing, Term};
+use crate::poly::{Fractions, Polynomial, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many primes are tried at once.
 const LANES: usize = 4;
 /// How many primes may teach the computation before the search is given up.
 const TEACHERS: usize = 4;
-
-pub(super) type Equations = Vec<Vec<Term<BigRational>>>;
 
 /// The reduced basis over the rational functions.
 ///
@@ -61,32 +59,6 @@ pub(super) fn rebuilt_basis(
         }
     }
     Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another way"))
-}
-
-/// The equations modulo a prime; `None` when it divides a coefficient.
-pub(super) fn image_of(flat: &PolynomialRing<Zp>, equations: &Equations, field: Prime) -> Option<Vec<Polynomial<u64>>> {
-    let term = |term: &Term<BigRational>| {
-        let coefficient = image(field, &term.coefficient);
-        (coefficient != 0).then(|| Term { coefficient, monomial: term.monomial.clone() })
-    };
-    let image = |terms: &Vec<Term<BigRational>>| Some(flat.descending(terms.iter().map(term).collect::<Option<_>>()?));
-    equations.iter().map(image).collect()
-}
-
-/// Of elements with leading monomials of these exponents, smallest first: those without any of the `unknowns` first variables, which relations
-/// of the parameters reduce to zero or which make the ideal the whole ring, and of the others those whose leading monomial in the
-/// unknowns no smaller one divides.
-pub(super) fn minimal(unknowns: usize, leads: &[Vec<u32>]) -> Vec<usize> {
-    let mut chosen: Vec<usize> = Vec::with_capacity(leads.len());
-    for (index, lead) in leads.iter().enumerate() {
-        let part = |index: usize| &leads[index][..unknowns];
-        let is_constant = |index: usize| part(index).iter().all(|&e| e == 0);
-        let divides = |&other: &usize| !is_constant(other) && part(other).iter().zip(lead).all(|(a, b)| a <= b);
-        if is_constant(index) || !chosen.iter().any(divides) {
-            chosen.push(index);
-        }
-    }
-    chosen
 }
 
 fn coefficients(chosen: &[usize], basis: &[Polynomial<u64>]) -> Vec<u64> {
@@ -133,9 +105,4 @@ fn lanes(equations: &Equations, primes: &mut Primes) -> ([Prime; LANES], Vec<Vec
     let fields = std::array::from_fn(|_| primes.next_that(|field| admit(equations, field)));
     let value = |term: &Term<BigRational>| fields.map(|field: Prime| image(field, &term.coefficient) as u32);
     (fields, equations.iter().map(|terms| terms.iter().map(value).collect()).collect())
-}
-
-/// Whether the prime divides no numerator and no denominator of a coefficient.
-pub(super) fn admit(equations: &Equations, field: Prime) -> bool {
-    equations.iter().flatten().all(|term| image(field, &term.coefficient) != 0)
 }

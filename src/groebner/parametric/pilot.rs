@@ -4,7 +4,6 @@
 //! they are that basis: the pairs that are left only say where it specialises.
 
 use super::estimate::Estimate;
-use super::modular::minimal;
 use super::system::System;
 use super::{FEW_TERMS, Ideal, TERMS_OF_POINTS, is_free};
 use crate::groebner::f4::Guide;
@@ -96,4 +95,20 @@ impl Guide for Pilot<'_> {
     fn wanted(&self, leads: &[Vec<u32>]) -> Vec<usize> {
         if self.is_free { minimal(self.ideal.ring.variables().len(), leads) } else { (0..leads.len()).collect() }
     }
+}
+
+/// Of elements with leading monomials of these exponents, smallest first: those without any of the `unknowns` first variables, which relations
+/// of the parameters reduce to zero or which make the ideal the whole ring, and of the others those whose leading monomial in the
+/// unknowns no smaller one divides.
+pub(super) fn minimal(unknowns: usize, leads: &[Vec<u32>]) -> Vec<usize> {
+    let mut chosen: Vec<usize> = Vec::with_capacity(leads.len());
+    for (index, lead) in leads.iter().enumerate() {
+        let part = |index: usize| &leads[index][..unknowns];
+        let is_constant = |index: usize| part(index).iter().all(|&e| e == 0);
+        let divides = |&other: &usize| !is_constant(other) && part(other).iter().zip(lead).all(|(a, b)| a <= b);
+        if is_constant(index) || !chosen.iter().any(divides) {
+            chosen.push(index);
+        }
+    }
+    chosen
 }

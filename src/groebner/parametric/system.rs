@@ -1,12 +1,13 @@
 //! The coefficients of a reduced basis as functions of the parameters, evaluated modulo a prime.
 
+use super::flat::common_multiple;
 use super::lift::{Primes, image};
 use super::pattern::Functions;
 use super::prime::{Prime, Stream};
 use super::{Ideal, Ring, fresh};
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Ring as _, Zp};
-use crate::poly::{Monomial, Polynomial, gcd};
+use crate::poly::{Monomial, Polynomial};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many points are evaluated at once.
@@ -70,21 +71,6 @@ impl System {
     pub fn terms(&self) -> usize {
         self.trace.terms()
     }
-}
-
-/// The least common multiple of denominators.
-pub(super) fn common_multiple<'a>(
-    ring: &Ring,
-    denominators: impl Iterator<Item = &'a Polynomial<BigRational>>,
-) -> Polynomial<BigRational> {
-    let ground = ring.field().ring();
-    denominators.fold(ground.one(), |product, f| {
-        if ground.is_one(f) || product == *f {
-            return if ground.is_one(f) { product } else { f.clone() };
-        }
-        let shared = gcd(ground, &product, f);
-        ground.mul(&product, &ground.exact_div(f, &shared).expect("a gcd divides"))
-    })
 }
 
 /// The coefficients of `f` times `multiple`, which all their denominators divide.

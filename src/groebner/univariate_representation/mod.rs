@@ -29,6 +29,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// The distinct complex solutions of a zero-dimensional system as `x_v = g_v(t) / f'(t)` for the roots `t` of `f`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct UnivariateRepresentation {
     /// The names of the unknowns.
     pub variables: Vec<String>,

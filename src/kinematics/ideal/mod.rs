@@ -10,6 +10,7 @@ mod meeting;
 mod places;
 mod report;
 
+pub use super::parts::TOLERANCE;
 use super::{Chain, ChainParts, Joint, JointKind, Task, Tip};
 use crate::{Error, ErrorKind, Result};
 use report::moved;
@@ -17,8 +18,6 @@ pub use report::{Moved, Relation, RelationKind, Report};
 
 use crate::spatial::exact::vector::Line;
 
-/// What holds within this is meant, unless another tolerance is asked for: radians, and shares of the reach.
-pub const TOLERANCE: f64 = 1e-6;
 /// The greatest tolerance.
 pub const WIDEST: f64 = 0.1;
 /// Where answers are polished anyway, lengths are rounded to decimals within this share of the tolerance.
@@ -32,7 +31,7 @@ impl Chain {
     /// Directions that are almost parallel to the axis before, or perpendicular to it, become so, along coordinate axes and bisectors where that
     /// is near; axes of neighbours that almost meet do, so that three or more meet in one point where they almost do; parallel axes that are
     /// almost one line become it; offsets along an axis that are almost zero become zero, and so does the tip's from the last axis. What the
-    /// description [means](super::chain::Meant) by rounded numbers is taken first. A chain of which nothing is to be changed is returned as it is.
+    /// description [means](super::Meant) by rounded numbers is taken first. A chain of which nothing is to be changed is returned as it is.
     pub fn ideal(&self) -> (Chain, Report) {
         self.ideal_within(TOLERANCE).unwrap_or_else(|_| (self.clone(), Report::of_exact(self, TOLERANCE)))
     }

@@ -36,6 +36,7 @@ pub struct Relation {
 
 /// How far a joint's axis is from the ideal one.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Moved {
     /// The name of the joint; none for the tip.
     pub joint: Option<String>,

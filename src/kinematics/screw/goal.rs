@@ -2,7 +2,6 @@
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::model::ray_goal;
 use super::reduced::{Goal, Member, Reduced};
 use crate::Result;
 use crate::kinematics::{Chain, Plane, Target, Task};
@@ -42,6 +41,20 @@ impl Target {
         };
         Ok(goal)
     }
+}
+
+/// A rotation of the tip of `chain` that points its direction along `wanted`.
+fn aimed(chain: &Chain, wanted: &Vector3<f64>) -> UnitQuaternion<f64> {
+    let aim = chain.aim();
+    let across = aim.cross(&Vector3::ith(aim.iamin(), 1.0));
+    let half_turn = UnitQuaternion::from_axis_angle(&Unit::new_normalize(across), std::f64::consts::PI);
+    UnitQuaternion::rotation_between(&aim.into_inner(), wanted).unwrap_or(half_turn)
+}
+
+/// The goal of a ray: a pose with a rotation that has its direction.
+fn ray_goal(chain: &Chain, point: &Point3<f64>, direction: &Vector3<f64>) -> Goal {
+    let pose = Pose::from_parts(point.coords.into(), aimed(chain, direction));
+    Goal::Pose(pose * chain.base_from_tip().inverse())
 }
 
 fn in_plane(tip: &Point3<f64>, plane: Plane, at: &[f64; 2]) -> Point3<f64> {

@@ -28,10 +28,13 @@ mod upright;
 pub mod values;
 
 pub use plan::{Plan, PlanStep, Subproblem};
-pub use solver::{ACCEPT, ScrewSolver};
+pub use solver::ScrewSolver;
 
 use super::Chain;
 use crate::spatial::{Screw, angle};
+
+/// How far, relative to the reach and in radians, an answer's tip may be from its target.
+pub const ACCEPT: f64 = 2e-12;
 
 /// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
 const MERGE: f64 = 1e-9;

@@ -3,13 +3,13 @@
 //! A ray is a pose with one more joint, that turns about the ray. A rotation is a pose, and a direction a point, of the chain's
 //! spherical image, in which all axes pass the origin. A given joint is absorbed before the first step.
 
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::goal::whole;
 use super::reduced::{Goal, Reduced};
 use super::refine::MOST_JOINTS;
 use crate::kinematics::{Chain, Target, Task};
-use crate::spatial::{Half, Pose, Screw};
+use crate::spatial::{Half, Screw};
 use crate::{Error, ErrorKind, Result};
 
 /// A chain as the screw solver sees it.
@@ -96,18 +96,4 @@ fn spherical_image(chain: &Chain) -> Result<Vec<Screw>> {
         }
     };
     chain.screws().iter().zip(chain.joints()).map(image).collect()
-}
-
-/// A rotation of the tip of `chain` that points its direction along `wanted`.
-pub(super) fn aimed(chain: &Chain, wanted: &Vector3<f64>) -> UnitQuaternion<f64> {
-    let aim = chain.aim();
-    let across = aim.cross(&Vector3::ith(aim.iamin(), 1.0));
-    let half_turn = UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(across), std::f64::consts::PI);
-    UnitQuaternion::rotation_between(&aim.into_inner(), wanted).unwrap_or(half_turn)
-}
-
-/// The goal of a ray: a pose with a rotation that has its direction.
-pub(super) fn ray_goal(chain: &Chain, point: &Point3<f64>, direction: &Vector3<f64>) -> Goal {
-    let pose = Pose::from_parts(point.coords.into(), aimed(chain, direction));
-    Goal::Pose(pose * chain.base_from_tip().inverse())
 }

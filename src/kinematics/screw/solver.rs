@@ -10,15 +10,12 @@ use super::plan::Plan;
 use super::reduced::{Goal, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
-use super::{MERGE, upright};
+use super::{ACCEPT, MERGE, upright};
 use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Task};
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
-
-/// How far, relative to the reach and in radians, an answer's tip may be from its target.
-pub const ACCEPT: f64 = 2e-12;
 
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
@@ -125,7 +122,10 @@ impl ScrewSolver {
         self.chain.check_given(given)?;
         if let Some(parts) = &self.upright {
             let (upright, inner) = &**parts;
-            return upright::solved(&self.chain, upright, inner, target, given);
+            target.check(&self.chain)?;
+            let (closed, values) = upright.asked(target, given)?;
+            let found = inner.solve_given(&closed, &values)?;
+            return Ok(upright::on_chain(&self.chain, upright, target, found));
         }
         let given = &self.chain.given_values(given)[..];
         let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));

@@ -1,9 +1,8 @@
-//! The task `position_pitch_roll` by the loop that stands for it: [`solved`].
+//! The task `position_pitch_roll` by the loop that stands for it: [`on_chain`].
 
 use nalgebra::DVector;
 
-use super::solver::{ACCEPT, ScrewSolver};
-use crate::Result;
+use super::ACCEPT;
 use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, Solution, Target};
 use crate::spatial::{Screw, angle, pitch_and_roll, vertical};
@@ -11,21 +10,10 @@ use crate::spatial::{Screw, angle, pitch_and_roll, vertical};
 /// Newton steps for an answer of the ideal robot's loop on the chain as described.
 const STEPS: usize = 8;
 
-/// All answers of `chain`, by `inner`, the solver of the loop `upright` of its ideal robot, each polished and measured on the chain.
-///
-/// # Errors
-/// As [`ScrewSolver::solve_given`].
-pub(super) fn solved(
-    chain: &Chain,
-    upright: &Upright,
-    inner: &ScrewSolver,
-    target: &Target,
-    given: &[f64],
-) -> Result<Vec<Solution>> {
-    target.check(chain)?;
-    let (closed, values) = upright.asked(target, given)?;
+/// All answers of `chain`, by those of the loop `upright` of its ideal robot, each polished and measured on the chain.
+pub(super) fn on_chain(chain: &Chain, upright: &Upright, target: &Target, answers: Vec<Solution>) -> Vec<Solution> {
     let mut found: Vec<Solution> = Vec::new();
-    for answer in inner.solve_given(&closed, &values)? {
+    for answer in answers {
         let q = polished(chain, target, upright.answer(target, &answer.q));
         let Some((_, position, rotation)) = miss(chain, target, &q) else { continue };
         let same = |other: &Solution| chain.are_one(&q, &other.q);
@@ -35,7 +23,7 @@ pub(super) fn solved(
             found.push(Solution { q, free, residual: position.max(rotation), ..answer });
         }
     }
-    Ok(found)
+    found
 }
 
 /// What the tip at `q` misses, as the rows of [`Chain::task_jacobian`] tell it, the distance, and the angle \[rad\].

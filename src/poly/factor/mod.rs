@@ -27,6 +27,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// A polynomial as a constant times powers of irreducible polynomials.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Factorisation<E> {
     /// The leading coefficient of the polynomial.
     pub unit: E,

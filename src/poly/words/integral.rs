@@ -1,11 +1,10 @@
-//! Sparse polynomials with integer coefficients, on the keys of a [`Packing`]: what images modulo primes stand for.
+//! Sparse polynomials with integer coefficients, on the keys of a [`Packing`](super::Packing): what images modulo primes stand for.
 
 use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::field::Prime;
-use super::flat::{Flat, Packing};
-use super::images::{Images, primes};
+use super::flat::Flat;
 use crate::number::BigInt;
 
 /// A polynomial over the integers: keys in descending order, with nonzero values beside them.
@@ -51,28 +50,5 @@ impl Integral {
     /// Whether this is a constant, zero included.
     pub fn is_constant(&self) -> bool {
         self.keys.first().is_none_or(|&key| key == 0)
-    }
-
-    /// `self / divisor`, if it is a polynomial over the integers and `divisor` is primitive.
-    ///
-    /// The quotient is found modulo primes. It is proved when the moduli exceed every coefficient of both sides of
-    /// `self = quotient * divisor`: a congruence of such small numbers is an equality.
-    pub fn quotient(&self, packing: &Packing, divisor: &Integral) -> Option<Integral> {
-        let mut images = Images::default();
-        let terms = (divisor.keys.len() as u64).ilog2() as u64 + 1;
-        for p in primes() {
-            let field = Prime::new(p);
-            let small = divisor.image(&field);
-            if small.keys.first() != divisor.keys.first() {
-                continue;
-            }
-            images.add(&field, self.image(&field).exact_div(&field, packing, &small)?);
-            let quotient = images.symmetric();
-            let needed = self.bits().max(quotient.bits() + divisor.bits() + terms);
-            if needed + 2 <= images.bits() {
-                return Some(quotient);
-            }
-        }
-        None
     }
 }

@@ -8,6 +8,7 @@ mod field;
 mod flat;
 mod images;
 mod integral;
+mod quotient;
 pub mod skeleton;
 
 pub use extension::Extension;

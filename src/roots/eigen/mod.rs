@@ -14,6 +14,7 @@ pub(crate) const EIGEN_STEPS: [usize; 2] = [shifted_qr::MAX_STEPS, inverse_itera
 
 /// An eigenvalue of a real matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Eigenvalue {
     /// Its real part.
     pub re: f64,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{candidates, curve, polish, reduce, solve};
+use super::{answers, candidates, curve, polish, reduce, solve};
 use crate::roots::EIGEN_STEPS;
 
 /// What the modules beside this one define.
@@ -86,8 +86,8 @@ impl Constants {
         Constants {
             max_steps,
             rounds,
-            merge: solve::MERGE,
-            accept: solve::ACCEPT,
+            merge: answers::MERGE,
+            accept: answers::ACCEPT,
             sound: solve::SOUND,
             clear: solve::CLEAR,
             accurate: solve::ACCURATE,
@@ -109,8 +109,8 @@ impl Constants {
             longest: polish::LONGEST,
             singular: polish::SINGULAR,
             weak: reduce::WEAK,
-            apart: solve::APART,
-            alike: solve::ALIKE,
+            apart: answers::APART,
+            alike: answers::ALIKE,
             deepest: candidates::DEEPEST,
             curve: Curve::new(),
         }

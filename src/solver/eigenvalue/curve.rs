@@ -5,8 +5,8 @@
 //! is missed of the sixth one changes its sign at each answer. (Bordering: A. Griewank and G. W. Reddien, SIAM J. Numerical Analysis 21
 //! (1984) 176-185; steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
 
+use super::answers::{Answers, ROOM, distance};
 use super::polish::{EXACT, LONGEST, Links, Rigid, size};
-use super::solve::{Answers, ROOM, distance};
 
 /// A fifth pivot of the Jacobian below this share of the first: there is more than a curve.
 pub(super) const RANK: f64 = 1e-3;

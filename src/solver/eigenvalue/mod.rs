@@ -5,6 +5,7 @@
 //! Two vectors `a`, `b` with `b` turned from `a` fulfil Rodrigues' equation `b - a = x w x (a + b)`, `x` the tangent of half the angle:
 //! it is linear in `x`, so that the eigenvalue problem has exactly as many rows as the chain has solutions.
 
+mod answers;
 mod candidates;
 mod constants;
 mod curve;
@@ -20,6 +21,7 @@ mod screw;
 mod six_axes;
 mod solve;
 
+pub use answers::{Answer, Answers, ROOM};
 pub(crate) use constants::{Constants, Curve};
 pub use formulation::{Equations, Formulation};
 pub use pencil::SIZE;
@@ -29,4 +31,4 @@ pub use rows::{COLUMNS, Doubled, FAR, MOVING, Row, Rows};
 pub use scalar::{Scalar, Vector};
 pub use screw::{Axis, Figure, Line};
 pub use six_axes::{SixAxes, SixAxesParts};
-pub use solve::{Answer, Answers, EigenvalueSolver, Layout, ROOM};
+pub use solve::{EigenvalueSolver, Layout};

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::answers::{Answer, Answers};
 use super::formulation::Formulation;
 use super::polish::Rigid;
 use super::screw::Line;
-use super::solve::{Answer, Answers, EigenvalueSolver, Layout};
+use super::solve::{EigenvalueSolver, Layout};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 

@@ -1,5 +1,6 @@
 //! Exact geometry: vectors and rotations in rational numbers, 0.1029 as 1029/10000, and frames made of them. Main type: [`Placement`].
 
+mod decimal;
 mod placement;
 pub(crate) mod rotation;
 pub(crate) mod serde;

@@ -4,6 +4,7 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use super::decimal::{integer, is_decimal_of, is_double_of};
 use super::surd::{Surd, SurdVector};
 use super::{ExactMatrix, ExactVector};
 use crate::number::{BigInt, BigRational, parse_rational};
@@ -11,10 +12,6 @@ use crate::{Error, ErrorKind, Result};
 
 /// pi to 60 decimals.
 const PI: &str = "3.141592653589793238462643383279502884197169399375105820974944";
-/// The fewest decimals that a rounded multiple of pi/4 or pi/6 must have to be taken for the exact one.
-const DECIMALS: usize = 4;
-/// The most decimals that are looked at.
-const MOST_DECIMALS: usize = 40;
 /// The most quarter turns: a million radians.
 const GREATEST: i64 = 636_619;
 /// The bits that a quaternion is rounded to, and the tangent of half an elementary rotation's angle.
@@ -127,32 +124,10 @@ fn whole_steps(steps: &BigRational) -> u8 {
     steps.to_integer().mod_floor(&BigInt::from(24)).to_u8().unwrap_or(0)
 }
 
-/// Whether `given` is within 1e-15 of `exact`.
-fn is_double_of(given: &BigRational, exact: &BigRational) -> bool {
-    (given - exact).abs() * integer(1_000_000_000_000_000) <= integer(1)
-}
-
 /// Whether a number of steps of 15 degrees is a multiple of 30 or of 45 degrees.
 fn is_step(steps: &BigRational) -> bool {
     let steps = steps.to_integer();
     [2, 3].iter().any(|n| (&steps % BigInt::from(*n)).is_zero())
-}
-
-/// Whether `given` is within 1e-15 of `exact`, or is its rounded or truncated decimal with enough decimals.
-pub(crate) fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
-    if is_double_of(given, exact) {
-        return true;
-    }
-    let mut shift = BigRational::one();
-    for decimals in 0..=MOST_DECIMALS {
-        let digits = given * &shift;
-        if digits.is_integer() {
-            let wanted = exact * shift;
-            return decimals >= DECIMALS && (digits == wanted.round() || digits == wanted.trunc());
-        }
-        shift *= integer(10);
-    }
-    false
 }
 
 /// The cosine and sine of half the angle of the direction (`cosine`, `sine`), up to scale, in integers: their quotient is within 2^-60.
@@ -195,10 +170,6 @@ fn shortest_fraction(number: &BigRational) -> BigRational {
         }
         rest = (rest - BigRational::from_integer(whole)).recip();
     }
-}
-
-fn integer(n: i64) -> BigRational {
-    BigRational::from_integer(n.into())
 }
 
 fn pi() -> BigRational {

@@ -6,7 +6,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::ExactVector;
-use super::rotation::is_decimal_of;
+use super::decimal::is_decimal_of;
 use crate::number::BigRational;
 
 /// Roots are known to so many bits at first; an irrational number, and one with a long denominator, becomes the nearest multiple of 2^-80.

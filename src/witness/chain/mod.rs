@@ -16,7 +16,7 @@ mod targets;
 
 use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
-use super::{DUPLICATE, ORACLE, Options, SEEDS, SINGULAR, TIE};
+use super::{DUPLICATE, Judged, ORACLE, Options, SEEDS, SINGULAR, TIE, faults_of_each};
 use crate::kinematics::{Chain, Solution, Task};
 use crate::solver::Program;
 use crate::{ErrorKind, Result, Watch};
@@ -162,23 +162,14 @@ impl<'a> Check<'a> {
 
     /// Checks each answer by itself, and records the worst residual.
     fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
-        let mut faults = Vec::new();
-        let mut add = |wrong: bool, fault: Fault| {
-            if wrong && !faults.contains(&fault) {
-                faults.push(fault);
-            }
-        };
-        for answer in answers {
-            if !self.model.is_well_formed(&answer.q) {
-                add(true, Fault::Range);
-                continue;
-            }
-            let residual = self.model.residual(&row.target, &answer.q);
-            row.worst_residual = Some(row.worst_residual.map_or(residual, |worst| worst.max(residual)));
-            add(residual > RESIDUAL, Fault::Residual);
-            add(!answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR, Fault::Free);
-        }
-        faults
+        let target = row.target.clone();
+        faults_of_each(row, answers, |answer| {
+            self.model.is_well_formed(&answer.q).then(|| {
+                let residual = self.model.residual(&target, &answer.q);
+                let is_too_free = !answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR;
+                Judged { told: residual, is_missed: residual > RESIDUAL, is_too_free }
+            })
+        })
     }
 
     /// Checks the answers as a set.

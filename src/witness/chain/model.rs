@@ -5,12 +5,10 @@ use std::f64::consts::PI;
 
 use nalgebra::DMatrix;
 
-use super::self_motion::SelfMotions;
 use super::singular::smallest_singular_value;
 use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
 use crate::kinematics::{Chain, JointKind, Solution, Task};
-use crate::solver::BLUR;
 use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
@@ -221,23 +219,6 @@ pub(super) trait Configuration {
     /// `a - b`, of angles the way round that is shorter.
     fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
         if self.turns(joint) { angle::difference(a, b) } else { a - b }
-    }
-
-    /// Whether `b` is the same answer as `a`, and no farther from it than a solver merges answers.
-    fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        self.distance(a, b) <= BLUR && self.matches(target, a, b)
-    }
-
-    /// Whether `b` is the same answer as `a`, or of its self-motion: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
-    /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
-    /// all the way.
-    fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        let (distance, sigma) = (self.distance(a, b), self.sigma(a));
-        if sigma > ORDINARY {
-            return distance <= 1e-9;
-        }
-        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
-        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b)
     }
 
     /// `q` with every angle in (-pi, pi].

@@ -16,6 +16,7 @@ const HEIGHT: f64 = 7.0;
 
 /// A target from rational joint values with its exact number of real solutions.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Counted {
     /// The target's numbers, rounded.
     pub inputs: Vec<f64>,

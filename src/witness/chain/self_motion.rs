@@ -1,9 +1,11 @@
-//! Self-motions of one parameter at singular targets: whether there is one, and whether a path in it leads to an answer.
+//! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to an answer, and which answers
+//! are the same up to one.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Configuration, RESIDUAL};
+use super::model::{Configuration, ORDINARY, RESIDUAL};
 use super::singular::{least_squares, null_vector};
+use crate::solver::BLUR;
 
 /// A self-motion's own configurations are at most this ordinary.
 const SINGULAR: f64 = 1e-12;
@@ -52,6 +54,23 @@ pub(super) trait SelfMotions: Configuration {
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
         self.corrected(target, moved, self.unknown(), &across, tolerance)
+    }
+
+    /// Whether `b` is the same answer as `a`, and no farther from it than a solver merges answers.
+    fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        self.distance(a, b) <= BLUR && self.matches(target, a, b)
+    }
+
+    /// Whether `b` is the same answer as `a`, or of its self-motion: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
+    /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
+    /// all the way.
+    fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let (distance, sigma) = (self.distance(a, b), self.sigma(a));
+        if sigma > ORDINARY {
+            return distance <= 1e-9;
+        }
+        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
+        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b)
     }
 
     /// Whether joint vectors next to the straight way from `a` to `b` reach the target.

@@ -1,0 +1,53 @@
+//! The joints of a program's answers. Main type: [`Joint`].
+
+use serde::{Deserialize, Serialize};
+
+/// The unit of an input or joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Metres.
+    Metre,
+    /// Millimetres.
+    Millimetre,
+    /// Radians.
+    Radian,
+    /// A plain number.
+    One,
+}
+
+/// How the value of a joint follows from the unknowns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointValue {
+    /// `atan2(sine, cosine)` of two unknowns (indices), in (-pi, pi].
+    Angle {
+        /// Index of the unknown cosine.
+        cosine: usize,
+        /// Index of the unknown sine.
+        sine: usize,
+    },
+    /// The unknown with this index itself.
+    Plain(usize),
+}
+
+impl JointValue {
+    /// The indices of its unknowns: of the cosine and the sine, or of the value itself.
+    pub(crate) fn unknowns(self) -> Vec<usize> {
+        match self {
+            JointValue::Angle { cosine, sine } => vec![cosine, sine],
+            JointValue::Plain(unknown) => vec![unknown],
+        }
+    }
+}
+
+/// One joint of the answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// Its name, such as `HipPitch`.
+    pub name: String,
+    /// The unit of its value.
+    pub unit: Unit,
+    /// How its value follows from the unknowns.
+    pub value: JointValue,
+}
