@@ -29,8 +29,10 @@ const SLACK: f64 = 1.25;
 /// A call, ready to be made.
 type Call = Box<dyn FnMut()>;
 
-/// The calls, each with how often it is made so that starting up hardly counts.
-const CALLS: [(&str, usize, fn() -> Result<Call>); 10] = [
+/// A call's name, how often it is made so that starting up hardly counts, and what makes it ready.
+type Counted = (&'static str, usize, fn() -> Result<Call>);
+
+const CALLS: [Counted; 10] = [
     ("solve puma", 1000, || solve("puma", &[0.3, -0.4, 0.5, -0.6, 0.7, -0.8])),
     ("solve ur5", 1000, || solve("ur5", &[0.3, -0.9, 1.1, 0.4, 0.6, 0.7])),
     ("solve nao_left_leg", 1000, || solve("nao_left_leg", &[-0.2, 0.1, -0.5, 0.9, -0.4, 0.1])),
@@ -131,7 +133,7 @@ fn make(name: &str, times: usize) -> Result<()> {
 }
 
 fn measure() -> Result<Vec<(&'static str, f64)>> {
-    let one = |(name, times, _): &(&'static str, usize, _)| {
+    let one = |(name, times, _): &Counted| {
         let each = (counted(name, *times)? - counted(name, 0)?) / *times as f64;
         Ok((*name, each.round()))
     };

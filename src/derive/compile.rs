@@ -157,7 +157,7 @@ impl<'a> Compiler<'a> {
         let ground = setting.field()?.ring().clone();
         let mut denominators = Vec::new();
         collect_denominators(&ground, solved.certified.basis.iter(), &mut denominators);
-        for factor in strata::factors(&ground, &denominators) {
+        for factor in strata::factors(&ground, &denominators)? {
             if !matches!(strata::zero_set(setting, &factor)?, ZeroSet::Empty(_)) {
                 guards.push(self.guard(setting, &factor, false, &mut assembler)?);
             }

@@ -66,7 +66,7 @@ impl Builder<'_> {
         let mut node = Node { factors: place.factors, ..Node::leaf(&place.label, setting, outcome) };
         let denominators = node.denominators()?;
         let ground = node.setting.field()?.ring().clone();
-        for factor in strata::factors(&ground, &denominators) {
+        for factor in strata::factors(&ground, &denominators)? {
             self.branch(&mut node, &factor, depth)?;
         }
         Ok(node)

@@ -61,7 +61,7 @@ pub fn score(setting: &Setting, basis: &Basis<Coefficients>) -> Result<Score> {
     let triangular = triangularise(&basis.ring, &basis.polynomials)?;
     let terms = basis.polynomials.iter().map(|f| f.terms().len()).sum();
     let mut score = Score { open: 0, surfaces: 0, thin: 0, candidates: triangular.bound(), terms };
-    for factor in strata::factors(ground, &denominators) {
+    for factor in strata::factors(ground, &denominators)? {
         match strata::zero_set(setting, &factor)? {
             ZeroSet::Empty(_) => {}
             ZeroSet::Open(_) => score.open += 1,

@@ -1,9 +1,12 @@
 //! Where a generic result may fail: the real zero sets of its denominators, as substitutions of parameters.
 
+use std::collections::BTreeSet;
+
 use super::setting::{ParameterPoly, Setting, Substitution, Symbol, expression_of};
-use crate::Result;
+use crate::groebner::cover::forced_zeros;
 use crate::number::{BigInt, Rationals, Ring, Style};
-use crate::poly::{Expression, PolynomialRing, refine_factors, split_quadratic, square_free_factors};
+use crate::poly::{Expression, PolynomialRing, factor};
+use crate::{Result, Watch};
 
 /// What the zero set of a factor is, over the reals and under the assumptions.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,25 +28,21 @@ pub enum ZeroSet {
 
 type Ground = PolynomialRing<Rationals>;
 
-/// Pairwise coprime factors of `polynomials`, each as irreducible as square-free splitting and square discriminants make it.
-pub fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Vec<ParameterPoly> {
+/// The irreducible factors of `polynomials`, each once, the simplest first: by degree, number of terms, and text.
+///
+/// # Errors
+/// As [`factor`].
+pub fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Result<Vec<ParameterPoly>> {
     let mut distinct: Vec<ParameterPoly> = Vec::new();
     for f in polynomials {
-        let f = ring.monic(f);
-        if !distinct.contains(&f) {
-            distinct.push(f);
+        for (part, _) in factor(ring, f, &Watch::none())?.factors {
+            if !distinct.contains(&part) {
+                distinct.push(part);
+            }
         }
     }
-    let split: Vec<_> = distinct.iter().flat_map(|f| square_free_factors(ring, f)).collect();
-    let mut queue = refine_factors(ring, &split);
-    let mut done = Vec::new();
-    while let Some(f) = queue.pop() {
-        match split_quadratic(ring, &f) {
-            Some((a, b)) => queue.extend([a, b]),
-            None => done.push(f),
-        }
-    }
-    refine_factors(ring, &done)
+    distinct.sort_by_cached_key(|f| (ring.degree(f), f.terms().len(), ring.format(f, Style::Text)));
+    Ok(distinct)
 }
 
 /// Describes the real zeros of `factor` in `setting`.
@@ -114,27 +113,19 @@ fn never_zero(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> bool {
     matches!(definite(setting, ring, f), Some(ZeroSet::Empty(_)))
 }
 
-/// A sum of terms that are all of one sign wherever parameters keep their assumed signs vanishes only where each term does.
+/// A factor that is seen to keep its sign vanishes only where each of what it is a sum of does.
 fn definite(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> Option<ZeroSet> {
-    let positive = |v: usize| setting.symbols[v].positive;
-    let zero = BigInt::from(0);
-    let signs: Vec<bool> = f.terms().iter().map(|term| *term.coefficient.numer() > zero).collect();
-    let exponents: Vec<Vec<u32>> = f.terms().iter().map(|term| ring.layout().exponents(&term.monomial)).collect();
-    let even = exponents.iter().all(|e| e.iter().enumerate().all(|(v, k)| positive(v) || k % 2 == 0));
-    if f.is_zero() || !even || signs.iter().any(|sign| *sign != signs[0]) {
-        return linear_power(setting, ring, f);
-    }
-    let free = |e: &Vec<u32>| (0..e.len()).filter(|&v| e[v] > 0 && !positive(v)).collect::<Vec<_>>();
-    let supports: Vec<Vec<usize>> = exponents.iter().map(free).collect();
-    if supports.iter().any(Vec::is_empty) {
+    let positive: Vec<bool> = setting.symbols.iter().map(|symbol| symbol.positive).collect();
+    let Some(zeros) = forced_zeros(ring, f, &positive) else { return linear_power(setting, ring, f) };
+    if zeros.iter().any(|zero| ring.as_constant(zero).is_some()) {
         return Some(ZeroSet::Empty(format!("{} keeps its sign", ring.format(f, Style::Text))));
     }
-    let mut vanishing: Vec<usize> = supports.iter().filter(|s| s.len() == 1).map(|s| s[0]).collect();
-    vanishing.sort_unstable();
-    vanishing.dedup();
-    let covered = supports.iter().all(|support| support.iter().any(|v| vanishing.contains(v)));
+    let variable = |zero: &ParameterPoly| (0..ring.variables().len()).find(|&v| ring.variable(v) == *zero);
+    let vanishing: BTreeSet<usize> = zeros.iter().filter_map(variable).collect();
+    let is_zero_there =
+        |zero: &ParameterPoly| vanishing.iter().any(|&v| ring.exact_div(zero, &ring.variable(v)).is_some());
     let substitution = |&v: &usize| Substitution { name: ring.variables()[v].clone(), value: Expression::integer(0) };
-    covered.then(|| ZeroSet::Graph(vanishing.iter().map(substitution).collect()))
+    zeros.iter().all(is_zero_there).then(|| ZeroSet::Graph(vanishing.iter().map(substitution).collect()))
 }
 
 /// A single variable.

@@ -36,5 +36,5 @@ pub use monomial::{Layout, Monomial, Width};
 pub use order::{Block, Order};
 pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
-pub use root::{rational_root, split_quadratic, square_root};
+pub use root::{rational_root, square_root};
 pub use token::MAX_LENGTH;

@@ -1,6 +1,5 @@
-//! Square roots of polynomials and the factors that they give.
+//! Square roots of polynomials and of rational numbers.
 
-use super::gcd::gcd;
 use super::ring::{Polynomial, PolynomialRing};
 use crate::number::{BigInt, BigRational, Rationals, Ring};
 
@@ -35,18 +34,4 @@ pub fn rational_root(q: &BigRational) -> Option<BigRational> {
     let root = |n: &BigInt| Some(n.sqrt()).filter(|r| r * r == *n);
     let positive = q.numer().sign() != num_bigint::Sign::Minus;
     positive.then(|| Some(BigRational::new(root(q.numer())?, root(q.denom())?)))?
-}
-
-/// Splits a square-free `f` that is quadratic in some variable with a square discriminant into two factors.
-pub fn split_quadratic(ring: &Ground, f: &Poly) -> Option<(Poly, Poly)> {
-    (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) == 2).find_map(|v| {
-        let parts = ring.coefficients_in(f, v);
-        let four = ring.from_integer(&BigInt::from(4));
-        let product = ring.mul(&four, &ring.mul(&parts[0], &parts[2]));
-        let root = square_root(ring, &ring.sub(&ring.mul(&parts[1], &parts[1]), &product))?;
-        let twice = ring.mul(&ring.add(&parts[2], &parts[2]), &ring.variable(v));
-        let factor = gcd(ring, f, &ring.add(&ring.add(&twice, &parts[1]), &root));
-        let proper = ring.as_constant(&factor).is_none() && ring.degree(&factor) < ring.degree(f);
-        proper.then(|| Some((factor.clone(), ring.exact_div(f, &factor)?)))?
-    })
 }

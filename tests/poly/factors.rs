@@ -2,7 +2,7 @@
 
 use groebot::number::{BigInt, BigRational, Field, Rationals, Ring, Zp};
 use groebot::poly::{Fractions, Order, Polynomial, PolynomialRing};
-use groebot::poly::{gcd, rational_root, refine_factors, split_quadratic, square_free_factors, square_root};
+use groebot::poly::{gcd, rational_root, refine_factors, square_free_factors, square_root};
 use proptest::prelude::*;
 
 use super::sparse::{Sparse, build, sparse};
@@ -157,23 +157,6 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn a_product_of_two_linear_forms_splits(parts in prop::collection::vec(sparse(2, 2, 2), 4)) {
-        let ring = ground();
-        let x = ring.variable(0);
-        let lift = |part: &Sparse| {
-            let moved: Sparse = part.iter().map(|(c, e)| (*c, vec![0, e[0], e[1]])).collect();
-            build(&ring, &moved)
-        };
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| lift(&parts[k]));
-        let (f, g) = (ring.add(&ring.mul(&a, &x), &b), ring.add(&ring.mul(&c, &x), &d));
-        prop_assume!(!a.is_zero() && !c.is_zero() && ring.is_one(&gcd(&ring, &f, &g)));
-        let product = ring.mul(&f, &g);
-        let (left, right) = split_quadratic(&ring, &product).expect("its discriminant is a square");
-        prop_assert_eq!(ring.mul(&left, &right), product);
-        prop_assert!(ring.as_constant(&left).is_none() && ring.as_constant(&right).is_none());
-    }
 }
 
 #[test]
@@ -181,9 +164,6 @@ fn what_has_no_rational_root_is_refused() {
     let ring = ground();
     for text in ["2", "-1", "x", "x^2 + 1", "x^2 + x*y + y^2", "2*x^2", "x^2*y", "x^4 + 2*x^2 + 2", "-x^2"] {
         assert_eq!(square_root(&ring, &read(&ring, text)), None, "{text}");
-    }
-    for text in ["x^2 - 2*y^2", "x^2 + y^2 - 1", "x + y", "x^3 - y^3", "1", "0"] {
-        assert_eq!(split_quadratic(&ring, &read(&ring, text)), None, "{text}");
     }
     let q = |n: i64, d: i64| BigRational::new(BigInt::from(n), BigInt::from(d));
     assert_eq!(rational_root(&q(9, 4)), Some(q(3, 2)));

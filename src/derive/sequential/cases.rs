@@ -141,7 +141,7 @@ impl<'a> Builder<'a> {
         let mut denominators = Vec::new();
         collect_denominators(ground, solved.certified.basis.iter(), &mut denominators);
         let mut possible = self.near(form_basis, node)?;
-        for factor in strata::factors(ground, &denominators) {
+        for factor in strata::factors(ground, &denominators)? {
             if !matches!(strata::zero_set(&node.setting, &factor)?, ZeroSet::Empty(_)) {
                 possible &= self.guard(ground, &factor, false)?;
             }

@@ -25,6 +25,7 @@ pub use check::{Checked, check};
 pub use real::rational_roots;
 pub use region::Region;
 pub use sample::{Candidates, sample};
+pub(crate) use signs::forced_zeros;
 pub use space::Space;
 pub use stratum::{Element, Kind, RealPoints, Stratum};
 

@@ -3,7 +3,7 @@
 use super::ideals::{Ideal, Ideals};
 use super::region::Region;
 use super::sample::sample;
-use super::signs::{Sign, changes_sign, forced_zeros};
+use super::signs::{changes_sign, forced_zeros};
 use super::{Cover, RealPoints, Stratum};
 use crate::number::{BigInt, BigRational, Rationals, Ring, Style};
 use crate::poly::univariate::Univariate;
@@ -66,8 +66,9 @@ fn no_real_point(ideals: &Ideals<'_, Rationals>, region: &Region<BigRational>) -
 
 /// An equation whose real zeros are zeros of polynomials that the equations do not say to vanish, and those polynomials.
 fn consequence(ideals: &Ideals<'_, Rationals>, equations: &Ideal<BigRational>) -> Result<Option<(Poly, Vec<Poly>)>> {
+    let none_positive = vec![false; ideals.ring.variables().len()];
     for f in equations {
-        if let Some(Sign { zeros }) = forced_zeros(&ideals.ring, f)
+        if let Some(zeros) = forced_zeros(&ideals.ring, f, &none_positive)
             && !ideals.contains_all(equations, &zeros)?
         {
             return Ok(Some((f.clone(), zeros)));

@@ -7,22 +7,17 @@ use crate::poly::{Polynomial, PolynomialRing};
 type Ground = PolynomialRing<Rationals>;
 type Poly = Polynomial<BigRational>;
 
-/// A polynomial that keeps its sign: its real zeros are those that `zeros` share (the constant 1 among them: there are none).
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Sign {
-    pub zeros: Vec<Poly>,
-}
-
-/// What must vanish where `f` does, over the reals, if `f` is seen to keep its sign.
-pub(super) fn forced_zeros(ring: &Ground, f: &Poly) -> Option<Sign> {
+/// Polynomials that share the real zeros of `f`, if `f` is seen to keep its sign where the variables that are `positive` are; the
+/// constant 1 among them: there are none.
+pub(crate) fn forced_zeros(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     if let Some(g) = univariate(ring, f)
         && has_no_real_root(&g)
     {
-        return Some(Sign { zeros: vec![ring.one()] });
+        return Some(vec![ring.one()]);
     }
     let lead = f.leading()?;
     let sign = if is_positive(&lead.coefficient) { f.clone() } else { ring.neg(f) };
-    squares(ring, &sign).map(|zeros| Sign { zeros })
+    squares(ring, &sign, positive)
 }
 
 fn is_positive(q: &BigRational) -> bool {
@@ -31,8 +26,8 @@ fn is_positive(q: &BigRational) -> bool {
 
 /// Polynomials that share exactly the real zeros of `f`, if `f` is a positive combination of squares: completing the square in one
 /// variable after the other, until only even terms are left.
-fn squares(ring: &Ground, f: &Poly) -> Option<Vec<Poly>> {
-    if let Some(zeros) = even_terms(ring, f) {
+fn squares(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
+    if let Some(zeros) = even_terms(ring, f, positive) {
         return Some(zeros);
     }
     (0..ring.variables().len()).filter(|&v| ring.degree_in(f, v) == 2).find_map(|v| {
@@ -41,22 +36,22 @@ fn squares(ring: &Ground, f: &Poly) -> Option<Vec<Poly>> {
         let half = ring.scale(&parts[1], &(Rationals.one() / (&lead + &lead)));
         let root = ring.add(&ring.variable(v), &half);
         let rest = ring.sub(f, &ring.scale(&ring.mul(&root, &root), &lead));
-        let mut zeros = if rest.is_zero() { Vec::new() } else { squares(ring, &rest)? };
+        let mut zeros = if rest.is_zero() { Vec::new() } else { squares(ring, &rest, positive)? };
         zeros.push(root);
         Some(zeros)
     })
 }
 
-/// A sum of even terms with positive coefficients vanishes only where each term does.
-fn even_terms(ring: &Ground, f: &Poly) -> Option<Vec<Poly>> {
+/// A sum of terms with positive coefficients, in even powers of what is not `positive`, vanishes only where each term does.
+fn even_terms(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     let exponents: Vec<Vec<u32>> = f.terms().iter().map(|term| ring.layout().exponents(&term.monomial)).collect();
-    let even = exponents.iter().flatten().all(|e| e % 2 == 0);
-    let positive = f.terms().iter().all(|term| is_positive(&term.coefficient));
+    let even = exponents.iter().all(|e| e.iter().zip(positive).all(|(power, positive)| *positive || power % 2 == 0));
+    let adds = f.terms().iter().all(|term| is_positive(&term.coefficient));
     let product = |e: &Vec<u32>| {
-        let used = (0..e.len()).filter(|&v| e[v] > 0);
+        let used = (0..e.len()).filter(|&v| e[v] > 0 && !positive[v]);
         used.fold(ring.one(), |product, v| ring.mul(&product, &ring.variable(v)))
     };
-    (even && positive).then(|| exponents.iter().map(product).collect())
+    (even && adds).then(|| exponents.iter().map(product).collect())
 }
 
 /// `f` as a polynomial in its only variable.
