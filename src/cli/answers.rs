@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::json::FORMAT;
 use crate::kinematics::Solution;
 use crate::solver::{Joint, Program, Unit};
 
@@ -158,6 +159,7 @@ pub fn table(rows: &[Vec<String>]) -> String {
 
 #[derive(Serialize)]
 struct Page<'a> {
+    format: u32,
     name: &'a str,
     target: &'a [f64],
     unit: Units<'a>,
@@ -199,6 +201,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         chosen: solution.chosen,
     };
     let page = Page {
+        format: FORMAT,
         name: &program.name,
         target: &answer.target,
         unit: Units {

@@ -9,11 +9,15 @@ use crate::number::{Field, Ring, Style};
 use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// The form of the file; the first had a text in place of a number.
+const FORMAT: u32 = 2;
+
 /// `basis` is the reduced Groebner basis of the ideal of `generators`, and `basis[i]` is the sum over j of
 /// `cofactors[i][j] * generators[j]`. docs/basis_files.md describes it.
 #[derive(Serialize)]
 struct Certificate<'a> {
-    format: &'static str,
+    format: u32,
+    proves: &'static str,
     characteristic: u64,
     parameters: &'a [String],
     variables: &'a [String],
@@ -41,7 +45,8 @@ pub fn prove<F: Field>(
     let texts = |list: &[Polynomial<F::Element>]| list.iter().map(|f| found.ring.format(f, Style::Text)).collect();
     let heading = &question.working;
     let certificate = Certificate {
-        format: "groebot basis certificate 1",
+        format: FORMAT,
+        proves: "basis",
         characteristic: heading.characteristic,
         parameters: &heading.parameters,
         variables: &heading.variables,

@@ -220,7 +220,7 @@ fn told(findings: &[Finding]) -> serde_json::Value {
         serde_json::json!({ "what": what, "holds": verdict.is_ok(), "text": text })
     };
     let holds = findings.iter().all(|finding| finding.verdict.is_ok());
-    serde_json::json!({ "format": 1, "holds": holds, "findings": findings.iter().map(one).collect::<Vec<_>>() })
+    serde_json::json!({ "format": json::FORMAT, "holds": holds, "findings": findings.iter().map(one).collect::<Vec<_>>() })
 }
 
 fn page(findings: &[Finding], paint: Paint) -> String {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::ends::EndArguments;
+use super::json::FORMAT;
 use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::derive::InputFile;
@@ -234,6 +235,7 @@ fn numbers(values: &[f64]) -> String {
 
 #[derive(Serialize)]
 struct Page<'a> {
+    format: u32,
     name: &'a str,
     unit: Units<'a>,
     joints: Vec<&'a str>,
@@ -257,6 +259,7 @@ struct Units<'a> {
 /// One JSON object: over several lines when `pretty`, else on one.
 fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
     let page = Page {
+        format: FORMAT,
         name: edge.chain.name(),
         unit: Units {
             joints: edge.chain.joints().iter().map(|joint| edge.unit(joint)).collect(),

@@ -5,6 +5,7 @@ use serde::Serialize;
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::answers::table;
+use super::json::FORMAT;
 use super::plan::Mechanism;
 use super::{Outcome, console, targets};
 use crate::kinematics::numeric::NumericSolver;
@@ -248,6 +249,7 @@ impl Page<'_> {
             branch: answer.branch,
         };
         let object = Object {
+            format: FORMAT,
             name: chain.name(),
             method: self.method,
             target: self.text,
@@ -274,6 +276,7 @@ fn notes(chain: &Chain, answer: &Solution) -> String {
 
 #[derive(Serialize)]
 struct Object<'a> {
+    format: u32,
     name: &'a str,
     /// By which method the solutions were found.
     method: &'a str,

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::console::{self, Paint};
 use super::ends::IdealEndArguments;
 use super::{Halt, Outcome, json};
-use crate::derive::coupled::{CoupledChains, JointPlace};
+use crate::derive::coupled::{Actuator, CoupledChains};
 use crate::derive::{Description, Ends, InputFile, formulate};
 use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind};
 use crate::model::Robot;
@@ -46,8 +46,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let body = robot::Body::new(robot, arguments.q.as_deref().unwrap_or_default())?;
             console::print(&if arguments.json { json::text(&body.json()) } else { body.page(paint) })
         }
-        Description::System(system) if ends == Ends::default() => console::print(&system.to_string()),
-        Description::Coupled(coupled) if ends == Ends::default() => console::print(&coupled_page(coupled, paint)),
+        Description::System(system) if ends == Ends::default() => {
+            console::print(&if arguments.json { json::text(&json::system(system)) } else { system.to_string() })
+        }
+        Description::Coupled(coupled) if ends == Ends::default() => console::print(&if arguments.json {
+            json::text(&json::coupled(coupled))
+        } else {
+            coupled_page(coupled, paint)
+        }),
         description => {
             let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
             let chain = input.chain(&ends)?.ok_or_else(none)?;
@@ -196,18 +202,8 @@ fn coupled_page(coupled: &CoupledChains, paint: Paint) -> String {
         page += &format!("{}\n", paint.dim(text));
     }
     page += &format!("\n{}\n", paint.bold("actuators"));
-    let joint = |place: &JointPlace| {
-        let member = &coupled.chains()[place.member];
-        format!("{}.{}", member.name, member.chain.joints()[place.joint].name)
-    };
-    let moved = |joints: &[JointPlace]| joints.iter().map(joint).collect::<Vec<_>>().join(", ");
-    page += &table(
-        &coupled
-            .actuators()
-            .iter()
-            .map(|actuator| vec![actuator.name.clone(), moved(&actuator.joints)])
-            .collect::<Vec<_>>(),
-    );
+    let row = |actuator: &Actuator| vec![actuator.name.clone(), coupled.moved(actuator).join(", ")];
+    page += &table(&coupled.actuators().iter().map(row).collect::<Vec<_>>());
     for member in coupled.chains() {
         page +=
             &format!("\n{}\n{}", paint.bold(&format!("chain {}", member.name)), chain_page(&member.chain, &[], paint));

@@ -6,15 +6,16 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde_json::{Value, json};
 
+use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Candidate, Choice};
-use crate::derive::{Proved, Source};
+use crate::derive::{Proved, Source, System};
 use crate::kinematics::ideal::{RelationKind, Report};
 use crate::kinematics::screw::Plan;
 use crate::kinematics::{Chain, ExactVector, Geometry, JointKind};
 use crate::witness;
 
-/// The version of these forms.
-const FORMAT: u32 = 1;
+/// The version of all forms that the commands print.
+pub const FORMAT: u32 = 1;
 
 /// What a derivation came to.
 pub struct Told<'a> {
@@ -133,6 +134,34 @@ pub fn chain(described: &Chain, meant: &Chain, report: &Report, notes: &[String]
         "meeting": meeting.collect::<Vec<_>>(),
         "ideal": ideal(report),
         "notes": notes,
+    })
+}
+
+/// Coupled chains: each chain as [`chain`], and the joints that each actuator moves, as `chain.joint`.
+pub fn coupled(coupled: &CoupledChains) -> Value {
+    let actuators = coupled.actuators().iter();
+    let actuators = actuators.map(|own| json!({ "name": own.name, "joints": coupled.moved(own) }));
+    let chains = coupled.chains().iter().map(|member| {
+        let (ideal, report) = member.chain.ideal();
+        json!({ "name": member.name, "prefix": member.prefix, "chain": chain(&member.chain, &ideal, &report, &[]) })
+    });
+    json!({
+        "format": FORMAT,
+        "name": coupled.parts().name,
+        "actuators": actuators.collect::<Vec<_>>(),
+        "chains": chains.collect::<Vec<_>>(),
+    })
+}
+
+/// A system of equations, each of which is zero.
+pub fn system(system: &System) -> Value {
+    json!({
+        "format": FORMAT,
+        "name": system.name,
+        "parameters": system.parameters.iter().map(|parameter| parameter.name.as_str()).collect::<Vec<_>>(),
+        "order": system.order,
+        "joints": system.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
+        "equations": system.equations.iter().map(|equation| equation.expression.to_string()).collect::<Vec<_>>(),
     })
 }
 

@@ -219,8 +219,8 @@ impl Program {
     /// Reads a program from JSON and validates it.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line; [`ErrorKind::Unsupported`] for JSON of another format, such as of an older groebot, with what
-    /// makes it new; [`ErrorKind::BadValue`] as [`Program::validate`].
+    /// [`crate::ErrorKind::Syntax`] with the line; [`crate::ErrorKind::Unsupported`] for JSON of another format, such as of an older groebot, with what
+    /// makes it new; [`crate::ErrorKind::BadValue`] as [`Program::validate`].
     pub fn from_json(text: &str) -> Result<Self> {
         let program: Program = FORMAT.read(text)?;
         program.validate()?;

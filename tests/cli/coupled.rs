@@ -145,6 +145,12 @@ fn info_and_explain_tell_of_actuators_and_chains() {
     let (folder, _) = arms();
     let page = succeed(&["info", text(folder.path())]);
     has(&page, &["arms: 2 chains on 4 actuators", "j0    a.j0, b.j0", "chain b", "second: 3 joints"]);
+    let told: Value = serde_json::from_str(&succeed(&["info", "--json", text(folder.path())])).unwrap();
+    assert_eq!((&told["format"], &told["chains"][1]["chain"]["joints"][2]["name"]), (&1.into(), &"j2".into()));
+    assert_eq!(told["actuators"][0]["joints"], serde_json::json!(["a.j0", "b.j0"]));
+    let system = succeed(&["info", "--json", "derivations/nao_arm_planar"]);
+    let system: Value = serde_json::from_str(&system).unwrap();
+    assert_eq!((&system["format"], system["equations"].as_array().unwrap().len()), (&1.into(), 4));
     let told = succeed(&["explain", text(folder.path())]);
     has(
         &told,

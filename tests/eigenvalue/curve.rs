@@ -49,7 +49,7 @@ fn a_self_motion_is_told() {
     }
 }
 
-/// The figures of `docs/six_axes.md`: `cargo test --release beside_a_family -- --ignored --nocapture`.
+/// The figures of `docs/six_axes.md`: `cargo test --release beside_a_self_motion -- --ignored --nocapture`.
 #[test]
 #[ignore = "thousands of targets beside a self-motion"]
 fn beside_a_self_motion() {

@@ -117,7 +117,7 @@ fn self_motions_have_the_numbers_of_real_solutions_that_msolve_finds() {
 /// As above; these take seconds.
 #[test]
 #[ignore = "the bases over Q take seconds"]
-fn large_self_motions_have_the_numbers_of_real_solutions_that_msolve_finds() {
+fn large_families_have_the_numbers_of_real_solutions_that_msolve_finds() {
     assert_count(katsura(6), 32);
     assert_count(katsura(7), 44);
     assert_count(eco(8), 8);

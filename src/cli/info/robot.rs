@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use serde_json::{Value, json};
 
+use super::super::json::FORMAT;
 use super::{Paint, joints};
 use crate::Result;
 use crate::dynamics::Model;
@@ -45,7 +46,7 @@ impl<'r> Body<'r> {
             })
         });
         json!({
-            "format": 1,
+            "format": FORMAT,
             "robot": robot.name(),
             "root": robot.root(),
             "links": robot.links().iter().map(|link| &link.name).collect::<Vec<_>>(),

@@ -111,6 +111,11 @@ impl CoupledChains {
         self.actuators.iter().position(|actuator| actuator.joints.contains(&place))
     }
 
+    /// The joints that an actuator moves, each as `left.HipRoll`.
+    pub fn moved(&self, actuator: &Actuator) -> Vec<String> {
+        actuator.joints.iter().map(|place| self.parts.shown(*place)).collect()
+    }
+
     /// The least and greatest value of an actuator, which all its joints allow; none where no joint says any.
     pub fn limits(&self, actuator: &Actuator) -> Option<(f64, f64)> {
         let own = actuator.joints.iter().filter_map(|place| self.parts.joint(*place)?.limits);

@@ -21,7 +21,7 @@ impl CoupledChains {
         CoupledChains::from_toml(&read_text(path, TEXT_LIMIT)?, folder).map_err(|error| error.in_file(path))
     }
 
-    /// The chains that `text` describes in the format of [`crate::derive::chains`]; chains that it names by file stand in `folder`.
+    /// The chains that `text` describes in the format of [`crate::derive::coupled`]; chains that it names by file stand in `folder`.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];
