@@ -109,7 +109,7 @@ pub fn text(answer: &Answer<'_>) -> String {
     rows.extend(answer.solutions.iter().map(|solution| cells(answer, solution)));
     text += &table(&rows);
     if answer.solutions.iter().any(|solution| !solution.free.is_empty()) {
-        text += "  A free joint may take any value: the row is one member of an self-motion.\n";
+        text += "  A free joint may take any value: the row is one member of a self-motion.\n";
     }
     text
 }

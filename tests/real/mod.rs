@@ -102,7 +102,7 @@ fn assert_count((variables, equations): (Vec<String>, Vec<String>), count: usize
 
 /// Counted by msolve 0.10.1 (`msolve -f FILE`, the number of boxes in its answer).
 #[test]
-fn self_motions_have_the_numbers_of_real_solutions_that_msolve_finds() {
+fn families_have_the_numbers_of_real_solutions_that_msolve_finds() {
     for (n, count) in [(3, 6), (4, 12), (5, 16)] {
         assert_count(katsura(n), count);
     }
