@@ -31,7 +31,7 @@ fn chain(name: &str) -> Chain {
     input.chain(&Ends::default()).expect("it states its task").expect("it is a chain")
 }
 
-/// From a committed description to a planned, lifted and proved program.
+/// From a committed description to a planned, derived and proved program.
 fn derive_chain(c: &mut Criterion) {
     let mut group = c.benchmark_group("derive_chain");
     group.sample_size(10);

@@ -1,13 +1,13 @@
-//! The self-motions of polynomial systems as variables and texts, for benchmarks and tests: `#[path]` this file in.
+//! The families of polynomial systems as variables and texts, for benchmarks and tests: `#[path]` this file in.
 //!
-//! The definitions are those of `tests/corpus/groebner/self-motions.py`, and the tests compare both.
+//! The definitions are those of `tests/corpus/groebner/families.py`, and the tests compare both.
 
 /// Variables and generators.
 pub type Texts = (Vec<String>, Vec<String>);
 
-/// The member of size `n` of a self-motion, by the self-motion's name; `None` for a name that is not known.
-pub fn member(self_motion: &str, n: usize) -> Option<Texts> {
-    let make = match self_motion {
+/// The member of size `n` of a family, by the family's name; `None` for a name that is not known.
+pub fn member(family: &str, n: usize) -> Option<Texts> {
+    let make = match family {
         "cyclic" => cyclic,
         "katsura" => katsura,
         "eco" => eco,

@@ -40,7 +40,7 @@ const EXAMPLES: &str = "Examples:
   groebot derive arm.toml                              files in the folder arm
   groebot derive arm.toml --out /tmp/arm --time 60     files in /tmp/arm, or an error after a minute";
 
-/// Derives, proves and writes the closed-form inverse kinematics of a chain, of chains or of a system of equations
+/// Derives, proves and writes the closed-form inverse kinematics of a chain, of coupled chains or of a system of equations
 ///
 /// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder as it was.
 #[derive(clap::Args)]

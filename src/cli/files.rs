@@ -119,7 +119,7 @@ pub fn assemble_files(
     Ok(files)
 }
 
-/// What the page of a chain or of chains says about measured accuracy, behind what follows from the proof.
+/// What the page of a chain or of coupled chains says about measured accuracy, behind what follows from the proof.
 fn accuracy(checked: &Report) -> String {
     format!(
         "\n## Accuracy, measured\n\nResiduals by forward kinematics (shares of the reach, radians), and how far the joints that made the \

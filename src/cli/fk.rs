@@ -47,7 +47,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
     let chain = input.chain(&arguments.ends.ends()?)?.ok_or_else(|| {
-        let text = "this is a system of equations or of chains; forward kinematics needs a chain (of chains, give the file of one)";
+        let text = "this is a system of equations, or coupled chains; forward kinematics needs a chain (of coupled chains, give the file of one)";
         Error::new(ErrorKind::BadValue, text).in_file(&input.path)
     })?;
     let edge = Edge { chain: &chain, degrees: arguments.degrees };

@@ -1,4 +1,4 @@
-//! `groebot info`: a chain with its geometry, chains with their actuators, a robot with its links, or a system, in words.
+//! `groebot info`: a chain with its geometry, coupled chains with their actuators, a robot with its links, or a system, in words.
 
 mod robot;
 
@@ -16,10 +16,10 @@ use num_traits::ToPrimitive;
 
 const EXAMPLES: &str = "Examples:
   groebot info derivations/nao_leg_sagittal      a chain: joints, geometry, equations
-  groebot info robot.urdf                        a robot: its links and the ends of its chains
+  groebot info robot.urdf                        a robot: its links and the ends of its limbs
   groebot info robot.urdf --tip tool0            the chain from the root to that link";
 
-/// Prints a chain and how its axes lie, chains and their actuators, a robot's links, or a system of equations
+/// Prints a chain and how its axes lie, coupled chains and their actuators, a robot's links, or a system of equations
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -193,7 +193,7 @@ fn table(rows: &[Vec<String>]) -> String {
     rows.iter().map(line).collect()
 }
 
-/// The actuators of chains with the joints that they move, then each chain's chain.
+/// The actuators of coupled chains with the joints that they move, then each chain.
 fn coupled_page(coupled: &CoupledChains, paint: Paint) -> String {
     let parts = coupled.parts();
     let (count, actuators) = (parts.chains.len(), coupled.actuators().len());

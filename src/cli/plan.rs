@@ -63,7 +63,7 @@ impl Mechanism {
         }
         let input = InputFile::read(&self.input)?;
         input.chain(&self.ends.ends()?)?.ok_or_else(|| {
-            let text = "this is a system of equations or of chains; screw theory needs a chain (of chains, give the file of one)";
+            let text = "this is a system of equations, or coupled chains; screw theory needs a chain (of coupled chains, give the file of one)";
             Error::new(ErrorKind::BadValue, text).in_file(&input.path)
         })
     }

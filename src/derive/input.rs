@@ -1,4 +1,4 @@
-//! Reading what a derivation starts from: a chain, chains, a robot or a system of equations, from a file or a mechanism's folder.
+//! Reading what a derivation starts from: a chain, coupled chains, a robot or a system of equations, from a file or a mechanism's folder.
 
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ pub struct InputFile {
 
 impl InputFile {
     /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
-    /// a `[[link]]`; one with `[[chain]]` are chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    /// a `[[link]]`; one with `[[chain]]` holds coupled chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
@@ -73,11 +73,11 @@ impl InputFile {
     }
 
     /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
-    /// or chains.
+    /// or coupled chains.
     ///
     /// # Errors
     /// As [`Robot::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
-    /// of a system or of chains. All name the file.
+    /// of a system or of coupled chains. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
         let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
@@ -137,7 +137,7 @@ pub struct Source {
     pub chain: Option<Chain>,
     /// The ideal chain that it means, and what was taken for what.
     pub ideal: Option<(Chain, Report)>,
-    /// The equations; none for chains, and for a chain whose task is only solved joint by joint.
+    /// The equations; none for coupled chains, and for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
     /// The chains, when it describes chains that share actuators.
     pub coupled: Option<CoupledChains>,
@@ -229,7 +229,7 @@ impl Source {
         Ok(())
     }
 
-    /// The names of the files beside the input that it refers to: those of chains' chains.
+    /// The names of the files beside the input that it refers to: those of coupled chains.
     pub fn beside(&self) -> impl Iterator<Item = &str> {
         self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
     }

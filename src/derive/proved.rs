@@ -147,8 +147,10 @@ fn ideal(source: &Source, chain: &Chain) -> Result<(Chain, Report)> {
 }
 
 fn equations(source: &Source) -> Result<&super::System> {
-    let none =
-        || Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no chains").in_file(&source.path);
+    let none = || {
+        Error::new(ErrorKind::BadValue, "the source has no equations, no chain and no coupled chains")
+            .in_file(&source.path)
+    };
     source.system.as_ref().ok_or_else(none)
 }
 

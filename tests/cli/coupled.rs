@@ -56,7 +56,7 @@ fn has(page: &str, words: &[&str]) {
 }
 
 #[test]
-fn derive_writes_every_stage_and_tells_of_each_member() {
+fn derive_writes_every_stage_and_tells_of_each_chain() {
     let (folder, report) = arms();
     has(
         report,

@@ -29,7 +29,7 @@ fn a_robot_shows_its_links_and_the_ends_of_its_limbs() {
     has(
         &page,
         &[
-            "ends of chains\n  Head, LFoot, RFoot, LWrist, RWrist\n",
+            "ends of limbs\n  Head, LFoot, RFoot, LWrist, RWrist\n",
             "leaves\n  Head, l_sole, r_sole, l_hand, r_hand\n",
             "--tip Head",
         ],

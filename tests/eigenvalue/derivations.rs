@@ -24,7 +24,7 @@ fn folder(name: &str) -> PathBuf {
 
 /// A chain that has no order of joints takes this way by itself.
 #[test]
-fn these_chains_are_eigenvalue_problems_of_so_many_solutions() {
+fn these_chains_have_so_many_solutions_by_eigenvalues() {
     for (name, dimension) in FOLDERS {
         let source = Source::read(&folder(name)).unwrap();
         let text = std::fs::read_to_string(folder(name).join("certificate.json")).unwrap();

@@ -14,7 +14,7 @@ fn nao() -> Robot {
     Robot::from_urdf(NAO).unwrap()
 }
 
-fn member(tip: &str) -> Chain {
+fn limb(tip: &str) -> Chain {
     nao().chain(Some("torso"), Some(tip)).unwrap()
 }
 
@@ -55,11 +55,11 @@ fn compare(chain: &Chain, prefix: &str, side: f64, figures: &[(&str, [f64; 3], [
 
 #[test]
 fn naos_five_chains() {
-    compare(&member("l_sole"), "L", 1.0, &LEG, [0.0, 0.0, -45.19]);
-    compare(&member("r_sole"), "R", -1.0, &LEG, [0.0, 0.0, -45.19]);
-    compare(&member("l_hand"), "L", 1.0, &ARM, [57.75, 0.0, -12.31]);
-    compare(&member("r_hand"), "R", -1.0, &ARM, [57.75, 0.0, -12.31]);
-    compare(&member("Head"), "", 1.0, &HEAD, [0.0; 3]);
+    compare(&limb("l_sole"), "L", 1.0, &LEG, [0.0, 0.0, -45.19]);
+    compare(&limb("r_sole"), "R", -1.0, &LEG, [0.0, 0.0, -45.19]);
+    compare(&limb("l_hand"), "L", 1.0, &ARM, [57.75, 0.0, -12.31]);
+    compare(&limb("r_hand"), "R", -1.0, &ARM, [57.75, 0.0, -12.31]);
+    compare(&limb("Head"), "", 1.0, &HEAD, [0.0; 3]);
     let tree = nao();
     assert_eq!((tree.root(), tree.leaves()), ("base_link", vec!["Head", "l_sole", "r_sole", "l_hand", "r_hand"]));
     assert_eq!(tree.tips(), ["Head", "LFoot", "RFoot", "LWrist", "RWrist"]);
@@ -67,7 +67,7 @@ fn naos_five_chains() {
 
 #[test]
 fn naos_hip_axis_is_exact_and_its_follower_is_told() {
-    let hip = &member("l_sole").joints()[0].axis.clone();
+    let hip = &limb("l_sole").joints()[0].axis.clone();
     assert_eq!(*hip, ["0", "1", "-1"].map(exact));
     let tree = nao();
     let path = tree.path(None, Some("r_sole")).unwrap();
@@ -88,9 +88,9 @@ fn naos_hip_axis_is_exact_and_its_follower_is_told() {
 fn limits_are_the_makers() {
     let degrees =
         |chain: &Chain, index: usize| chain.joints()[index].limits.map(|(a, b)| (a.to_degrees(), b.to_degrees()));
-    let (low, high) = degrees(&member("r_sole"), 3).unwrap();
+    let (low, high) = degrees(&limb("r_sole"), 3).unwrap();
     assert!((low + 5.90).abs() < 1e-7 && (high - 121.47).abs() < 1e-7);
-    let (low, high) = degrees(&member("l_hand"), 3).unwrap();
+    let (low, high) = degrees(&limb("l_hand"), 3).unwrap();
     assert!((low + 88.5).abs() < 1e-7 && (high + 2.0).abs() < 1e-7);
 }
 
@@ -226,7 +226,7 @@ proptest! {
     #[test]
     fn the_way_up_undoes_the_way_down(q in prop::collection::vec(-2.0f64..2.0, 10)) {
         let across = nao().chain(Some("l_hand"), Some("r_hand")).unwrap();
-        let (left, right) = (member("l_hand"), member("r_hand"));
+        let (left, right) = (limb("l_hand"), limb("r_hand"));
         let reversed: Vec<f64> = q[..5].iter().rev().copied().collect();
         let wanted = left.forward(&reversed).unwrap().inverse() * right.forward(&q[5..]).unwrap();
         let given = across.forward(&q).unwrap();

@@ -24,8 +24,8 @@ fn every_robot_is_a_chain_of_its_name_in_metres() {
 fn every_file_of_data_is_a_robot() {
     let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/src/robots/data")).unwrap();
     let mut names: Vec<_> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    let is_member = |name: &str| ["nao_", "rh0_", "teo_"].iter().any(|start| name.starts_with(start));
-    let arms = robots::ALL.iter().map(|known| known.name()).filter(|name| !is_member(name));
+    let is_limb = |name: &str| ["nao_", "rh0_", "teo_"].iter().any(|start| name.starts_with(start));
+    let arms = robots::ALL.iter().map(|known| known.name()).filter(|name| !is_limb(name));
     let humanoids = [robots::nao_v5(), robots::rh0(), robots::teo()].map(|robot| robot.name().to_owned());
     let mut expected: Vec<_> = arms.map(str::to_owned).chain(humanoids).map(|name| format!("{name}.toml")).collect();
     names.sort();

@@ -1,4 +1,4 @@
-//! ik-geo: a robot is its axes and the shifts from axis to axis at zero; the caller names the self-motion.
+//! ik-geo: a robot is its axes and the shifts from axis to axis at zero; the caller names the family.
 
 use groebot::kinematics::Chain;
 use groebot::spatial::{Axis, Pose, Screw};
@@ -7,9 +7,9 @@ use ik_geo::robot::{self, IKSolver, Robot};
 
 use crate::Joints;
 
-/// One of ik-geo's self-motions with a closed form.
+/// One of ik-geo's families with a closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SelfMotion {
+pub enum Family {
     /// Axes 4, 5, 6 meet; 2 and 3 are parallel.
     SphericalTwoParallel,
     /// Axes 4, 5, 6 meet; so do 1 and 2.
@@ -20,15 +20,15 @@ pub enum SelfMotion {
     ThreeParallelTwoIntersecting,
 }
 
-impl SelfMotion {
-    /// The self-motion that solves the robot of this name; `true` when its chain has to be turned round: its first axes meet.
-    pub fn of(name: &str) -> Option<(SelfMotion, bool)> {
+impl Family {
+    /// The family that solves the robot of this name; `true` when its chain has to be turned round: its first axes meet.
+    pub fn of(name: &str) -> Option<(Family, bool)> {
         match name {
-            "irb120" => Some((SelfMotion::SphericalTwoParallel, false)),
-            "puma" | "rh0_right_leg" | "rh0_left_leg" => Some((SelfMotion::SphericalTwoIntersecting, false)),
-            "nao_left_leg" | "nao_right_leg" | "teo_leg" => Some((SelfMotion::SphericalTwoIntersecting, true)),
-            "spherical_wrist" => Some((SelfMotion::Spherical, false)),
-            "ur5" => Some((SelfMotion::ThreeParallelTwoIntersecting, false)),
+            "irb120" => Some((Family::SphericalTwoParallel, false)),
+            "puma" | "rh0_right_leg" | "rh0_left_leg" => Some((Family::SphericalTwoIntersecting, false)),
+            "nao_left_leg" | "nao_right_leg" | "teo_leg" => Some((Family::SphericalTwoIntersecting, true)),
+            "spherical_wrist" => Some((Family::Spherical, false)),
+            "ur5" => Some((Family::ThreeParallelTwoIntersecting, false)),
             _ => None,
         }
     }
@@ -47,14 +47,14 @@ pub type Target = (Matrix3<f64>, Vector3<f64>);
 impl IkGeo {
     /// The robot of `chain`, if ik-geo has a closed form for it.
     pub fn new(chain: &Chain) -> Option<Self> {
-        let (self_motion, reversed) = SelfMotion::of(chain.name())?;
+        let (family, reversed) = Family::of(chain.name())?;
         let mut axes = chain.screws().iter().map(axis_of).collect::<Option<Vec<Axis>>>()?;
         let mut base_from_tip = chain.base_from_tip();
         if reversed {
             base_from_tip = base_from_tip.inverse();
             axes = axes.iter().rev().map(|axis| turned_round(axis, &base_from_tip)).collect();
         }
-        let robot = robot_of(self_motion, &axes, &base_from_tip);
+        let robot = robot_of(family, &axes, &base_from_tip);
         Some(IkGeo { robot, base_from_tip, reversed })
     }
 
@@ -102,32 +102,32 @@ fn turned_round(axis: &Axis, tip_from_base: &Pose) -> Axis {
     Axis::new(direction, tip_from_base * axis.point()).expect("a chain's axis")
 }
 
-fn robot_of(self_motion: SelfMotion, axes: &[Axis], base_from_tip: &Pose) -> Robot {
-    let points = points_of(self_motion, axes, base_from_tip);
+fn robot_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Robot {
+    let points = points_of(family, axes, base_from_tip);
     let h = Matrix3x6::from_fn(|i, j| axes[j].direction()[i]);
     let p = SMatrix::<f64, 3, 7>::from_fn(|i, j| points[j + 1][i] - points[j][i]);
-    match self_motion {
-        SelfMotion::SphericalTwoParallel => robot::spherical_two_parallel(h, p),
-        SelfMotion::SphericalTwoIntersecting => robot::spherical_two_intersecting(h, p),
-        SelfMotion::Spherical => robot::spherical(h, p),
-        SelfMotion::ThreeParallelTwoIntersecting => robot::three_parallel_two_intersecting(h, p),
+    match family {
+        Family::SphericalTwoParallel => robot::spherical_two_parallel(h, p),
+        Family::SphericalTwoIntersecting => robot::spherical_two_intersecting(h, p),
+        Family::Spherical => robot::spherical(h, p),
+        Family::ThreeParallelTwoIntersecting => robot::three_parallel_two_intersecting(h, p),
     }
 }
 
 /// The base, a point of each axis, the tip. Axes that meet are given by the point where they do.
-fn points_of(self_motion: SelfMotion, axes: &[Axis], base_from_tip: &Pose) -> Vec<[f64; 3]> {
+fn points_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Vec<[f64; 3]> {
     let mut points: Vec<[f64; 3]> = axes.iter().map(|axis| axis.point().into()).collect();
     let meeting = |a: usize, b: usize| -> [f64; 3] {
         axes[a].nearest_points(&axes[b]).map_or(points[b], |(point, _)| point.into())
     };
     let (first, wrist, last) = (meeting(0, 1), meeting(3, 4), meeting(4, 5));
-    match self_motion {
-        SelfMotion::SphericalTwoParallel | SelfMotion::Spherical => points[3..].fill(wrist),
-        SelfMotion::SphericalTwoIntersecting => {
+    match family {
+        Family::SphericalTwoParallel | Family::Spherical => points[3..].fill(wrist),
+        Family::SphericalTwoIntersecting => {
             points[..2].fill(first);
             points[3..].fill(wrist);
         }
-        SelfMotion::ThreeParallelTwoIntersecting => points[4..].fill(last),
+        Family::ThreeParallelTwoIntersecting => points[4..].fill(last),
     }
     let tip = base_from_tip.translation.vector;
     [[0.0; 3]].into_iter().chain(points).chain([[tip.x, tip.y, tip.z]]).collect()

@@ -70,7 +70,7 @@ impl<'r> Body<'r> {
         for (branch, motion) in &lines {
             page += &format!("{}\n", format!("{branch:<width$}  {}", paint.dim(motion)).trim_end());
         }
-        page += &format!("\n{}\n{}", paint.bold("ends of chains"), wrapped(&robot.tips()));
+        page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&robot.tips()));
         page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&robot.leaves()));
         page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
         if let Some(tip) = robot.tips().first() {

@@ -70,10 +70,8 @@ impl SoleArguments {
             _ => {
                 let ends: Vec<String> =
                     robot.leaves().into_iter().take(20).map(|link| format!("`{}`", shown(link))).collect();
-                let text = format!(
-                    "which links are the soles? give --left and --right; the chains end in {}",
-                    ends.join(", ")
-                );
+                let text =
+                    format!("which links are the soles? give --left and --right; the limbs end in {}", ends.join(", "));
                 Err(Error::new(ErrorKind::MissingKey, text))
             }
         }

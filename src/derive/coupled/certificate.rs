@@ -1,4 +1,4 @@
-//! The stored proof of a solver of chains: the certificates of the chains' chains, in the order in which they are solved.
+//! The stored proof of a solver of coupled chains: the certificates of the chains, in the order in which they are solved.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

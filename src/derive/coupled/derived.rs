@@ -33,7 +33,7 @@ pub(super) enum Origin {
     Joint(usize),
 }
 
-/// Gives the derivation of a chain's chain.
+/// Gives the derivation of one of the chains.
 pub(super) type Derive<'a> = dyn FnMut(usize, &Chain) -> Result<Derived> + 'a;
 
 /// The derivation of a solver of several chains.
@@ -50,7 +50,7 @@ pub struct DerivedCoupled {
 }
 
 impl DerivedCoupled {
-    /// Orders the chains, derives each as a chain with the joints given that are found before it, and composes their solvers. Of the
+    /// Orders the chains, derives each by itself with the joints given that are found before it, and composes their solvers. Of the
     /// chains that can be solved next, the first is taken. Where none can, the joints that two chains share are found first.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl DerivedCoupled {
         })
     }
 
-    /// Composes the solvers that `derive` gives of the chains of chains, which it gets in their order with the chains' indices.
+    /// Composes the solvers that `derive` gives of the chains, which it gets in their order with their indices.
     pub(super) fn assemble(
         coupled: &CoupledChains,
         simultaneous: Option<Simultaneous>,
@@ -295,7 +295,7 @@ impl Found<'_> {
     }
 }
 
-/// The derivation of a chain's chain, of whose given joints the first `least` are the user's. Where joints are given that the task
+/// The derivation of one of the chains, of whose given joints the first `least` are the user's. Where joints are given that the task
 /// determines, the plan is the one that finds them, without their steps. The relations of these serve beside those of a joint that
 /// both determine: where one says nothing the other does.
 ///

@@ -4,14 +4,14 @@ use crate::kinematics::{Chain, Joint};
 use crate::solver::MAX_JOINTS;
 use crate::{Error, ErrorKind, Result};
 
-/// One chain.
+/// One of the chains, with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoupledChain {
     /// Its name.
     pub name: String,
     /// What stands before the names of its inputs and joints.
     pub prefix: String,
-    /// Its chain, with its task. Base frame and length unit are those of all chains.
+    /// The chain, with its task. Base frame and length unit are those of all chains.
     pub chain: Chain,
     /// The name of the file that states the chain, in the description's folder; none when the chain stands in place.
     pub file: Option<String>,
@@ -73,7 +73,7 @@ pub(super) struct Fault {
 }
 
 impl CoupledChains {
-    /// Checks `parts` and makes them chains.
+    /// Checks `parts` and makes them coupled chains.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for no chain, a name or prefix that is no word, another length unit, joints of one chain as one actuator, of

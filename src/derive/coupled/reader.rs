@@ -12,7 +12,7 @@ const ROOT_KEYS: [&str; 5] = ["name", "description", "source", "shared", "chain"
 const CHAIN_KEYS: [&str; 5] = ["name", "prefix", "chain", "task", "given"];
 
 impl CoupledChains {
-    /// The chains that the file at `path` describes; chains stand in its folder.
+    /// The coupled chains that the file at `path` describes; files that it names stand in its folder.
     ///
     /// # Errors
     /// As [`read_text`] and [`CoupledChains::from_toml`], with the file.

@@ -100,7 +100,7 @@ pub fn singular(form: Form) -> &'static str {
         Form::Linear => "where $A = 0$ the length has dropped out.",
         Form::Quartic => {
             "where two roots of the quartic meet, two branches do. Where all five symbols vanish the angle is free, and a self-motion \
-             of solutions is returned."
+             is returned."
         }
         Form::Lengths => "where two roots meet, two branches do.",
         Form::Quadratic => "where $B^2 = A*C$ the two branches meet.",

@@ -20,7 +20,7 @@ mod types;
 
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
-pub(super) use refuse::not_lifted;
+pub(super) use refuse::not_derived;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 

@@ -72,8 +72,8 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
     solved_by_none(mechanism, evidence, &found)
 }
 
-/// The error of a mechanism whose plan ends with `error` when it is lifted to polynomials in the target.
-pub fn not_lifted(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
+/// The error of a mechanism whose plan ends with `error` when its equations are derived.
+pub fn not_derived(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
     solved_by_none(mechanism, evidence, error.message())
 }
 

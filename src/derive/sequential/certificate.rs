@@ -87,7 +87,7 @@ pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
     Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, form_bases, half_angles }, Slack::NONE)
 }
 
-/// What is claimed about form_bases.
+/// What is claimed about the bases of forms.
 ///
 /// # Errors
 /// When a form's field cannot be built: never for a derivation that was made by this crate.
@@ -111,7 +111,7 @@ pub(super) fn prove_forms(
     }
     let form_bases = form_bases.iter().map(prove_form).collect::<Result<Vec<_>>>()?;
     if form_bases.iter().map(|form_basis| form_basis.form).ne(FormBasis::needed(steps)) {
-        return Err(refused("the form_bases are not those of the steps' forms, in their order".to_owned()));
+        return Err(refused("the bases are not those of the steps' forms, in their order".to_owned()));
     }
     Ok((form_bases, half_angles))
 }

@@ -90,7 +90,7 @@ pub struct Derived {
 }
 
 impl Derived {
-    /// Plans, lifts and proves the solver of `chain` for its task.
+    /// Plans, derives and proves the solver of `chain` for its task.
     ///
     /// # Errors
     /// As [`planner::plan`]; [`crate::ErrorKind::Unsupported`] for a step that no form fits.
@@ -99,7 +99,7 @@ impl Derived {
         let plan = planner::plan(&mechanism, watch)?;
         let evidence = plan.evidence[0].clone();
         let told = |error: Error| match error.kind() {
-            ErrorKind::Unsupported => planner::not_lifted(&mechanism, &evidence, &error),
+            ErrorKind::Unsupported => planner::not_derived(&mechanism, &evidence, &error),
             _ => error,
         };
         Derived::of_plan(chain, &mechanism, plan, watch).map_err(told)
@@ -126,7 +126,7 @@ impl Derived {
         self.truth.as_ref().map_or(&self.chain, |(truth, _)| truth)
     }
 
-    /// Lifts and proves `plan`, one of `mechanism`, which is that of `chain`.
+    /// Derives and proves `plan`, one of `mechanism`, which is that of `chain`.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that

@@ -21,7 +21,7 @@ use crate::{Error, ErrorKind, Result};
 /// Two linear equations are nearly dependent when their determinant is below this share of its size.
 const DEPENDENT: f64 = 1e-6;
 
-/// The program of a chain whose plan has been lifted. Its formulas are off by `slack` on the chain that answers are measured on.
+/// The program of a chain whose plan has been derived. Its formulas are off by `slack` on the chain that answers are measured on.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for what a program cannot hold.

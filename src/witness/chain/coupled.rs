@@ -46,7 +46,7 @@ pub fn check(derived: &DerivedCoupled, options: &Options, watch: &Watch) -> Resu
     Ok(Report { inputs: inputs.collect(), joints: joints.collect(), rows })
 }
 
-/// The chain's chain with joints given so that its task determines the others: those that chains before it find, but where both chains find
+/// The chain of a stage with joints given so that its task determines the others: those that chains before it find, but where both chains find
 /// them together as few as that takes.
 fn leading(derived: &DerivedCoupled, stage: &ChainStage) -> Result<Chain> {
     let chain = &stage.derived.chain;
@@ -70,7 +70,7 @@ struct Member<'a> {
     own: Model<'a>,
 }
 
-/// CoupledModel that share actuators; the joints are those of their solver.
+/// Chains that share actuators; the joints are those of their solver.
 struct CoupledModel<'a> {
     derived: &'a DerivedCoupled,
     members: Vec<Member<'a>>,

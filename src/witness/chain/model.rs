@@ -15,7 +15,7 @@ use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 pub(super) const RESIDUAL: f64 = 1e-11;
 /// An ordinary joint vector that misses by no more is a solution beyond doubt.
 pub(super) const EXACT: f64 = 1e-13;
-/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a self-motion of them.
+/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a self-motion.
 pub(super) const SHARP: f64 = 1e-14;
 /// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
 pub(super) const ORDINARY: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! Tests of `groebot::derive::chains`.
+//! Tests of `groebot::derive::coupled`.
 
 mod humanoid;
 mod order;

@@ -57,7 +57,7 @@ fn each_way_of_the_first_chain_is_continued_by_the_second() {
 
 /// Three chains on one actuator: the angle of the first is that of all.
 #[test]
-fn a_actuator_of_three_coupled_chains_stands_once() {
+fn an_actuator_of_three_chains_stands_once() {
     let members = [member("a", 2, POSITION), member("b", 2, POSITION), member("c", 3, POSITION)];
     let arms = derive("[[\"a.j0\", \"c.j0\", \"b.j0\"]]", &members).unwrap();
     assert_eq!(arms.program.joints.len(), 5);

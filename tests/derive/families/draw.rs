@@ -126,7 +126,7 @@ impl Draw {
 }
 
 /// Whether every unknown joint moves what the task sees in a way of its own, at joint values like any others. Slides in one plane to a
-/// point in space do not, nor do four turns about parallel axes to a pose: such chains have families of answers everywhere.
+/// point in space do not, nor do four turns about parallel axes to a pose: such chains have self-motions everywhere.
 pub fn moves_freely(chain: &Chain) -> bool {
     let given = chain.given();
     let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();

@@ -1,4 +1,4 @@
-//! Four circles: degenerate ones, bad numbers, the number of answers by the oracle. The self-motions are in `subproblems_record`.
+//! Four circles: degenerate ones, bad numbers, the number of answers by the oracle. The families are in `subproblems_record`.
 
 use groebot::kinematics::oracle::Oracle;
 use groebot::kinematics::screw::circles::{four_circles, three_circles};

@@ -1,10 +1,10 @@
-//! Every self-motion of subproblems on instances with a known answer: by a few hundred always, by 1e5 for `benches/record`.
+//! Every family of subproblems on instances with a known answer: by a few hundred always, by 1e5 for `benches/record`.
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::instance::{Random, Verdict};
-use super::subproblem_families::{FOUR_CIRCLES, ONE_JOINT, SelfMotion, THREE_JOINTS, TWO_JOINTS};
+use super::subproblem_families::{FOUR_CIRCLES, Family, ONE_JOINT, THREE_JOINTS, TWO_JOINTS};
 
 /// What is wrong with a verdict.
 fn complaint(verdict: &Verdict) -> Option<&'static str> {
@@ -19,8 +19,8 @@ fn complaint(verdict: &Verdict) -> Option<&'static str> {
     .find_map(|(wrong, name)| wrong.then_some(name))
 }
 
-fn check(self_motions: &[SelfMotion], cases: u32) {
-    for (name, instance) in self_motions {
+fn check(families: &[Family], cases: u32) {
+    for (name, instance) in families {
         // The same instances each time: of 1e5 singular ones a few are lost (benches/record), which must not fail one run in fifty.
         let config = Config { failure_persistence: None, rng_seed: RngSeed::Fixed(5), ..Config::with_cases(cases) };
         let outcome = TestRunner::new(config).run(&any::<u64>(), |seed| {
@@ -65,7 +65,7 @@ fn record(name: &str, verdicts: &[Verdict]) -> Option<String> {
     let lost = verdicts.iter().filter(|verdict| verdict.is_lost()).count();
     let answers = verdicts.iter().map(|verdict| verdict.residuals.len()).max().unwrap_or(0);
     println!("2026-11-21,{name},{},{lost},{half:.1e},{most:.1e},{all:.1e},{answers}", verdicts.len());
-    let known = KNOWN_LOSSES.iter().find(|(self_motion, _)| *self_motion == name).map_or(0, |(_, count)| *count);
+    let known = KNOWN_LOSSES.iter().find(|(family, _)| *family == name).map_or(0, |(_, count)| *count);
     let untidy = verdicts.iter().any(|verdict| verdict.apart <= 1e-9 || !verdict.in_range);
     (lost > known || most > 1e-12 || untidy)
         .then(|| format!("{name}: {lost} lost, residual {most:e}, untidy: {untidy}"))
@@ -74,7 +74,7 @@ fn record(name: &str, verdicts: &[Verdict]) -> Option<String> {
 #[test]
 #[ignore = "a minute: cargo test --release --test main -- --ignored subproblems_record --nocapture"]
 fn subproblems_record() {
-    println!("date,self-motion,instances,lost,residual_p50,residual_p999,residual_max,answers_max");
+    println!("date,family,instances,lost,residual_p50,residual_p999,residual_max,answers_max");
     let mut failed = Vec::new();
     for (name, instance) in [ONE_JOINT, TWO_JOINTS, THREE_JOINTS, FOUR_CIRCLES].concat() {
         let verdicts: Vec<Verdict> = (0..100_000).map(|seed| instance(&mut Random(seed))).collect();

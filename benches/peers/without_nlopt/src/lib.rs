@@ -1,5 +1,5 @@
 //! Stands for the crate `nlopt` in this package, so that neither a C++ compiler nor the LGPL comes with it. It has the names that
-//! ik-geo calls, and every optimisation fails: the self-motions of robots that ik-geo solves by search have no answers here.
+//! ik-geo calls, and every optimisation fails: the families of robots that ik-geo solves by search have no answers here.
 
 /// The failure of every optimisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

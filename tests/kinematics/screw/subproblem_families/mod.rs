@@ -1,4 +1,4 @@
-//! The self-motions of subproblems: random instances with a known answer, and what the answers to them are worth.
+//! The families of subproblems: random instances with a known answer, and what the answers to them are worth.
 
 mod one_joint;
 mod three_joints;
@@ -17,12 +17,12 @@ use super::instance::{Question, Random, Verdict};
 use super::turned;
 
 /// A name and what makes an instance. T is a joint that turns, S one that slides.
-pub type SelfMotion = (&'static str, fn(&mut Random) -> Verdict);
+pub type Family = (&'static str, fn(&mut Random) -> Verdict);
 
 const EXACT: Reach = Reach::EXACT;
 
 /// Two equations in two angles.
-pub const FOUR_CIRCLES: &[SelfMotion] = &[("SP6", sp6), ("SP6 singular", sp6_singular)];
+pub const FOUR_CIRCLES: &[Family] = &[("SP6", sp6), ("SP6 singular", sp6_singular)];
 
 fn parts(v: Vector3<f64>) -> Vec<f64> {
     v.iter().copied().collect()

@@ -6,10 +6,10 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::instance::{Question, Random, Verdict, list};
 use super::super::{size, turned};
-use super::{EXACT, SelfMotion, parts, towards};
+use super::{EXACT, Family, parts, towards};
 
 /// One joint.
-pub const ONE_JOINT: &[SelfMotion] = &[
+pub const ONE_JOINT: &[Family] = &[
     ("PK1", pk1),
     ("PK3", pk3),
     ("PK3 at an end", pk3_at_an_end),

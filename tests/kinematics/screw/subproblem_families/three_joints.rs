@@ -6,10 +6,10 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use super::super::instance::{self, Question, Random, Verdict, carried, judge};
 use super::super::turned;
-use super::{EXACT, SelfMotion, axis_moving_across, moved_back, parallel, parts, values, velocity};
+use super::{EXACT, Family, axis_moving_across, moved_back, parallel, parts, values, velocity};
 
 /// Three joints.
-pub const THREE_JOINTS: &[SelfMotion] = &[
+pub const THREE_JOINTS: &[Family] = &[
     ("TTT", |r| three(r, [true, true, true])),
     ("TTS", |r| three(r, [true, true, false])),
     ("TST", |r| three(r, [true, false, true])),

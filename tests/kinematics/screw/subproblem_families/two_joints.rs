@@ -6,10 +6,10 @@ use nalgebra::{Point3, Unit, Vector3};
 
 use super::super::instance::{Question, Random, Verdict, carried, judge};
 use super::super::turned;
-use super::{EXACT, SelfMotion, moved_back, parallel, parts, towards, values, velocity};
+use super::{EXACT, Family, moved_back, parallel, parts, towards, values, velocity};
 
 /// Two joints.
-pub const TWO_JOINTS: &[SelfMotion] = &[
+pub const TWO_JOINTS: &[Family] = &[
     ("TT (PG6)", |r| two(r, [true, true])),
     ("TS", |r| two(r, [true, false])),
     ("ST", |r| two(r, [false, true])),
