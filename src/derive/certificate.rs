@@ -124,6 +124,15 @@ pub fn prove(system: &System, text: &str) -> Result<Derivation> {
     Derivation::assemble(system.clone(), requested, searched)
 }
 
+/// What the certificate in `text` proves; none for text that is no certificate, or an old one.
+pub(super) fn proves(text: &str) -> Option<Proves> {
+    #[derive(Deserialize)]
+    struct Head {
+        proves: Proves,
+    }
+    serde_json::from_str(text).ok().map(|Head { proves }| proves)
+}
+
 /// A record as the text of a certificate of any kind.
 pub(super) fn written(record: &impl Serialize) -> String {
     serde_json::to_string_pretty(record).expect("a record holds nothing that JSON cannot say") + "\n"

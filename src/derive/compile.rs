@@ -34,7 +34,6 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let (checks, scale) = compiler.checks()?;
     let program = Program {
         name: system.name.clone(),
-        format: Program::FORMAT,
         about: None,
         inputs: system.inputs.iter().map(|i| Input { name: i.name.clone(), unit: unit(system, i.quantity) }).collect(),
         conditions: Vec::new(),

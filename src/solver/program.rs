@@ -168,8 +168,6 @@ pub struct Preference {
 /// The derived solver of one mechanism and task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Program {
-    /// [`Program::FORMAT`]: the form of its JSON.
-    pub format: u32,
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,
     /// What is known of its source.
@@ -210,12 +208,9 @@ fn is_false(value: &bool) -> bool {
 }
 
 const FORMAT: JsonFormat =
-    JsonFormat { what: "program", number: Program::FORMAT, renew: "`groebot derive` on its folder writes it anew" };
+    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
 
 impl Program {
-    /// The form of the JSON that is written and read.
-    pub const FORMAT: u32 = 2;
-
     /// Reads a program from JSON and validates it.
     ///
     /// # Errors
@@ -229,8 +224,14 @@ impl Program {
 
     /// The program as pretty JSON, ending in a line feed.
     pub fn to_json(&self) -> String {
-        let text = serde_json::to_string_pretty(self).expect("a program holds nothing that JSON cannot say");
-        text + "\n"
+        #[derive(Serialize)]
+        struct Written<'a> {
+            format: u32,
+            #[serde(flatten)]
+            program: &'a Program,
+        }
+        let written = Written { format: FORMAT.number, program: self };
+        serde_json::to_string_pretty(&written).expect("a program holds nothing that JSON cannot say") + "\n"
     }
 
     /// Number of root choices of `case`: the product of its root degrees.

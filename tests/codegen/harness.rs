@@ -136,19 +136,16 @@ pub fn write_pair(folder: &Path, pair: &Pair) {
 
 /// Writes a solver in C, and `main.c`, which answers the targets that it reads.
 pub fn write_c(program: &Program, folder: &Path) {
-    write_pair(folder, &Pair::new(program, "5_solver.h"));
-    let has_extra = has_extra(&codegen::rust::emit(program));
+    let pair = Pair::new(program, "5_solver.h");
+    write_pair(folder, &pair);
+    let has_extra = pair.header.contains("_EXTRAS");
     fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
-}
-
-fn has_extra(rust: &str) -> bool {
-    rust.contains("pub const EXTRAS")
 }
 
 /// The compiled solvers with their languages' names; `None` when a compiler is missing.
 pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
     let rust = codegen::rust::emit(program);
-    let has_extra = has_extra(&rust);
+    let has_extra = rust.contains("pub const EXTRAS");
     fs::write(folder.join("5_solver.rs"), rust).unwrap();
     write_c(program, folder);
     let again = if has_extra { "answer.residual" } else { "solver::residual(&target, &answer.q)" };

@@ -39,7 +39,6 @@ fn named(names: &[String]) -> Program {
     let joint = Joint { name: "t".into(), unit: Unit::One, value: JointValue::Plain(count) };
     Program {
         name: "names".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: vec![input("a", Unit::One)],
         parameters: names.iter().map(|name| rule(name, Rule::Input(0))).collect(),

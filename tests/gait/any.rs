@@ -56,7 +56,7 @@ fn a_walk_keeps_its_promises_or_is_refused() {
             }
         }
     }
-    assert!(walked[0] >= 1 && walked[1] >= 1, "{walked:?} of 48");
+    assert!(walked[0] >= 2 && walked[1] >= 5, "{walked:?} of 48");
 }
 
 type OneStepCase = ((usize, bool, f64, f64), (f64, f64, f64, f64), (f64, f64, f64, bool));
@@ -111,5 +111,5 @@ fn one_step_goal_keeps_its_promises_or_is_refused() {
             }
         }
     }
-    assert!(walked >= 1, "{walked} of 14");
+    assert!(walked >= 2, "{walked} of 14");
 }

@@ -43,7 +43,6 @@ fn slide() -> Program {
     };
     Program {
         name: "slide".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: vec![input("pan", Unit::Radian), input("x", Unit::Metre)],
         conditions: vec![],

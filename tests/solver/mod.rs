@@ -126,7 +126,6 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     };
     let program = Program {
         name: "choice".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: vec![input("a", Unit::One), input("b", Unit::One)],
         conditions: vec![],

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::given::Six;
 use super::program::program;
 use super::{Determinant, Regular, ranked};
-use crate::derive::certificate::{FORMAT, Proves, check_head, refused, written};
+use crate::derive::certificate::{FORMAT, Proves, check_head, proves, refused, written};
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Evidence};
 use crate::derive::sequential::checks_on;
@@ -86,7 +86,7 @@ impl DerivedSixAxes {
 
     /// Whether `text` is the certificate of six axes.
     pub fn is_certificate(text: &str) -> bool {
-        serde_json::from_str::<Record>(text).is_ok_and(|record| record.proves == Proves::EigenvalueProblem)
+        proves(text) == Some(Proves::EigenvalueProblem)
     }
 
     /// The text of `certificate.json`.

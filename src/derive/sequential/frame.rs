@@ -20,7 +20,6 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
     let reach = reach(chain);
     Program {
         name: word(chain.name()),
-        format: Program::FORMAT,
         about: None,
         checks: checks(mechanism, &layout, reach),
         joints: joints(chain, &layout),

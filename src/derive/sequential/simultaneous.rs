@@ -288,7 +288,6 @@ impl<'a> Common<'a> {
         let mut program = Program {
             name: "shared".to_owned(),
             about: None,
-            format: Program::FORMAT,
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
             inputs: layout.inputs,
             conditions: layout.conditions,

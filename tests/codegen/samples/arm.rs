@@ -28,7 +28,6 @@ pub fn program() -> Program {
     let distance = Rule::Root { code: code.take(), value };
     Program {
         name: "turning_arm".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: ["x", "y", "z"].map(|name| input(name, Unit::Metre)).to_vec(),
         parameters: vec![

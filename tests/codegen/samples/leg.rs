@@ -19,7 +19,6 @@ pub fn foot(hip: f64, knee: f64) -> [f64; 2] {
 pub fn program() -> Program {
     Program {
         name: "leg".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: vec![input("px", Unit::Metre), input("pz", Unit::Metre)],
         parameters: vec![rule("px", Rule::Input(0)), rule("pz", Rule::Input(1))],

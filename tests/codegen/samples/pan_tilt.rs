@@ -20,7 +20,6 @@ pub fn program() -> Program {
     let names = ["dx", "dy", "dz"];
     Program {
         name: "pan_tilt".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         conditions: vec![Condition::Unit(0)],

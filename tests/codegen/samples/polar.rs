@@ -16,7 +16,6 @@ pub fn program() -> Program {
     let distance = Rule::Root { code: code.take(), value };
     Program {
         name: "polar".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: vec![input("u", Unit::Metre), input("alpha", Unit::Radian), input("w", Unit::Metre)],
         parameters: vec![

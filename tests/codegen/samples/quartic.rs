@@ -1,7 +1,7 @@
 //! The real roots of a polynomial of degree 4, 3 or 2, whichever leads; its names are awkward on purpose.
 
 use crate::codegen::builder::*;
-use groebot::solver::{Case, Checks, Joint, JointValue, Program, Rule, Unit};
+use groebot::solver::{About, Case, Checks, Joint, JointValue, Program, Rule, Unit};
 
 /// Coefficients of the monic polynomial with these roots, constant term first.
 pub fn with_roots(roots: [f64; 4]) -> [f64; 5] {
@@ -19,8 +19,7 @@ pub fn program() -> Program {
     let joint = Joint { name: "\"t\" */ ??/ \\ \u{e4}".into(), unit: Unit::One, value: JointValue::Plain(0) };
     Program {
         name: "quartic".into(),
-        format: Program::FORMAT,
-        about: None,
+        about: Some(About { task: "roots */".into(), base: Some("*/ ??/".into()), ..About::default() }),
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         parameters: (0..5).map(|i| rule(names[i], Rule::Input(i))).collect(),
         unknowns: vec!["angle".into()],

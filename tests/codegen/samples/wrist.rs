@@ -69,7 +69,6 @@ pub fn program(gap: bool) -> Program {
     let name = |i: usize| format!("r{}{}", i / 3 + 1, i % 3 + 1);
     Program {
         name: "wrist".into(),
-        format: Program::FORMAT,
         about: None,
         inputs: (0..9).map(|i| input(&name(i), Unit::One)).collect(),
         conditions: vec![Condition::Rotation(0)],
