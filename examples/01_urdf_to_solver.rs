@@ -19,6 +19,6 @@ fn main() -> Result<()> {
         let [distance, angle] = target.missed(&chain, &solution.q);
         println!("q = {:.6?} rad, off by {distance:.1e} m, {angle:.1e} rad", solution.q);
     }
-    println!("{} lines of C99", codegen::c99::emit(derived.program()).lines().count());
+    println!("{} lines of Rust", codegen::rust::emit(derived.program()).lines().count());
     Ok(())
 }

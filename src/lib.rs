@@ -25,7 +25,7 @@
 //! }
 //!
 //! // The same solver as source code.
-//! assert!(codegen::c99::emit(derived.program()).contains("shoulder_pan"));
+//! assert!(codegen::rust::emit(derived.program()).contains("shoulder_pan"));
 //! # Ok::<(), groebot::Error>(())
 //! ```
 //!

@@ -90,7 +90,7 @@ fn derive() -> Result<Call> {
     let source = Source::read(&folder("puma"))?;
     Ok(Box::new(move || {
         let proved = Proved::of(black_box(&source), &Watch::none()).expect("PUMA is derived");
-        drop(black_box(codegen::c99::emit(proved.program())));
+        drop(black_box(codegen::rust::emit(proved.program())));
     }))
 }
 

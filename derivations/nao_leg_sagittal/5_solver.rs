@@ -7,19 +7,23 @@
 //! Target, in order:
 //! `px` (mm), `pz` (mm).
 //!
-//! Joints, in order; angles lie in (-pi, pi]:
-//! - `HipPitch` (rad)
-//! - `KneePitch` (rad)
+//! Joints, in order; angles lie in (-pi, pi]: `HipPitch` (rad), `KneePitch` (rad).
 //!
-//! A target has 2 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
-//!
-//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
-//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
-//!
-//! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
-//! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
-#![allow(unexpected_cfgs, non_snake_case, clippy::all)]
+//! With `use nao_leg_sagittal::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
+//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+#![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
+
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
+pub use groebot_runtime::{Error, Solve};
+
+/// Inverse kinematics of `nao_leg_sagittal`: what is particular to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver;
+
+/// One answer.
+pub type Solution = groebot_runtime::Solution<Solver>;
+/// One answer by cosines and sines.
+pub type Pairs = groebot_runtime::Pairs<Solver>;
 
 /// Numbers of a target.
 pub const INPUTS: usize = 2;
@@ -27,1111 +31,104 @@ pub const INPUTS: usize = 2;
 pub const JOINTS: usize = 2;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 2;
+/// No answer yet: what a buffer is filled with.
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-#[allow(dead_code)]
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "pz"];
 /// The names of the joints, in order.
-#[allow(dead_code)]
 pub const JOINT_NAMES: [&str; JOINTS] = ["HipPitch", "KneePitch"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-#[allow(dead_code)]
 pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
 
-/// One answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
-    /// Joint values, in order and unit of the joints.
-    pub q: [f64; JOINTS],
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which cases and which roots gave it.
-    pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
-    pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a self-motion.
-    pub free: [bool; JOINTS],
-}
+const FACTS: Facts<'static> = Facts {
+    inputs: INPUTS,
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3])],
+    last_first: &[0, 1],
+    places: 4,
+    size_of: &[0, 1],
+    sizes: 2,
+    candidates: 2,
+    scale: 305.8,
+    capacity: CAPACITY,
+    isolated: Some(2),
+    preference: Some(Preference { place: 1, greatest: false }),
+    ..Facts::NONE
+};
 
-impl Solution {
-    /// No answer yet: what a buffer is filled with before [`solve`].
-    #[allow(dead_code)]
-    pub const EMPTY: Solution =
-        Solution { q: [0.0; JOINTS], residual: 0.0, branch: 0, chosen: false, free: [false; JOINTS] };
-}
+impl Mechanism for Solver {
+    type Storage = Fixed<2, 3, 2, 4, 2, 2, 0, 2, 2, 12>;
+    const IS_SINGLE: bool = true;
 
-/// Why a target has no answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// A number of the target is infinite or not a number.
-    NotFinite,
-    /// The rotation of the target is off by more than `CONSISTENT`.
-    NotRotation,
-    /// The direction of the target is not of length one within `CONSISTENT`.
-    NotUnit,
-    /// The target lies on this stratum, which could not be derived.
-    OpenStratum(&'static str),
-}
-
-/// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
-///
-/// # Errors
-/// As [`Error`] says; the content of `out` has no meaning then.
-pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::NotFinite);
+    #[inline(always)]
+    fn facts(&self) -> Facts<'_> {
+        FACTS
     }
-    let p = &parameters(target);
-    let mut answers = Answers { out, relative: [0.0; CAPACITY], count: 0 };
-    block_1(p, &mut answers);
-    answers.unite();
-    answers.sort();
-    answers.mark_choice();
-    Ok(answers.count)
-}
 
-/// One answer by cosines and sines.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
-    pub joints: [[f64; 2]; JOINTS],
-    /// As in [`Solution`].
-    pub residual: f64,
-    /// As in [`Solution`].
-    pub branch: usize,
-    /// As in [`Solution`].
-    pub free: [bool; JOINTS],
-}
-
-impl Pairs {
-    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
-    #[allow(dead_code)]
-    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
-}
-
-/// As [`solve`], by cosines and sines of the angles.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
-    let mut list = [Solution::EMPTY; CAPACITY];
-    let count = solve(target, &mut list)?;
-    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
-        *pairs = Pairs { joints, residual, branch, free };
+    fn parameters<N: Number>(&self, target: &[N; 2]) -> [N; 3] where f64: With<N> {
+        let [px, pz] = *target;
+        let magnitude = N::largest(305.8, &[px, pz]);
+        [px, pz, magnitude]
     }
-    Ok(count)
-}
 
-/// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
-/// Not a number when a number of the target is not finite or an equation's value is not a number.
-#[allow(dead_code)]
-pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    if !target.iter().all(|value| value.is_finite()) {
-        return f64::NAN;
+    #[inline(always)]
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 3], c: &mut C) where f64: With<N> {
+        block_1(p, c);
     }
-    let mut largest = 0.0;
-    for value in equations(&parameters(target), &place(q)).value {
-        if value.is_nan() {
-            return value;
-        }
-        largest = f64::max(largest, value.abs());
+
+    #[inline(always)]
+    fn values<N: Number>(&self, p: &[N; 3], at: &[N; 4]) -> [N; 2] where f64: With<N> {
+        values(p, at)
     }
-    largest
-}
 
-/// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-/// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-/// within `limits`; at most [`MOST_TURNS`].
-#[allow(dead_code)]
-pub fn count_turns(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> usize {
-    let mut count = 1.0;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return 0;
-        }
-        let (first, last) = finite_turns(first, last);
-        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
+    #[inline(always)]
+    fn sizes<N: Number>(&self, p: &[N; 3], at: &[N; 4]) -> [N; 2] where f64: With<N> {
+    let [px, pz, _] = *p;
+
+        [N::abs(px) + 305.8, N::abs(pz) + 305.8]
     }
-    count as usize
-}
 
-/// The most turns that are counted.
-pub const MOST_TURNS: usize = 1_000_000;
-
-/// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
-#[allow(dead_code)]
-pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) -> [f64; JOINTS] {
-    let mut out = *q;
-    for i in (0..JOINTS).rev() {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        let (first, last) = finite_turns(first, last);
-        let count = (last - first) as usize + 1;
-        out[i] += TURNS[i] * (first + (index % count) as f64);
-        index /= count;
+    fn jacobian(&self, p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
+        jacobian(p, at)
     }
-    out
-}
-
-/// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let count = solve(target, out)?;
-    let mut kept = 0;
-    for k in 0..count {
-        let answer = out[k];
-        if let Some(q) = turned_within(&answer.q, limits) {
-            out[kept] = Solution { q, ..answer };
-            kept += 1;
-        }
-    }
-    Ok(kept)
-}
-
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
-fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64; JOINTS]> {
-    let mut place = *q;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return None;
-        }
-        place[i] += TURNS[i] * nearest_turn(0.0, first, last);
-    }
-    Some(place)
-}
-
-/// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-/// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-/// its weight, which is not negative.
-#[allow(dead_code)]
-pub fn nearest(list: &[Solution], reference: &[f64; JOINTS], weights: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<(usize, [f64; JOINTS])> {
-    let mut least = f64::INFINITY;
-    let mut best = None;
-    for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q, 0.0);
-        for i in 0..JOINTS {
-            let (first, last) = turns_within(i, answer.q[i], limits[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if TURNS[i] > 0.0 { ((reference[i] - answer.q[i]) / TURNS[i]).round() } else { 0.0 };
-            place[i] += TURNS[i] * nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
-        }
-    }
-    best
-}
-
-/// How far a joint may be beyond a limit.
-const SLACK: f64 = 1e-9;
-/// By joint: a turn of an angle, 0 for a length.
-const TURNS: [f64; JOINTS] = [TAU, TAU];
-
-/// The least and the greatest number of turns that bring joint `i` within its limits: the first is greater when none does.
-fn turns_within(i: usize, value: f64, limit: [f64; 2]) -> (f64, f64) {
-    let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
-    if TURNS[i] > 0.0 {
-        return ((low / TURNS[i]).ceil(), (high / TURNS[i]).floor());
-    }
-    (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
-}
-
-/// The number of turns between bounds that is nearest to another.
-fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
-    f64::min(f64::max(turn, first), last) + 0.0
-}
-
-/// The bounds, brought together where one is infinite, and not too far apart.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
-    if !first.is_finite() || !last.is_finite() {
-        first = nearest_turn(0.0, first, last);
-        last = first;
-    }
-    (first, f64::min(last, first + MOST_TURNS as f64))
-}
-
-const EQUATIONS: usize = 2;
-/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
-const ACCEPT: f64 = 1e-12;
-/// Answers whose joints all differ by no more than this are one.
-const MERGE: f64 = 1e-7;
-/// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.05;
-/// Half-way between two that are one the equations hold within this share.
-const ALIKE: f64 = 2.5e-15;
-/// Where no pivot is below this share of the largest, an answer is a root of its own.
-const DISTINCT: f64 = 0.0001;
-/// What rounding leaves of an equation that holds, as a share of its size.
-const RESOLUTION: f64 = 1e-14;
-/// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve a miss by more than rounding are the last.
-const PATIENCE: usize = 3;
-/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
-const OVERSHOT: f64 = 100.0;
-/// Shares of the squared Jacobian's size that are added where a plain step fails.
-const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 0.001, 1e-18];
-/// A candidate that misses the equations by this share of their size at most may be a double root.
-const APART: f64 = 0.7;
-const SPLIT: f64 = 0.001;
-/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
-const LEVER: f64 = 0.1;
-/// Points around a candidate are so much farther where no nearer one leads to an answer.
-const FARTHER: f64 = 16.0;
-const FARTHEST: f64 = 256.0;
-/// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
-/// is added to it in these.
-const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-const RETURNS: usize = 4;
-const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
-const POLISHED: f64 = 1e-15;
-const SHORT: f64 = 1e-9;
-/// A factor is not zero above this share of its scale.
-const TINY: f64 = 1e-30;
-const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-
-/// Parameters of the equations.
-struct Parameters {
-    px: f64, pz: f64,
-    /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
-    magnitude: f64,
-}
-
-fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0]; let pz = target[1];
-    let magnitude = f64::max(f64::max(305.8, f64::abs(px)), f64::abs(pz));
-    Parameters { px, pz, magnitude }
 }
 
 /// Block 1: nao_leg_sagittal.
-fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    case_1_1(p, answers);
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64: With<N> {
+    let [px, pz, magnitude] = *p;
+    let r0 = px * px; let r1 = pz * pz;
+    if c.is_usual(N::away(r0 + r1, 2.0 * (magnitude * magnitude))) {
+        let r6 = 20000.0 * r1; let r13 = r1 * (10000.0 * r1 - 411768200.0) + 3462263281.0;
+        let roots1 = N::real_roots::<2>(&[
+            &[r0 * (10000.0 * r0 + r6 - 411768200.0) + r13, N::of(0.0), N::of(4235364000000.0)],
+        ], N::of(1.0));
+        for (i1, &s4) in roots1.as_slice().iter().enumerate() {
+            let r17 = 100.0 * r0 + 100.0 * r1; let r18 = r17 - 58841.0; let r24 = r6 + 20000.0 * r0;
+            let s3 = (px * r18 - 2058000.0 * (pz * s4)) / r24;
+            let c3 = (pz * r18 + 2058000.0 * (px * s4)) / r24; let c4 = (r17 - 2058841.0) / 2058000.0;
+            let found1 = Found::first(i1, 2).by_root(&roots1, i1);
+            c.finish(&Solver, found1, &[c3, s3, c4, s4]);
+        }
+    }
 }
 
-/// Case 1: generic.
-/// It runs where px^2 + pz^2 is not zero.
+/// The equations' values.
 #[inline(always)]
-fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r0 = p.px * p.px; let r1 = p.pz * p.pz;
-    if !is_away(r0 + r1, 2.0 * (p.magnitude * p.magnitude)) {
-        return;
-    }
-    let r6 = 20000.0 * r1; let r13 = r1 * (10000.0 * r1 - 411768200.0) + 3462263281.0;
-    let roots0 = real_roots(&[
-        r0 * (10000.0 * r0 + r6 - 411768200.0) + r13, 0.0, 4235364000000.0,
-    ], 1.0);
-    for (i0, &s4) in roots0.as_slice().iter().enumerate() {
-        let r17 = 100.0 * r0 + 100.0 * r1; let r18 = r17 - 58841.0; let r24 = r6 + 20000.0 * r0;
-        let s3 = (p.px * r18 - 2058000.0 * (p.pz * s4)) / r24;
-        let c3 = (p.pz * r18 + 2058000.0 * (p.px * s4)) / r24; let c4 = (r17 - 2058841.0) / 2058000.0;
-        let at = [c3, s3, c4, s4]; let q = [angle(at[0], at[1]), angle(at[2], at[3])];
-        answers.finish(p, i0, 2, roots0.close, &at, q, NONE_FREE);
-    }
-}
-
-/// What the equations read of joints: 4 numbers.
-const PLACES: usize = 4;
-
-/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin().
-fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
+fn values<N: Number>(p: &[N; 3], at: &[N; 4]) -> [N; 2] where f64: With<N> {
+    let [px, pz, _] = *p;
+    let [c3, s3, c4, s4] = *at;
+    let r1 = 102.9 * c4 + 100.0;
     [
-        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(),
+        s3 * r1 + (102.9 * (c3 * s4) - px),
+        c3 * r1 - (pz + 102.9 * (s4 * s3)),
     ]
 }
 
-/// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
-struct Equations {
-    value: [f64; EQUATIONS],
-    size: [f64; SIZES],
-}
-
-const SIZES: usize = 2;
-/// Which of the sizes is that of each equation.
-const SIZE_OF: [usize; EQUATIONS] = [0, 1];
-
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    let [c3, s3, c4, s4] = *at;
-    let r1 = 102.9 * c4 + 100.0;
-    Equations {
-        value: [
-            s3 * r1 + (102.9 * (c3 * s4) - p.px), c3 * r1 - (p.pz + 102.9 * (s4 * s3)),
-        ],
-        size: [f64::abs(p.px) + 305.8, f64::abs(p.pz) + 305.8],
-    }
-}
-
-/// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+/// The derivative of each equation by each joint.
+fn jacobian(p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
     let [c3, s3, c4, s4] = *at;
     let r0 = 102.9 * c4; let r4 = 102.9 * (c3 * s4); let r9 = 102.9 * (s4 * s3);
     [
         [c3 * (r0 + 100.0) - r9, 102.9 * (c4 * c3) - r9],
         [s3 * (0.0 - r0 - 100.0) - r4, 0.0 - 102.9 * (c4 * s3) - r4],
     ]
-}
-
-/// The source chooses the answer with the least value of this.
-fn preference(q: &[f64; JOINTS]) -> f64 {
-    q[0].sin()
-}
-
-/// Answers so far, and the largest share of an equation's value in its size for each.
-struct Answers<'a> {
-    out: &'a mut [Solution; CAPACITY],
-    relative: [f64; CAPACITY],
-    count: usize,
-}
-
-impl Answers<'_> {
-    /// Keeps a candidate that solves the equations within rounding, and refines others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], q: [f64; JOINTS], free: [bool; JOINTS]) {
-        if !close {
-            let fit = measure_at(p, at, &q);
-            if fit.accepted && fit.relative < RESOLUTION && is_round(at) {
-                return self.keep(p, branch, last, (q, fit), free);
-            }
-        }
-        self.refine(p, branch, last, q, free);
-    }
-
-    /// Polishes a candidate, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    #[cold]
-    #[inline(never)]
-    fn refine(&mut self, p: &Parameters, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let mut end = (q, measure(p, &q));
-        let missed = end.1.relative;
-        end = polish(p, end);
-        let miss = end.1.relative;
-        if RESOLUTION <= miss && miss <= SPLIT {
-            self.around(p, branch, last, &end, miss, free);
-        } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
-            self.around(p, branch, last, &end, missed, free);
-            // Such a candidate stands between two answers: starts from the other side too.
-            let way = differences(&q, &end.0);
-            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start);
-            self.keep(p, branch, last, start, free);
-        }
-        self.keep(p, branch, last, end, free);
-    }
-
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
-        let weights = weights(p, &end.0);
-        let mut is_found = end.1.accepted;
-        let mut farther = 1.0;
-        while farther <= FARTHEST {
-            for i in 0..JOINTS {
-                for sign in [-1.0, 1.0] {
-                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
-                    let start = moved(&end.0, i, 2.0 * sign * way);
-                    let start = (start, measure(p, &start));
-                    let start = polish(p, start);
-                    is_found |= start.1.accepted;
-                    self.keep(p, branch, last, start, free);
-                }
-            }
-            if is_found {
-                return;
-            }
-            farther *= FARTHER;
-        }
-    }
-
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        if !fit.accepted {
-            return;
-        }
-        if self.is_apart(branch, &q, &free) {
-            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-            self.relative[self.count] = fit.relative;
-            self.count += 1;
-            return;
-        }
-        self.keep_one(p, branch, last, (q, fit), free);
-    }
-
-    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
-    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
-        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
-        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
-    }
-
-    /// As [`Answers::keep`], where others are near.
-    #[cold]
-    #[inline(never)]
-    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        let next = last;
-        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        let mut answer = Rated { answer, relative: fit.relative };
-        let mut doubles = [false; CAPACITY];
-        let mut first = None;
-        for i in 0..self.count {
-            let other = Rated { answer: self.out[i], relative: self.relative[i] };
-            doubles[i] = is_one(p, &other, &answer);
-            if doubles[i] && holds_against(&other, &answer) {
-                return;
-            }
-            if doubles[i] && first.is_none() {
-                first = Some(other.answer.branch);
-            }
-        }
-        answer.answer.branch = first.unwrap_or(branch);
-        self.drop_doubles(&doubles);
-        self.push(answer);
-    }
-
-    fn has(&self, branch: usize) -> bool {
-        self.out[..self.count].iter().any(|answer| answer.branch == branch)
-    }
-
-    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            if !doubles[i] {
-                self.out[kept] = self.out[i];
-                self.relative[kept] = self.relative[i];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-    }
-
-    /// Adds an answer; where there are too many, the worst is left out.
-    fn push(&mut self, answer: Rated) {
-        if self.count == CAPACITY {
-            let mut worst = 0;
-            for i in 0..CAPACITY {
-                if self.relative[i] >= self.relative[worst] {
-                    worst = i;
-                }
-            }
-            if answer.relative >= self.relative[worst] {
-                return;
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worst] = true;
-            self.drop_doubles(&doubles);
-        }
-        self.out[self.count] = answer.answer;
-        self.relative[self.count] = answer.relative;
-        self.count += 1;
-    }
-
-    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
-    /// nearest two are one, and the better of them stays.
-    fn unite(&mut self) {
-        while self.out[..self.count].iter().filter(|answer| is_isolated(answer)).count() > 2 {
-            let (mut least, mut worse) = (f64::INFINITY, 0);
-            for second in 0..self.count {
-                for first in 0..second {
-                    let (a, b) = (&self.out[first], &self.out[second]);
-                    if is_isolated(a) && is_isolated(b) && farthest(&a.q, &b.q) < least {
-                        least = farthest(&a.q, &b.q);
-                        worse = if self.relative[first] > self.relative[second] { first } else { second };
-                    }
-                }
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worse] = true;
-            self.drop_doubles(&doubles);
-        }
-    }
-
-    /// Insertion sort by branch.
-    fn sort(&mut self) {
-        for end in 1..self.count {
-            for place in (1..=end).rev() {
-                if self.out[place - 1].branch <= self.out[place].branch {
-                    break;
-                }
-                self.out.swap(place - 1, place);
-            }
-        }
-    }
-
-    /// Marks what the source would choose.
-    fn mark_choice(&mut self) {
-        let answers = &mut self.out[..self.count];
-        let value = |answer: &Solution| preference(&answer.q);
-        let least = answers.iter().map(value).fold(f64::INFINITY, f64::min);
-        for answer in answers {
-            answer.chosen = value(answer) <= least + MERGE;
-        }
-    }
-}
-
-/// An answer with the largest share of an equation's value in its size.
-struct Rated {
-    answer: Solution,
-    relative: f64,
-}
-
-/// Whether two answers are one.
-fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if close(&a.answer, &b.answer, MERGE) {
-        return true;
-    }
-    blurred(p, a, b)
-}
-
-/// Whether `a` stays where `b` is equal to it: the better one does.
-fn holds_against(a: &Rated, b: &Rated) -> bool {
-    a.relative <= b.relative
-}
-
-/// `a - b` joint by joint, angles by the shorter way round.
-fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| shorter(a[i] - b[i]))
-}
-
-fn shorter(difference: f64) -> f64 {
-    if difference > PI {
-        difference - TAU
-    } else if difference < -PI {
-        difference + TAU
-    } else {
-        difference
-    }
-}
-
-/// Whether joint values differ by `tolerance` at most.
-fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    shorter(a[0] - b[0]).abs() <= tolerance
-    && shorter(a[1] - b[1]).abs() <= tolerance
-}
-
-fn is_isolated(answer: &Solution) -> bool {
-    !answer.free.contains(&true)
-}
-
-/// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
-fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [tolerance; JOINTS]
-}
-
-/// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
-fn farthest(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
-    let (difference, size) = (differences(a, b), spans(a, 1.0));
-    (0..JOINTS).fold(0.0, |farthest, i| f64::max(farthest, difference[i].abs() / size[i]))
-}
-
-/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
-fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
-    let (difference, limit) = (differences(&a.q, &b.q), spans(&a.q, tolerance));
-    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
-/// they hold half-way too, as well as at the worse of the two.
-fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let (a, b) = (&a.answer.q, &b.answer.q);
-    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
-        return false;
-    }
-    are_joined(p, a, b, bound)
-}
-
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64) -> bool {
-    if farthest(a, b) > BLUR {
-        return false;
-    }
-    let way = differences(a, b);
-    let mut middle = *b;
-    for i in 0..JOINTS {
-        middle[i] += 0.5 * way[i];
-    }
-    let mut fit = measure(p, &middle);
-    for _ in 0..RETURNS {
-        if fit.relative <= bound {
-            return true;
-        }
-        let Some(back) = newton_step(p, &middle, STIFF) else { return false };
-        middle = stepped(&middle, &back);
-        fit = measure(p, &middle);
-    }
-    fit.relative <= bound
-}
-
-/// How well joint values solve the equations.
-#[derive(Clone, Copy)]
-struct Fit {
-    /// The largest magnitude of an equation's value.
-    residual: f64,
-    /// The largest share of an equation's value in its size.
-    relative: f64,
-    /// Whether every equation holds.
-    accepted: bool,
-}
-
-fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    measure_at(p, &place(q), q)
-}
-
-/// As [`measure`], where the cosines and sines of `q` are known.
-#[inline(always)]
-fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, at);
-    let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    let mut largest = [0.0; SIZES];
-    for i in 0..EQUATIONS {
-        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
-        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
-    }
-    for (largest, size) in largest.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, *largest);
-        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
-    }
-    fit.accepted &= fit.residual.is_finite();
-    fit
-}
-
-/// Whether the cosines and sines of all angles are on the circle.
-fn is_round(at: &[f64; PLACES]) -> bool {
-    (at[0] * at[0] + at[1] * at[1] - 1.0).abs() < RESOLUTION
-    && (at[2] * at[2] + at[3] * at[3] - 1.0).abs() < RESOLUTION
-}
-
-/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-/// after a leap.
-fn polish(p: &Parameters, start: ([f64; JOINTS], Fit)) -> ([f64; JOINTS], Fit) {
-    let (mut end, mut slow) = (start, 0);
-    for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED || slow == PATIENCE {
-            return end;
-        }
-        let Some(next) = improved(p, &end) else { return end };
-        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
-        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
-        end = next;
-        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
-            return end;
-        }
-    }
-    end
-}
-
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-/// it is rounding and a plain step is short, that is the last.
-fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit)) -> Option<([f64; JOINTS], Fit)> {
-    let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
-    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-    let mut fallen = None;
-    for damping in DAMPINGS {
-        let Some(step) = newton_step(p, q, damping) else { continue };
-        let next = stepped(q, &step);
-        let next = (next, measure(p, &next));
-        if next.1.relative < enough {
-            return Some(next);
-        }
-        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
-            return None;
-        }
-        if leaps && damping == 0.0 && next.1.relative <= OVERSHOT * fit.relative {
-            let end = returned(p, next.0, fit.relative);
-            if end.is_some() {
-                return end;
-            }
-        }
-        if next.1.relative < fit.relative && fallen.is_none() {
-            fallen = Some(next);
-        }
-    }
-    let leap = if leaps { leap(p, q, enough) } else { None };
-    leap.or(fallen)
-}
-
-/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-/// beyond one of them, and from there on each quarters the miss.
-fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64) -> Option<([f64; JOINTS], Fit)> {
-    for _ in 0..RETURNS {
-        let step = newton_step(p, &q, 0.0)?;
-        q = stepped(&q, &step);
-        let fit = measure(p, &q);
-        if fit.relative < relative {
-            return Some((q, fit));
-        }
-    }
-    None
-}
-
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-/// hardly changes along a bent way, and rises on each straight one.
-fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64) -> Option<([f64; JOINTS], Fit)> {
-    let step = newton_step(p, q, 0.0)?;
-    let longest = longest(&step);
-    if !longest.is_finite() {
-        return None;
-    }
-    for most in LEAPS {
-        let share = f64::min(most / longest, 1.0);
-        let mut next = stepped(q, &step.map(|way| share * way));
-        for _ in 0..RETURNS {
-            let Some(back) = newton_step(p, &next, STIFF) else { break };
-            next = stepped(&next, &back);
-            let fit = measure(p, &next);
-            if fit.relative < enough {
-                return Some((next, fit));
-            }
-        }
-    }
-    None
-}
-
-/// The longest way of a joint in a step: an angle, or a share of the length scale.
-fn longest(step: &[f64; JOINTS]) -> f64 {
-    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
-}
-
-/// `q - step`, angles in (-pi, pi].
-fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| wrap(q[i] - step[i]))
-}
-
-/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
-fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let sizes = equations(p, &at).size;
-    let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(SIZE_OF) {
-        let size = sizes[size];
-        for i in 0..JOINTS {
-            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
-        }
-    }
-    core::array::from_fn(|i| f64::min(weights[i], 1.0))
-}
-
-/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
-fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let mut next = *q;
-    next[i] = wrap(q[i] + way);
-    next
-}
-
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> Option<[f64; JOINTS]> {
-    substituted(&triangle(p, q, damping))
-}
-
-/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-/// hold, or a root is double.
-fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
-    let columns = triangle(p, q, 0.0);
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for i in 0..JOINTS {
-        let pivot = columns[i][i].abs();
-        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
-    }
-    least / most
-}
-
-/// The triangle of a step's equations, the right side in the last column.
-fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64) -> [[f64; ROWS]; JOINTS + 1] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
-    let mut columns = [[0.0; ROWS]; JOINTS + 1];
-    let mut size = 0.0;
-    for i in 0..JOINTS {
-        let mut square = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let entry = row[i];
-            columns[i][k] = entry;
-            square += entry * entry;
-        }
-        size = f64::max(size, square);
-    }
-    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
-    for i in 0..JOINTS {
-        columns[i][EQUATIONS + i] = (damping * size).sqrt();
-    }
-    reflect(&mut columns);
-    columns
-}
-
-/// Rows of the equations and of the damping.
-const ROWS: usize = EQUATIONS + JOINTS;
-
-/// Turns columns into a triangle by reflections.
-fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
-    for pivot in 0..JOINTS {
-        let mut mirror = columns[pivot];
-        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
-        if square == 0.0 {
-            continue;
-        }
-        let length = square.sqrt().copysign(mirror[pivot]);
-        mirror[pivot] += length;
-        let half = length * mirror[pivot];
-        columns[pivot][pivot] = -length;
-        for column in &mut columns[pivot + 1..] {
-            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
-            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
-                *x -= along * y;
-            }
-        }
-    }
-}
-
-/// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
-    let mut solution = [0.0; JOINTS];
-    for row in (0..JOINTS).rev() {
-        let pivot = columns[row][row];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
-        }
-        let mut sum = columns[JOINTS][row];
-        for k in row + 1..JOINTS {
-            sum -= columns[k][row] * solution[k];
-        }
-        solution[row] = sum / pivot;
-    }
-    Some(solution)
-}
-
-const PI: f64 = core::f64::consts::PI;
-const TAU: f64 = core::f64::consts::TAU;
-
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad.
-#[inline(always)]
-fn angle(cosine: f64, sine: f64) -> f64 {
-    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
-}
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
-#[inline(always)]
-fn acute(across: f64, up: f64) -> f64 {
-    let steep = up > across;
-    let (low, high) = if steep { (across, up) } else { (up, across) };
-    let far = low > 0.41421356237309503 * high;
-    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
-    let z = top / bottom;
-    let mut angle = z + z * (z * z) * series(z * z);
-    if far {
-        angle = 0.25 * PI + (angle + REST);
-    }
-    if steep {
-        angle = 0.5 * PI - (angle - 2.0 * REST);
-    }
-    angle
-}
-
-/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
-#[inline(always)]
-fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
-    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
-    half_open(angle.copysign(sine)) + 0.0
-}
-
-/// What the double nearest to pi/4 lacks.
-const REST: f64 = 3.061616997868383e-17;
-
-fn series(u: f64) -> f64 {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
-    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
-    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
-    first + (second + third * fourth) * fourth
-}
-
-/// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
-fn half_open(angle: f64) -> f64 {
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
-    half_open(angle - TAU * (angle / TAU).round())
-}
-
-/// Whether a factor is not zero.
-fn is_away(value: f64, scale: f64) -> bool {
-    value.abs() > TINY * scale
-}
-
-/// The highest degree of a polynomial.
-const DEGREE: usize = 2;
-/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
-const MEETING: f64 = 1e-5;
-/// A leading coefficient below this share of the largest coefficient counts as zero.
-const NEGLIGIBLE: f64 = 1e-290;
-/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
-/// typical size.
-const TANGENT: f64 = 1e-10;
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
-
-/// Real roots, ascending.
-struct Roots {
-    values: [f64; DEGREE],
-    count: usize,
-    /// Whether some are close to one another, or one is double.
-    close: bool,
-}
-
-impl Roots {
-    fn as_slice(&self) -> &[f64] {
-        &self.values[..self.count]
-    }
-
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
-    fn push(&mut self, x: f64) {
-        if x.is_finite() && self.count < DEGREE {
-            self.values[self.count] = x + 0.0;
-            self.count += 1;
-        }
-    }
-}
-
-/// A polynomial with coefficients of magnitude one and less, constant term first.
-struct Polynomial {
-    a: [f64; DEGREE + 1],
-    degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
-}
-
-fn largest(coefficients: &[f64]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
-}
-
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
-fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let mut roots = all_real_roots(coefficients, scale);
-    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= MEETING * scale);
-    roots
-}
-
-fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
-    if p.degree < 2 { p.linear_root() } else { p.quadratic_roots() }
-}
-
-impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
-        let largest = largest(coefficients);
-        let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
-            length -= 1;
-        }
-        if length == 0 || !coefficients.iter().all(|c| c.is_finite()) {
-            return None;
-        }
-        let mut a = [0.0; DEGREE + 1];
-        a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1, scale }.scaled())
-    }
-
-    /// The polynomial divided by its largest coefficient.
-    fn scaled(mut self) -> Self {
-        let largest = largest(&self.a);
-        for c in &mut self.a {
-            *c /= largest;
-        }
-        self
-    }
-
-    fn linear_root(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        if self.degree == 1 {
-            roots.push(-self.a[0] / self.a[1]);
-        }
-        roots
-    }
-
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
-    fn quadratic_roots(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
-            return roots;
-        }
-        if discriminant <= ROUNDING * size {
-            roots.push(-b / (2.0 * a));
-            return roots;
-        }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-        let (first, second) = (q / a, c / q);
-        roots.push(f64::min(first, second));
-        roots.push(f64::max(first, second));
-        roots
-    }
-}
-
-/// What `core` lacks, from the C library.
-#[cfg(feature = "libm")]
-#[allow(dead_code, unsafe_code)]
-mod libm {
-    unsafe extern "C" {
-        pub safe fn sqrt(x: f64) -> f64;
-        pub safe fn sin(x: f64) -> f64;
-        pub safe fn cos(x: f64) -> f64;
-        pub safe fn round(x: f64) -> f64;
-        pub safe fn floor(x: f64) -> f64;
-        pub safe fn ceil(x: f64) -> f64;
-    }
-}
-
-/// The methods that `std` adds to `f64`.
-#[cfg(feature = "libm")]
-#[allow(dead_code)]
-trait Math: Sized {
-    fn sqrt(self) -> Self;
-    fn sin(self) -> Self;
-    fn cos(self) -> Self;
-    fn round(self) -> Self;
-    fn floor(self) -> Self;
-    fn ceil(self) -> Self;
-}
-
-#[cfg(feature = "libm")]
-impl Math for f64 {
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    fn sin(self) -> Self {
-        libm::sin(self)
-    }
-    fn cos(self) -> Self {
-        libm::cos(self)
-    }
-    fn round(self) -> Self {
-        libm::round(self)
-    }
-    fn floor(self) -> Self {
-        libm::floor(self)
-    }
-    fn ceil(self) -> Self {
-        libm::ceil(self)
-    }
 }

@@ -9,28 +9,23 @@
 //! `left_r21` (1), `left_r22` (1), `left_r23` (1), `left_r31` (1), `left_r32` (1), `left_r33` (1),
 //! `right_px` (m), `right_py` (m), `right_pz` (m), `right_dx` (1), `right_dy` (1), `right_dz` (1).
 //!
-//! Joints, in order; angles lie in (-pi, pi]:
-//! - `HipYawPitch` (rad)
-//! - `left_HipRoll` (rad)
-//! - `left_HipPitch` (rad)
-//! - `left_KneePitch` (rad)
-//! - `left_AnklePitch` (rad)
-//! - `left_AnkleRoll` (rad)
-//! - `right_HipRoll` (rad)
-//! - `right_HipPitch` (rad)
-//! - `right_KneePitch` (rad)
-//! - `right_AnklePitch` (rad)
-//! - `right_AnkleRoll` (rad)
+//! Joints, in order; angles lie in (-pi, pi]: `HipYawPitch` (rad), `left_HipRoll` (rad), `left_HipPitch` (rad), `left_KneePitch` (rad), `left_AnklePitch` (rad), `left_AnkleRoll` (rad), `right_HipRoll` (rad), `right_HipPitch` (rad), `right_KneePitch` (rad), `right_AnklePitch` (rad), `right_AnkleRoll` (rad).
 //!
-//! A target has 141 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
-//!
-//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
-//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
-//!
-//! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
-//! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
-#![allow(unexpected_cfgs, non_snake_case, clippy::all)]
+//! With `use nao_legs::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
+//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+#![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
+
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
+pub use groebot_runtime::{Error, Solve};
+
+/// Inverse kinematics of `nao_legs`: what is particular to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver;
+
+/// One answer.
+pub type Solution = groebot_runtime::Solution<Solver>;
+/// One answer by cosines and sines.
+pub type Pairs = groebot_runtime::Pairs<Solver>;
 
 /// Numbers of a target.
 pub const INPUTS: usize = 18;
@@ -38,429 +33,33 @@ pub const INPUTS: usize = 18;
 pub const JOINTS: usize = 11;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 141;
+/// No answer yet: what a buffer is filled with.
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-#[allow(dead_code)]
 pub const INPUT_NAMES: [&str; INPUTS] = ["left_px", "left_py", "left_pz", "left_r11", "left_r12", "left_r13", "left_r21", "left_r22", "left_r23", "left_r31", "left_r32", "left_r33", "right_px", "right_py", "right_pz", "right_dx", "right_dy", "right_dz"];
 /// The names of the joints, in order.
-#[allow(dead_code)]
 pub const JOINT_NAMES: [&str; JOINTS] = ["HipYawPitch", "left_HipRoll", "left_HipPitch", "left_KneePitch", "left_AnklePitch", "left_AnkleRoll", "right_HipRoll", "right_HipPitch", "right_KneePitch", "right_AnklePitch", "right_AnkleRoll"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-#[allow(dead_code)]
 pub const LIMITS: [[f64; 2]; JOINTS] = [[-1.145285055158679, 0.7407177345463934], [-0.3794345793835672, 0.7904596182282319], [-1.53588974175501, 0.4839798015780276], [-0.09232791743050003, 2.1125465266139365], [-1.1894418852341357, 0.9225810426042026], [-0.3977605365295077, 0.7689920684287016], [-0.7904596182282319, 0.3794345793835672], [-1.53588974175501, 0.4839798015780276], [-0.10297442586766545, 2.120051442397512], [-1.1863002925805457, 0.9320058205649719], [-0.7689920684287016, 0.39793506945470714]];
 
-/// One answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
-    /// Joint values, in order and unit of the joints.
-    pub q: [f64; JOINTS],
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which cases and which roots gave it.
-    pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
-    pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a self-motion.
-    pub free: [bool; JOINTS],
-}
-
-impl Solution {
-    /// No answer yet: what a buffer is filled with before [`solve`].
-    #[allow(dead_code)]
-    pub const EMPTY: Solution =
-        Solution { q: [0.0; JOINTS], residual: 0.0, branch: 0, chosen: false, free: [false; JOINTS] };
-}
-
-/// Why a target has no answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// A number of the target is infinite or not a number.
-    NotFinite,
-    /// The rotation of the target is off by more than `CONSISTENT`.
-    NotRotation,
-    /// The direction of the target is not of length one within `CONSISTENT`.
-    NotUnit,
-    /// The target lies on this stratum, which could not be derived.
-    OpenStratum(&'static str),
-}
-
-/// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
-///
-/// # Errors
-/// As [`Error`] says; the content of `out` has no meaning then.
-pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    answers.unite();
-    answers.sort();
-    Ok(answers.count)
-}
-
-/// One answer by cosines and sines.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
-    pub joints: [[f64; 2]; JOINTS],
-    /// As in [`Solution`].
-    pub residual: f64,
-    /// As in [`Solution`].
-    pub branch: usize,
-    /// As in [`Solution`].
-    pub free: [bool; JOINTS],
-}
-
-impl Pairs {
-    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
-    #[allow(dead_code)]
-    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
-}
-
-/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
-/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    let count = answers.count;
-    if answers.usual && count <= 64 {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
-    }
-    let mut list = [Solution::EMPTY; CAPACITY];
-    let count = solve(target, &mut list)?;
-    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
-        *pairs = Pairs { joints, residual, branch, free };
-    }
-    Ok(count)
-}
-
-/// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
-/// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
-#[allow(dead_code)]
-pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    let Ok(target) = &conform(target) else { return f64::NAN };
-    let mut largest = 0.0;
-    for value in equations(&parameters(target), &place(q)).value {
-        if value.is_nan() {
-            return value;
-        }
-        largest = f64::max(largest, value.abs());
-    }
-    largest
-}
-
-/// The target that joint values `q` reach.
-#[allow(dead_code)]
-pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(&place(q));
-    [reached[0], reached[1], reached[2], reached[3], reached[6], reached[9], reached[4], reached[7], reached[10], reached[5], reached[8], reached[11], reached[12], reached[13], reached[14], reached[15], reached[16], reached[17]]
-}
-
-/// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-/// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-/// within `limits`; at most [`MOST_TURNS`].
-#[allow(dead_code)]
-pub fn count_turns(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> usize {
-    let mut count = 1.0;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return 0;
-        }
-        let (first, last) = finite_turns(first, last);
-        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
-    }
-    count as usize
-}
-
-/// The most turns that are counted.
-pub const MOST_TURNS: usize = 1_000_000;
-
-/// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
-#[allow(dead_code)]
-pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) -> [f64; JOINTS] {
-    let mut out = *q;
-    for i in (0..JOINTS).rev() {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        let (first, last) = finite_turns(first, last);
-        let count = (last - first) as usize + 1;
-        out[i] += TURNS[i] * (first + (index % count) as f64);
-        index /= count;
-    }
-    out
-}
-
-/// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let count = solve(target, out)?;
-    let target = &conform(target)?;
-    let p = &parameters(target);
-    let mut kept = 0;
-    for k in 0..count {
-        let answer = out[k];
-        if let Some(q) = turned_within(&answer.q, limits) {
-            out[kept] = Solution { q, ..answer };
-            kept += 1;
-        } else if let Some((q, residual)) = strides_within(p, &answer, limits) {
-            out[kept] = Solution { q, residual, ..answer };
-            kept += 1;
-        }
-    }
-    Ok(kept)
-}
-
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
-fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64; JOINTS]> {
-    let mut place = *q;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return None;
-        }
-        place[i] += TURNS[i] * nearest_turn(0.0, first, last);
-    }
-    Some(place)
-}
-
-/// How far, and how often, a free joint is moved in search of a place within limits: rad, or a share of a length; a whole turn in all.
-const STRIDE: f64 = 0.1;
-const STRIDES: usize = 63;
-
-/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
-/// when it meets no such place.
-fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
-    for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
-        let mut q = answer.q;
-        for _ in 0..STRIDES {
-            let (next, fit) = follow(p, moved(&q, i / 2, if i % 2 == 0 { STRIDE } else { -STRIDE }), &answer.free);
-            if !fit.accepted {
-                break;
-            }
-            if let Some(place) = turned_within(&next, limits) {
-                return Some((place, fit.residual));
-            }
-            q = next;
-        }
-    }
-    None
-}
-
-/// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-/// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-/// its weight, which is not negative.
-#[allow(dead_code)]
-pub fn nearest(list: &[Solution], reference: &[f64; JOINTS], weights: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<(usize, [f64; JOINTS])> {
-    let mut least = f64::INFINITY;
-    let mut best = None;
-    for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q, 0.0);
-        for i in 0..JOINTS {
-            let (first, last) = turns_within(i, answer.q[i], limits[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if TURNS[i] > 0.0 { ((reference[i] - answer.q[i]) / TURNS[i]).round() } else { 0.0 };
-            place[i] += TURNS[i] * nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
-        }
-    }
-    best
-}
-
-/// How far a joint may be beyond a limit.
-const SLACK: f64 = 1e-9;
-/// By joint: a turn of an angle, 0 for a length.
-const TURNS: [f64; JOINTS] = [TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU];
-
-/// The least and the greatest number of turns that bring joint `i` within its limits: the first is greater when none does.
-fn turns_within(i: usize, value: f64, limit: [f64; 2]) -> (f64, f64) {
-    let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
-    if TURNS[i] > 0.0 {
-        return ((low / TURNS[i]).ceil(), (high / TURNS[i]).floor());
-    }
-    (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
-}
-
-/// The number of turns between bounds that is nearest to another.
-fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
-    f64::min(f64::max(turn, first), last) + 0.0
-}
-
-/// The bounds, brought together where one is infinite, and not too far apart.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
-    if !first.is_finite() || !last.is_finite() {
-        first = nearest_turn(0.0, first, last);
-        last = first;
-    }
-    (first, f64::min(last, first + MOST_TURNS as f64))
-}
-
-const EQUATIONS: usize = 18;
-/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
-const ACCEPT: f64 = 1e-12;
-/// Answers whose joints all differ by no more than this are one.
-const MERGE: f64 = 1e-7;
-/// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.05;
-/// Half-way between two that are one the equations hold within this share.
-const ALIKE: f64 = 2.5e-15;
-/// Where no pivot is below this share of the largest, an answer is a root of its own.
-const DISTINCT: f64 = 0.0001;
-/// What rounding leaves of an equation that holds, as a share of its size.
-const RESOLUTION: f64 = 1e-14;
-/// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve a miss by more than rounding are the last.
-const PATIENCE: usize = 3;
-/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
-const OVERSHOT: f64 = 100.0;
-/// Shares of the squared Jacobian's size that are added where a plain step fails.
-const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 0.001, 1e-18];
-/// A candidate that misses the equations by this share of their size at most may be a double root.
-const APART: f64 = 0.7;
-const SPLIT: f64 = 0.001;
-/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
-const LEVER: f64 = 0.1;
-/// Points around a candidate are so much farther where no nearer one leads to an answer.
-const FARTHER: f64 = 16.0;
-const FARTHEST: f64 = 256.0;
-/// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
-/// is added to it in these.
-const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-const RETURNS: usize = 4;
-const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
-const POLISHED: f64 = 1e-15;
-const SHORT: f64 = 1e-9;
-/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
-const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
-const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a self-motion.
-const ASIDE: f64 = 0.1;
-const NARROWS: usize = 5;
-const SINGULAR: f64 = 1e-13;
-const REGULAR: f64 = 1e-6;
-/// In how many stages, each twice as far as the one before.
-const DOUBLINGS: i32 = 8;
-/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
-const ARRIVED: f64 = 0.001;
-/// In how many stages a self-motion is followed from one member to another.
-const STAGES: usize = 4;
-/// A rotation or a unit vector may be this far from one.
-const CONSISTENT: f64 = 1e-9;
-/// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
-const NEAR: f64 = 0.001;
-const BESIDE: f64 = 1e-7;
-/// A factor is not zero above this share of its scale.
-const TINY: f64 = 1e-30;
-const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some case frees: that joint alone.
-const FREED: [[bool; JOINTS]; 6] = [[true, false, false, false, false, false, false, false, false, false, false], [false, false, false, false, true, false, false, false, false, false, false], [false, false, false, false, false, true, false, false, false, false, false], [false, false, false, false, false, false, true, false, false, false, false], [false, false, false, false, false, false, false, true, false, false, false], [false, false, false, false, false, false, false, false, false, true, false]];
-
-/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
-fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
-    if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::NotFinite);
-    }
-    let mut target = *target;
-    if !make_rotation(&mut target[3..12]) {
-        return Err(Error::NotRotation);
-    }
-    if !make_unit(&mut target[15..18]) {
-        return Err(Error::NotUnit);
-    }
-    Ok(target)
-}
-
-/// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
-fn make_rotation(r: &mut [f64]) -> bool {
-    let mut excess = [[0.0; 3]; 3];
-    let mut deviation = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
-            deviation = f64::max(excess[i][j].abs(), deviation);
-        }
-    }
-    let determinant =
-        r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
-    for i in 0..9 {
-        let (row, column) = (excess[i / 3], i % 3);
-        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
-    }
-    determinant >= 0.0 && deviation <= CONSISTENT
-}
-
-/// One Newton step towards the nearest unit vector; false when that is far.
-fn make_unit(v: &mut [f64]) -> bool {
-    let excess = dot(v, v) - 1.0;
-    for value in v {
-        *value = *value - 0.5 * (excess * *value);
-    }
-    excess.abs() <= CONSISTENT
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Parameters of the equations.
-struct Parameters {
-    left_px: f64, left_py: f64, left_pz: f64, left_r11: f64, left_r12: f64, left_r13: f64,
-    left_r21: f64, left_r22: f64, left_r23: f64, left_r31: f64, left_r32: f64, left_r33: f64,
-    right_px: f64, right_py: f64, right_pz: f64, right_dx: f64, right_dy: f64, right_dz: f64,
-    /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
-    magnitude: f64,
-}
-
-fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
-    let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
-    let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10]; let left_r33 = target[11];
-    let right_px = target[12]; let right_py = target[13]; let right_pz = target[14]; let right_dx = target[15];
-    let right_dy = target[16]; let right_dz = target[17];
-    let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(left_px)), f64::abs(left_py)), f64::abs(left_pz)), f64::abs(left_r11)), f64::abs(left_r12)), f64::abs(left_r13)), f64::abs(left_r21)), f64::abs(left_r22)), f64::abs(left_r23)), f64::abs(left_r31)), f64::abs(left_r32)), f64::abs(left_r33)), f64::abs(right_px)), f64::abs(right_py)), f64::abs(right_pz)), f64::abs(right_dx)), f64::abs(right_dy)), f64::abs(right_dz));
-    Parameters { left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude }
-}
-
-/// What the blocks so far have found, and the choices made.
-#[derive(Clone, Copy)]
-struct Known {
-    /// The branch number so far.
-    branch: usize,
-    /// The end of the branch numbers of the first block's case.
-    last: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
-    close: bool,
-    /// Whether a candidate stands for two, of which the second differs in signs.
-    pair: bool,
-    free: [bool; JOINTS],
-    left_c4: f64, left_s4: f64, left_c6: f64, left_s6: f64, left_f6: f64, left_c5: f64, left_s5: f64,
-    left_f5: f64, left_c1: f64, left_s1: f64, left_c2: f64, left_s2: f64, left_c3: f64, left_s3: f64,
-    right_c2: f64, right_s2: f64, right_f2: f64, right_c4: f64, right_s4: f64, right_c3: f64,
-    right_s3: f64, right_f3: f64, right_c5: f64, right_s5: f64, right_c6: f64, right_s6: f64,
-}
-
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, pair: false, free: NONE_FREE, left_c4: 0.0, left_s4: 0.0, left_c6: 0.0, left_s6: 0.0, left_f6: 0.0, left_c5: 0.0, left_s5: 0.0, left_f5: 0.0, left_c1: 0.0, left_s1: 0.0, left_c2: 0.0, left_s2: 0.0, left_c3: 0.0, left_s3: 0.0, right_c2: 0.0, right_s2: 0.0, right_f2: 0.0, right_c4: 0.0, right_s4: 0.0, right_c3: 0.0, right_s3: 0.0, right_f3: 0.0, right_c5: 0.0, right_s5: 0.0, right_c6: 0.0, right_s6: 0.0 };
+const FACTS: Facts<'static> = Facts {
+    inputs: INPUTS,
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3]), Joint::Angle([4, 5]), Joint::Angle([6, 7]), Joint::Angle([8, 9]), Joint::Angle([10, 11]), Joint::Angle([12, 13]), Joint::Angle([14, 15]), Joint::Angle([16, 17]), Joint::Angle([18, 19]), Joint::Angle([20, 21])],
+    last_first: &[10, 9, 7, 8, 6, 2, 1, 0, 4, 5, 3],
+    places: 22,
+    size_of: &[0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1],
+    sizes: 2,
+    compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11, 12, 13, 14, 15, 16, 17],
+    turned: &[18, 19, 20],
+    candidates: 16,
+    scale: 0.3467054146165801,
+    capacity: CAPACITY,
+    isolated: Some(64),
+    freed: &[0, 4, 5, 6, 7, 9],
+    conditions: &[Condition::Rotation(3), Condition::Unit(15)],
+    reached: &[Reached::Value(0), Reached::Value(1), Reached::Value(2), Reached::Value(3), Reached::Value(6), Reached::Value(9), Reached::Value(4), Reached::Value(7), Reached::Value(10), Reached::Value(5), Reached::Value(8), Reached::Value(11), Reached::Value(12), Reached::Value(13), Reached::Value(14), Reached::Value(15), Reached::Value(16), Reached::Value(17)],
+    ..Facts::NONE
+};
 
 /// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -470,598 +69,332 @@ const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.38941834230865036, 0.9210609940028851], [-0.9266488253107329, 0.3759281241809912],
 ];
 
-/// Block 1: KneePitch.
-fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r2 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r5 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
-    let r8 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
-    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.left_px * p.left_px;
-    let r19 = r17 - p.left_py * p.left_py - p.left_pz * p.left_pz;
-    let r23 = r19 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r27 = r23 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r28 = 0.0088212739 - r27;
-    let shared = &Shared1 { r28 };
-    case_1_1(p, shared, answers);
-}
+impl Mechanism for Solver {
+    type Storage = Fixed<18, 19, 11, 22, 18, 2, 0, 16, 141, 348>;
+    const IS_SINGLE: bool = true;
 
-/// What the cases of block 1 share.
-struct Shared1 { r28: f64 }
-
-/// Case 1 of block 1: generic.
-#[inline(always)]
-fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
-    let roots0 = square_roots(r30, 1.4142135623730951);
-    for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r34 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let left_c4 = r34;
-        let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
-        let next = Known { branch: i0, last: 2, close: roots0.close, left_c4, left_s4, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
+    #[inline(always)]
+    fn facts(&self) -> Facts<'_> {
+        FACTS
     }
-}
 
-/// Block 2: AnkleRoll.
-#[inline(always)]
-fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r9 = 0.05 * p.left_r22 - 0.085 * p.left_r32 - p.left_px * p.left_r12;
-    let r11 = p.left_pz * p.left_r32 - (r9 - p.left_py * p.left_r22);
-    let r15 = 0.05 * p.left_r23 - 0.085 * p.left_r33 - p.left_px * p.left_r13;
-    let r17 = r15 - p.left_py * p.left_r23 - p.left_pz * p.left_r33; let r18 = r17 - 0.04519;
-    let r19 = 3.0 * p.magnitude; let r22 = f64::abs(r19 + 0.235); let r23 = f64::abs(r19 + 0.75599);
-    let shared = &Shared2 { r11, r18, r22, r23 };
-    case_2_1(p, known, shared, answers);
-    case_2_2(p, known, shared, before, answers);
-}
-
-/// What the cases of block 2 share.
-struct Shared2 { r11: f64, r18: f64, r22: f64, r23: f64 }
-
-/// Case 1 of block 2: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r24 = shared.r11 * shared.r11; let r25 = shared.r18 * shared.r18; let r26 = r24 + r25;
-    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_away(r26, 16.0 * r29) {
-        return;
+    fn parameters<N: Number>(&self, target: &[N; 18]) -> [N; 19] where f64: With<N> {
+        let [
+            left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+            left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz,
+        ] = *target;
+        let magnitude = N::largest(0.3467054146165801, &[
+            left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+            left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz,
+        ]);
+        [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+        left_r32, left_r33, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude]
     }
-    let left_f6 = 1.0; let roots0 = square_roots(0.0 - r24 - r25, f64::max(r29, 0.0).sqrt());
-    for (i0, &left_w6) in roots0.as_slice().iter().enumerate() {
-        let r36 = 1.0 / r26; let left_c6 = 0.0 - left_w6 * shared.r18 * r36;
-        let left_s6 = left_w6 * shared.r11 * r36;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c6, left_s6, left_f6, ..*known };
-        block_3(p, &next, answers);
+
+    #[inline(always)]
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 19], c: &mut C) where f64: With<N> {
+        block_1(p, c);
     }
-}
 
-/// Case 2 of block 2: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: left_AnkleRoll.
-fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
-    let r26 = shared.r11 * shared.r11 + shared.r18 * shared.r18;
-    let r29 = shared.r22 * shared.r22 + shared.r23 * shared.r23;
-    if !is_near(r26, 1.0000000000000001e-7 * r29, NEAR) || (answers.suffice_since(p, before) && !is_near(r26, 1.0000000000000001e-7 * r29, BESIDE)) {
-        return;
+    #[inline(always)]
+    fn tip<N: Number>(&self, at: &[N; 22]) -> [N; 18] where f64: With<N> {
+        tip(at)
     }
-    let left_f6 = 1000000.0;
-    for [left_c6, left_s6] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true, known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c6, left_s6, left_f6, ..*known };
-        again_3(p, &next, answers);
+
+    #[inline(always)]
+    fn sizes<N: Number>(&self, p: &[N; 19], at: &[N; 22]) -> [N; 2] where f64: With<N> {
+
+        [N::of(0.3467054146165801), N::of(1.0)]
     }
-}
 
-/// Block 3: AnklePitch.
-#[inline(always)]
-fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r2 = p.left_r22 * known.left_s6; let r3 = p.left_r23 * known.left_c6;
-    let r4 = p.left_r32 * known.left_s6; let r5 = p.left_r33 * known.left_c6;
-    let r8 = p.left_px * (p.left_px + 0.04519 * p.left_r13);
-    let r9 = p.left_r12 * known.left_s6 + p.left_r13 * known.left_c6;
-    let r14 = p.left_py * (p.left_py + 0.04519 * p.left_r23);
-    let r20 = p.left_pz * (p.left_pz + 0.04519 * p.left_r33);
-    let r29 = 0.009300102 * known.left_c6 + 0.2058 * (p.left_px * r9);
-    let r33 = r29 + 0.2058 * (p.left_py * (r2 + r3)) + 0.2058 * (p.left_pz * (r4 + r5));
-    let r39 = r33 - 0.01029 * r2 - 0.01029 * r3 + 0.017493 * r4; let r41 = r39 + 0.017493 * r5;
-    let r44 = 0.2058 * (p.left_px * p.left_r11) + 0.2058 * (p.left_py * p.left_r21);
-    let r48 = r44 + 0.2058 * (p.left_pz * p.left_r31) - 0.01029 * p.left_r21;
-    let r50 = r48 + 0.017493 * p.left_r31; let r56 = 2.0 * r8 + 2.0 * r14 + 2.0 * r20 - p.left_px * p.left_px;
-    let r58 = r56 - p.left_py * p.left_py - p.left_pz * p.left_pz;
-    let r62 = r58 - 0.1 * p.left_py - 0.004519 * p.left_r23;
-    let r66 = r62 + 0.17 * p.left_pz + 0.0076823 * p.left_r33; let r67 = r66 + 0.0123555461;
-    let r68 = 0.02058 * known.left_s4; let r69 = 0.0 - r68;
-    let r77 = 6.0 * (p.magnitude * (p.magnitude + 2.27259));
-    let r81 = r77 + 3.0 * (p.magnitude * p.magnitude) + 0.27 * p.magnitude;
-    let r83 = f64::abs(8.0748 * p.magnitude + 1.918265982);
-    let r84 = f64::abs(8.5122 * p.magnitude + 0.383049); let r85 = f64::abs(r81 + 3.1572666541);
-    let shared = &Shared3 { r41, r50, r67, r68, r69, r83, r84, r85 };
-    case_3_1(p, known, shared, answers);
-    case_3_2(p, known, shared, before, answers);
-}
-
-/// Block 3 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_3(p, known, answers);
-}
-
-/// What the cases of block 3 share.
-struct Shared3 { r41: f64, r50: f64, r67: f64, r68: f64, r69: f64, r83: f64, r84: f64, r85: f64 }
-
-/// Case 1 of block 3: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
-    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !is_away(r88, 16.0 * r91) {
-        return;
-    }
-    let left_f5 = 1.0; let r96 = shared.r41 * shared.r68 - (0.0 - shared.r50 * shared.r67);
-    let r99 = shared.r50 * shared.r68 - shared.r41 * shared.r67;
-    let r104 = 1.0 / f64::max(r99 * r99 + r96 * r96, 0.0).sqrt(); let left_c5 = r99 * r104;
-    let left_s5 = r96 * r104;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c5, left_s5, left_f5, ..*known };
-    block_4(p, &next, answers);
-}
-
-/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: left_AnklePitch.
-fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r88 = shared.r41 * shared.r41 + shared.r50 * shared.r50;
-    let r91 = shared.r83 * shared.r83 + shared.r84 * shared.r84;
-    if !(is_near(r88, 1.0000000000000001e-7 * r91, NEAR) && is_near(shared.r69, 0.00055566, NEAR) && is_near(shared.r67, 0.01 * shared.r85, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r88, 1.0000000000000001e-7 * r91, BESIDE) && is_near(shared.r69, 0.00055566, BESIDE) && is_near(shared.r67, 0.01 * shared.r85, BESIDE))) {
-        return;
-    }
-    let left_f5 = 1000000.0;
-    for [left_c5, left_s5] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], true, known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c5, left_s5, left_f5, ..*known };
-        again_4(p, &next, answers);
-    }
-}
-
-/// Block 4: HipYawPitch.
-#[inline(always)]
-fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r6 = p.left_r13 * known.left_s6 - p.left_r12 * known.left_c6;
-    let r7 = p.left_r32 * known.left_c6 - p.left_r33 * known.left_s6;
-    let r9 = p.left_r22 * known.left_c6 + r7 - p.left_r23 * known.left_s6; let r10 = 0.7071067811865475 * r9;
-    let shared = &Shared4 { r6, r10 };
-    case_4_1(p, known, shared, answers);
-    case_4_2(p, known, shared, before, answers);
-}
-
-/// Block 4 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_4(p, known, answers);
-}
-
-/// What the cases of block 4 share.
-struct Shared4 { r6: f64, r10: f64 }
-
-/// Case 1 of block 4: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r11 = shared.r6 * shared.r6; let r12 = shared.r10 * shared.r10; let r13 = r11 + r12;
-    if !is_away(r13, 191.99999999999997) {
-        return;
-    }
-    let r17 = known.left_f5 * (3.4641016151377544 * known.left_f6);
-    let roots0 = square_roots(0.0 - r11 - r12, r17);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r20 = 1.0 / r13; let left_c1 = 0.0 - left_w1 * shared.r10 * r20;
-        let left_s1 = left_w1 * shared.r6 * r20;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_5(p, &next, answers);
-    }
-}
-
-/// Case 2 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: HipYawPitch.
-fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r13 = shared.r6 * shared.r6 + shared.r10 * shared.r10;
-    if !is_near(r13, 1.2e-6, NEAR) || (answers.suffice_since(p, before) && !is_near(r13, 1.2e-6, BESIDE)) {
-        return;
-    }
-    for [left_c1, left_s1] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10]], left_c1, left_s1, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Block 5: HipRoll.
-#[inline(always)]
-fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.left_r32 * known.left_c6; let r5 = p.left_r33 * known.left_s6;
-    let r6 = p.left_r22 * known.left_c6 - p.left_r23 * known.left_s6; let r9 = 0.5 * (r5 + (r6 - r4));
-    let r11 = p.left_r12 * known.left_c6 - p.left_r13 * known.left_s6;
-    let r18 = 0.7071067811865475 * (known.left_s1 * r11);
-    let r19 = r18 - (r9 - known.left_c1 * (r9 + (r4 - r5))); let r21 = r18 + (r9 + known.left_c1 * (r6 - r9));
-    let shared = &Shared5 { r19, r21 };
-    case_5_1(p, known, shared, answers);
-}
-
-/// Block 5 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_5(p, known, answers);
-}
-
-/// What the cases of block 5 share.
-struct Shared5 { r19: f64, r21: f64 }
-
-/// Case 1 of block 5: generic.
-#[inline(always)]
-fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r24 = shared.r21 * shared.r21 + shared.r19 * shared.r19; let r26 = 1.0 / f64::max(r24, 0.0).sqrt();
-    let left_c2 = shared.r21 * r26; let left_s2 = shared.r19 * r26;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c2, left_s2, ..*known };
-    block_6(p, &next, answers);
-}
-
-/// Block 6: HipPitch.
-#[inline(always)]
-fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.left_c5 * known.left_s6; let r5 = 0.1029 * (known.left_c5 * known.left_c6) + 0.04519;
-    let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s5);
-    let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
-    let r20 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s5);
-    let r23 = p.left_r33 * r5 + (r20 + 0.1029 * (p.left_r32 * r0));
-    let r26 = p.left_py + r23 - 0.1029 * (p.left_r21 * known.left_s5);
-    let r29 = p.left_r23 * r5 + (r26 + 0.1029 * (p.left_r22 * r0));
-    let r36 = known.left_s4 * known.left_c5 + known.left_c4 * known.left_s5; let r37 = known.left_s6 * r36;
-    let r38 = known.left_c6 * r36; let r39 = known.left_c4 * known.left_c5 - known.left_s4 * known.left_s5;
-    let r50 = p.left_r13 * r38 + (p.left_r11 * r39 + p.left_r12 * r37);
-    let r53 = p.left_r33 * r38 + (p.left_r31 * r39 + p.left_r32 * r37);
-    let r56 = p.left_r23 * r38 + (p.left_r22 * r37 + (p.left_r21 * r39 + r53));
-    let r58 = 0.7071067811865475 * (known.left_s1 * (r29 + 0.035)); let r59 = known.left_c1 * r17 - r58;
-    let r62 = 0.1 * (known.left_c1 * r50) - 0.07071067811865475 * (known.left_s1 * r56);
-    let shared = &Shared6 { r59, r62 };
-    case_6_1(p, known, shared, answers);
-}
-
-/// What the cases of block 6 share.
-struct Shared6 { r59: f64, r62: f64 }
-
-/// Case 1 of block 6: generic.
-#[inline(always)]
-fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r63 = 0.1 * shared.r59; let r64 = 0.1 * shared.r62;
-    let r69 = 1.0 / f64::max(r64 * r64 + r63 * r63, 0.0).sqrt(); let left_c3 = r64 * r69;
-    let left_s3 = 0.0 - r63 * r69;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3, left_s3, ..*known };
-    block_7(p, &next, answers);
-}
-
-/// Block 7: directions across the ray.
-#[inline(always)]
-fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    match greatest(&[claim_7_1(p), claim_7_2(p), claim_7_3(p)]) {
-        0 => case_7_1(p, known, answers),
-        1 => case_7_2(p, known, answers),
-        2 => case_7_3(p, known, answers),
-        _ => {}
-    }
-}
-
-/// Case 1 of block 7: across x.
-fn case_7_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
-    block_8(p, &next, answers);
-}
-
-/// The pivot of case 1 of block 7; -1 where it does not run.
-fn claim_7_1(p: &Parameters) -> f64 {
-    let r2 = p.right_dy * p.right_dy + p.right_dz * p.right_dz;
-    f64::abs(r2)
-}
-
-/// Case 2 of block 7: across y.
-fn case_7_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
-    block_8(p, &next, answers);
-}
-
-/// The pivot of case 2 of block 7; -1 where it does not run.
-fn claim_7_2(p: &Parameters) -> f64 {
-    let r2 = p.right_dz * p.right_dz + p.right_dx * p.right_dx;
-    f64::abs(r2)
-}
-
-/// Case 3 of block 7: across z.
-fn case_7_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let next = Known { branch: known.branch, last: known.last, close: known.close, ..*known };
-    block_8(p, &next, answers);
-}
-
-/// The pivot of case 3 of block 7; -1 where it does not run.
-fn claim_7_3(p: &Parameters) -> f64 {
-    let r2 = p.right_dx * p.right_dx + p.right_dy * p.right_dy;
-    f64::abs(r2)
-}
-
-/// Block 8: HipRoll.
-fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r3 = p.right_py + 0.04519 * p.right_dy;
-    let r5 = p.right_pz + 0.04519 * p.right_dz; let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
-    let r15 = known.left_s1 * (p.right_px + 0.04519 * p.right_dx); let r16 = 0.7071067811865475 * r15;
-    let r20 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r16);
-    let r21 = r9 + (r16 + known.left_c1 * (r5 - r9 + 0.085)); let r22 = 4.0 * p.magnitude;
-    let r25 = f64::abs(r22 + 3.16896); let r26 = f64::abs(r22 + 3.27396);
-    let shared = &Shared8 { r20, r21, r25, r26 };
-    case_8_1(p, known, shared, answers);
-    case_8_2(p, known, shared, before, answers);
-}
-
-/// What the cases of block 8 share.
-struct Shared8 { r20: f64, r21: f64, r25: f64, r26: f64 }
-
-/// Case 1 of block 8: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r27 = shared.r20 * shared.r20; let r28 = shared.r21 * shared.r21; let r29 = r27 + r28;
-    let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
-    if !is_away(r29, 16.0 * r32) {
-        return;
-    }
-    let right_f2 = 1.0; let roots0 = square_roots(0.0 - r27 - r28, f64::max(r32, 0.0).sqrt());
-    for (i0, &right_w2) in roots0.as_slice().iter().enumerate() {
-        let r39 = 1.0 / r29; let right_c2 = right_w2 * shared.r21 * r39;
-        let right_s2 = 0.0 - right_w2 * shared.r20 * r39;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, right_c2, right_s2, right_f2, ..*known };
-        block_9(p, &next, answers);
-    }
-}
-
-/// Case 2 of block 8: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: right_HipRoll.
-fn case_8_2(p: &Parameters, known: &Known, shared: &Shared8, before: usize, answers: &mut Answers<'_>) {
-    let r29 = shared.r20 * shared.r20 + shared.r21 * shared.r21;
-    let r32 = shared.r25 * shared.r25 + shared.r26 * shared.r26;
-    if !is_near(r29, 1.0000000000000001e-7 * r32, NEAR) || (answers.suffice_since(p, before) && !is_near(r29, 1.0000000000000001e-7 * r32, BESIDE)) {
-        return;
-    }
-    let right_f2 = 1000000.0;
-    for [right_c2, right_s2] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], true, known.free[7], known.free[8], known.free[9], known.free[10]], right_c2, right_s2, right_f2, ..*known };
-        again_9(p, &next, answers);
-    }
-}
-
-/// Block 9: KneePitch.
-#[inline(always)]
-fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = p.right_px * (p.right_px + 0.04519 * p.right_dx);
-    let r5 = p.right_py * (p.right_py + 0.04519 * p.right_dy);
-    let r8 = p.right_pz * (p.right_pz + 0.04519 * p.right_dz);
-    let r17 = 2.0 * r2 + 2.0 * r5 + 2.0 * r8 - p.right_px * p.right_px;
-    let r19 = r17 - p.right_py * p.right_py - p.right_pz * p.right_pz;
-    let r23 = r19 + 0.1 * p.right_py + 0.004519 * p.right_dy;
-    let r27 = r23 + 0.17 * p.right_pz + 0.0076823 * p.right_dz; let r28 = 0.0088212739 - r27;
-    let shared = &Shared9 { r28 };
-    case_9_1(p, known, shared, answers);
-}
-
-/// Block 9 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_9(p, known, answers);
-}
-
-/// What the cases of block 9 share.
-struct Shared9 { r28: f64 }
-
-/// Case 1 of block 9: generic.
-#[inline(always)]
-fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r30 = shared.r28 * shared.r28 - 0.00042353640000000005;
-    let roots0 = square_roots(r30, 1.4142135623730951 * known.right_f2);
-    for (i0, &right_w4) in roots0.as_slice().iter().enumerate() {
-        let r35 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r28); let right_c4 = r35;
-        let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c4, right_s4, ..*known };
-        block_10(p, &next, answers);
-    }
-}
-
-/// Block 10: HipPitch.
-#[inline(always)]
-fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r1 = p.right_px + 0.04519 * p.right_dx;
-    let r3 = p.right_py + 0.04519 * p.right_dy; let r5 = p.right_pz + 0.04519 * p.right_dz;
-    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675; let r18 = 0.7071067811865475 * (known.left_s1 * (r5 - r3 + 0.035));
-    let r19 = known.left_c1 * r1 - r18; let r22 = 0.7071067811865475 * (known.left_s1 * r1);
-    let r26 = r9 + (known.left_c1 * (r3 - r9 + 0.05) - r22);
-    let r27 = r9 + (r22 + known.left_c1 * (r5 - r9 + 0.085)); let r30 = 0.1029 * known.right_s4;
-    let r32 = 0.1029 * known.right_c4 + 0.1; let r33 = known.right_s2 * r26 - known.right_c2 * r27;
-    let r38 = f64::abs(3.0 * p.magnitude + 2.29797); let r39 = f64::abs(8.0 * p.magnitude + 6.61292);
-    let shared = &Shared10 { r19, r30, r32, r33, r38, r39 };
-    case_10_1(p, known, shared, answers);
-    case_10_2(p, known, shared, before, answers);
-}
-
-/// What the cases of block 10 share.
-struct Shared10 { r19: f64, r30: f64, r32: f64, r33: f64, r38: f64, r39: f64 }
-
-/// Case 1 of block 10: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
-    if !is_away(r42, 12.40855712) {
-        return;
-    }
-    let right_f3 = 1.0; let r45 = shared.r19 * shared.r32 + shared.r30 * shared.r33;
-    let r48 = shared.r32 * shared.r33 - shared.r19 * shared.r30;
-    let r53 = 1.0 / f64::max(r48 * r48 + r45 * r45, 0.0).sqrt(); let right_c3 = r48 * r53;
-    let right_s3 = 0.0 - r45 * r53;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c3, right_s3, right_f3, ..*known };
-    block_11(p, &next, answers);
-}
-
-/// Case 2 of block 10: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: right_HipPitch.
-fn case_10_2(p: &Parameters, known: &Known, shared: &Shared10, before: usize, answers: &mut Answers<'_>) {
-    let r42 = shared.r30 * shared.r30 + shared.r32 * shared.r32;
-    if !(is_near(r42, 7.755348200000001e-8, NEAR) && is_near(shared.r33, 0.01 * shared.r39, NEAR) && is_near(shared.r19, 0.01 * shared.r38, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r42, 7.755348200000001e-8, BESIDE) && is_near(shared.r33, 0.01 * shared.r39, BESIDE) && is_near(shared.r19, 0.01 * shared.r38, BESIDE))) {
-        return;
-    }
-    let right_f3 = 1000000.0;
-    for [right_c3, right_s3] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10]], right_c3, right_s3, right_f3, ..*known };
-        again_11(p, &next, answers);
-    }
-}
-
-/// Block 11: AnklePitch.
-#[inline(always)]
-fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r1 = p.right_dz - p.right_dy;
-    let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz; let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
-    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1);
-    let r17 = known.right_c2 * (r12 + (r9 + 0.5 * (known.left_c1 * r1)));
-    let r20 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
-    let r22 = r17 - known.right_s2 * (r9 + r10 - r12); let r26 = known.right_c3 * r20 - known.right_s3 * r22;
-    let r28 = known.right_c3 * r22 + known.right_s3 * r20;
-    let r32 = known.right_s4 * r28 - known.right_c4 * r26;
-    let r33 = known.right_c4 * r28 + known.right_s4 * r26;
-    let shared = &Shared11 { r32, r33 };
-    case_11_1(p, known, shared, answers);
-    case_11_2(p, known, shared, before, answers);
-}
-
-/// Block 11 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_11(p, known, answers);
-}
-
-/// What the cases of block 11 share.
-struct Shared11 { r32: f64, r33: f64 }
-
-/// Case 1 of block 11: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    let r34 = shared.r32 * shared.r32; let r35 = shared.r33 * shared.r33; let r36 = r34 + r35;
-    if !is_away(r36, 36992.0) {
-        return;
-    }
-    let r40 = known.right_f3 * (48.08326112068523 * known.right_f2);
-    let roots0 = square_roots(0.0 - r34 - r35, r40);
-    for (i0, &right_w5) in roots0.as_slice().iter().enumerate().take(1) {
-        let r43 = 1.0 / r36; let right_c5 = 0.0 - right_w5 * shared.r33 * r43;
-        let right_s5 = right_w5 * shared.r32 * r43;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, pair: roots0.count == 2, right_c5, right_s5, ..*known };
-        block_12(p, &next, answers);
-    }
-}
-
-/// Case 2 of block 11: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: right_AnklePitch.
-fn case_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r36 = shared.r32 * shared.r32 + shared.r33 * shared.r33;
-    if !is_near(r36, 0.0002312, NEAR) || (answers.suffice_since(p, before) && !is_near(r36, 0.0002312, BESIDE)) {
-        return;
-    }
-    for [right_c5, right_s5] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], true, known.free[10]], right_c5, right_s5, ..*known };
-        again_12(p, &next, answers);
+    fn jacobian(&self, p: &[f64; 19], at: &[f64; 22]) -> [[f64; 11]; 18] {
+        jacobian(p, at)
     }
 }
 
 /// Block 12: AnkleRoll.
 #[inline(always)]
-fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.right_dz - p.right_dy; let r9 = 0.5 * p.right_dy + 0.5 * p.right_dz;
-    let r10 = 0.5 * (known.left_c1 * (p.right_dy - p.right_dz));
-    let r12 = 0.7071067811865475 * (p.right_dx * known.left_s1); let r13 = r9 + r10 - r12;
-    let r17 = r12 + (r9 + 0.5 * (known.left_c1 * r1));
-    let r22 = p.right_dx * known.left_c1 - 0.7071067811865475 * (known.left_s1 * r1);
-    let r24 = known.right_c2 * r17 - known.right_s2 * r13;
-    let r28 = known.right_c3 * r22 - known.right_s3 * r24;
-    let r30 = known.right_c3 * r24 + known.right_s3 * r22;
-    let r36 = known.right_c5 * (known.right_c4 * r30 + known.right_s4 * r28);
-    let r37 = known.right_s5 * (known.right_c4 * r28 - known.right_s4 * r30);
-    let r38 = known.right_c2 * r13 + known.right_s2 * r17; let r39 = r36 + r37;
-    let shared = &Shared12 { r38, r39 };
-    case_12_1(p, known, shared, answers);
+fn block_12<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found11: Found<N>, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5]: [N; 20], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, right_dx, right_dy, right_dz, _] = *p;
+    let r1 = right_dz - right_dy; let r9 = 0.5 * right_dy + 0.5 * right_dz;
+    let r12 = 0.7071067811865475 * (right_dx * left_s1);
+    let r13 = r9 + 0.5 * (left_c1 * (right_dy - right_dz)) - r12; let r17 = r12 + (r9 + 0.5 * (left_c1 * r1));
+    let r22 = right_dx * left_c1 - 0.7071067811865475 * (left_s1 * r1);
+    let r24 = right_c2 * r17 - right_s2 * r13; let r28 = right_c3 * r22 - right_s3 * r24;
+    let r30 = right_c3 * r24 + right_s3 * r22; let r38 = right_c2 * r13 + right_s2 * r17;
+    let r39 = right_c5 * (right_c4 * r30 + right_s4 * r28) + right_s5 * (right_c4 * r28 - right_s4 * r30);
+    let r44 = 1.0 / N::root(r39 * r39 + r38 * r38); let right_c6 = r39 * r44; let right_s6 = 0.0 - r38 * r44;
+    c.finish(&Solver, found11, &[
+        left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
+        right_c6, right_s6,
+    ]);
 }
 
-/// Block 12 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_12(p, known, answers);
-}
-
-/// What the cases of block 12 share.
-struct Shared12 { r38: f64, r39: f64 }
-
-/// Case 1 of block 12: generic.
+/// Block 11: AnklePitch.
 #[inline(always)]
-fn case_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r42 = shared.r39 * shared.r39 + shared.r38 * shared.r38; let r44 = 1.0 / f64::max(r42, 0.0).sqrt();
-    let right_c6 = shared.r39 * r44; let right_s6 = 0.0 - shared.r38 * r44;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, right_c6, right_s6, ..*known };
-    block_13(p, &next, answers);
-}
-
-/// Block 13: turn about the ray.
-#[inline(always)]
-fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    case_13_1(p, known, answers);
-}
-
-/// Case 1 of block 13: generic.
-#[inline(always)]
-fn case_13_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let at = [
-        known.left_c1, known.left_s1, known.left_c2, known.left_s2, known.left_c3, known.left_s3,
-        known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
-        known.right_c2, known.right_s2, known.right_c3, known.right_s3, known.right_c4, known.right_s4,
-        known.right_c5, known.right_s5, known.right_c6, known.right_s6,
-    ];
-    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
-    if known.pair {
-        let at = [
-            known.left_c1, known.left_s1, known.left_c2, known.left_s2, known.left_c3, known.left_s3,
-            known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
-            known.right_c2, known.right_s2, known.right_c3, known.right_s3, known.right_c4, known.right_s4,
-            -known.right_c5, -known.right_s5, -known.right_c6, known.right_s6,
-        ];
-        answers.finish(p, known.branch + 1, known.last, known.close, &at, known.free);
-    }
-}
-
-/// The place of the greatest number that is not negative, the first of equals; the length without one.
-fn greatest(claims: &[f64]) -> usize {
-    let (mut most, mut place) = (-1.0, claims.len());
-    for (i, &claim) in claims.iter().enumerate() {
-        if claim > most {
-            (most, place) = (claim, i);
+fn block_11<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found10: Found<N>, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3]: [N; 20], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, right_dx, right_dy, right_dz, _] = *p;
+    let before11 = c.count(); let r1 = right_dz - right_dy; let r9 = 0.5 * right_dy + 0.5 * right_dz;
+    let r12 = 0.7071067811865475 * (right_dx * left_s1);
+    let r13 = r9 + 0.5 * (left_c1 * (right_dy - right_dz)) - r12;
+    let r17 = right_c2 * (r12 + (r9 + 0.5 * (left_c1 * r1)));
+    let r20 = right_dx * left_c1 - 0.7071067811865475 * (left_s1 * r1); let r22 = r17 - right_s2 * r13;
+    let r26 = right_c3 * r20 - right_s3 * r22; let r28 = right_c3 * r22 + right_s3 * r20;
+    let r32 = right_s4 * r28 - right_c4 * r26; let r33 = right_c4 * r28 + right_s4 * r26;
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r34 = r32 * r32; let r35 = r33 * r33; let r36 = r34 + r35;
+    if c.is_usual(N::away(r36, N::of(36992.0))) {
+        let roots1 = N::square_roots(0.0 - r34 - r35, right_f3 * (48.08326112068523 * right_f2));
+        if let Some(&right_w5) = roots1.as_slice().first() {
+            let r43 = 1.0 / r36; let right_c5 = 0.0 - right_w5 * r33 * r43;
+            let right_s5 = right_w5 * r32 * r43;
+            let found11 = found10.next(3, 0).by_pair(&roots1);
+            block_12(p, found11, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5], c);
         }
     }
-    place
+    // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: right_AnklePitch.
+    if c.is_due(before11, N::near(r32 * r32 + r33 * r33, N::of(0.0002312))) {
+        for [right_c5, right_s5] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found11 = found10.next(3, 2).freeing(0b1000000000);
+            rarely(|| block_12(p, found11, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5], c));
+        }
+    }
 }
 
-/// What the equations compare with the target.
-const TIP: usize = 18;
-
-/// The tip, as the equations compare it.
+/// Block 9: KneePitch.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
+fn block_9<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found8: Found<N>, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2]: [N; 15], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude] = *p;
+    let r12 = 2.0 * (right_px * (right_px + 0.04519 * right_dx));
+    let r13 = 2.0 * (right_py * (right_py + 0.04519 * right_dy));
+    let r15 = 2.0 * (right_pz * (right_pz + 0.04519 * right_dz));
+    let r18 = r12 + r13 + r15 - right_px * right_px - right_py * right_py;
+    let r23 = r18 - right_pz * right_pz + 0.1 * right_py + 0.004519 * right_dy;
+    let r28 = 0.0088212739 - (r23 + 0.17 * right_pz + 0.0076823 * right_dz);
+    let roots1 = N::square_roots(r28 * r28 - 0.00042353640000000005, 1.4142135623730951 * right_f2);
+    for (i1, &right_w4) in roots1.as_slice().iter().enumerate() {
+        let right_c4 = 0.0 - 2361.0721534205795 * (0.02058 * r28);
+        let right_s4 = 2361.0721534205795 * (0.02058 * right_w4);
+        let found9 = found8.next(2, i1).by_root(&roots1, i1);
+        // Block 10: HipPitch.
+        let before10 = c.count(); let r38 = right_px + 0.04519 * right_dx;
+        let r40 = right_py + 0.04519 * right_dy; let r42 = right_pz + 0.04519 * right_dz;
+        let r46 = 0.5 * r40 + 0.5 * r42 + 0.0675;
+        let r55 = 0.7071067811865475 * (left_s1 * (r42 - r40 + 0.035)); let r56 = left_c1 * r38 - r55;
+        let r59 = 0.7071067811865475 * (left_s1 * r38);
+        let r65 = right_c2 * (r46 + (r59 + left_c1 * (r42 - r46 + 0.085)));
+        let r66 = right_s2 * (r46 + (left_c1 * (r40 - r46 + 0.05) - r59)); let r67 = 0.1029 * right_s4;
+        let r69 = 0.1029 * right_c4 + 0.1; let r70 = r66 - r65; let r75 = N::abs(3.0 * magnitude + 2.29797);
+        let r76 = N::abs(8.0 * magnitude + 6.61292);
+        // Case 1: generic, where A^2 + B^2 is not zero.
+        if c.is_usual(N::away(r67 * r67 + r69 * r69, N::of(12.40855712))) {
+            let right_f3 = N::of(1.0); let r82 = r56 * r69 + r67 * r70; let r85 = r69 * r70 - r56 * r67;
+            let r90 = 1.0 / N::root(r85 * r85 + r82 * r82); let right_c3 = r85 * r90;
+            let right_s3 = 0.0 - r82 * r90; let found10 = found9.next(2, 0);
+            block_11(p, found10, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3], c);
+        }
+        // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: right_HipPitch.
+        if c.is_due(before10, N::near(r67 * r67 + r69 * r69, N::of(7.755348200000001e-8)) & N::near(r70, 0.01 * r76) & N::near(r56, 0.01 * r75)) {
+            let right_f3 = N::of(1000000.0);
+            for [right_c3, right_s3] in SAMPLES_1.map(|row| row.map(N::of)) {
+                let found10 = found9.next(2, 1).freeing(0b10000000);
+                rarely(|| block_11(p, found10, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3], c));
+            }
+        }
+    }
+}
+
+/// Block 8: HipRoll.
+fn block_8<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found7: Found<N>, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6]: [N; 12], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, right_px, right_py, right_pz, right_dx, right_dy, right_dz, magnitude] = *p;
+    let before8 = c.count(); let r3 = right_py + 0.04519 * right_dy; let r5 = right_pz + 0.04519 * right_dz;
+    let r9 = 0.5 * r3 + 0.5 * r5 + 0.0675;
+    let r16 = 0.7071067811865475 * (left_s1 * (right_px + 0.04519 * right_dx));
+    let r20 = r9 + (left_c1 * (r3 - r9 + 0.05) - r16); let r21 = r9 + (r16 + left_c1 * (r5 - r9 + 0.085));
+    let r22 = 4.0 * magnitude; let r25 = N::abs(r22 + 3.16896); let r26 = N::abs(r22 + 3.27396);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r27 = r20 * r20; let r28 = r21 * r21; let r29 = r27 + r28; let r32 = r25 * r25 + r26 * r26;
+    if c.is_usual(N::away(r29, 16.0 * r32)) {
+        let right_f2 = N::of(1.0); let roots1 = N::square_roots(0.0 - r27 - r28, N::root(r32));
+        for (i1, &right_w2) in roots1.as_slice().iter().enumerate() {
+            let r39 = 1.0 / r29; let right_c2 = right_w2 * r21 * r39;
+            let right_s2 = 0.0 - right_w2 * r20 * r39;
+            let found8 = found7.next(3, i1).by_root(&roots1, i1);
+            block_9(p, found8, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2], c);
+        }
+    }
+    // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: right_HipRoll.
+    let r33 = 1.0000000000000001e-7 * (r25 * r25 + r26 * r26);
+    if c.is_due(before8, N::near(r20 * r20 + r21 * r21, r33)) {
+        let right_f2 = N::of(1000000.0);
+        for [right_c2, right_s2] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found8 = found7.next(3, 2).freeing(0b1000000);
+            rarely(|| block_9(p, found8, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2], c));
+        }
+    }
+}
+
+/// Block 5: HipRoll.
+#[inline(always)]
+fn block_5<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found4: Found<N>, [left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6]: [N; 8], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, _, _, _, right_dx, right_dy, right_dz, _] = *p;
+    let r4 = left_r32 * left_c6; let r5 = left_r33 * left_s6; let r6 = left_r22 * left_c6 - left_r23 * left_s6;
+    let r9 = 0.5 * (r5 + (r6 - r4)); let r14 = left_s1 * (left_r12 * left_c6 - left_r13 * left_s6);
+    let r18 = 0.7071067811865475 * r14; let r19 = r18 - (r9 - left_c1 * (r9 + (r4 - r5)));
+    let r21 = r18 + (r9 + left_c1 * (r6 - r9)); let r26 = 1.0 / N::root(r21 * r21 + r19 * r19);
+    let left_c2 = r21 * r26; let left_s2 = r19 * r26; let r29 = left_c5 * left_s6;
+    let r34 = 0.1029 * (left_c5 * left_c6) + 0.04519;
+    let r45 = left_px - 0.1029 * (left_r11 * left_s5) + 0.1029 * (left_r12 * r29);
+    let r51 = left_pz - 0.1029 * (left_r31 * left_s5) + 0.1029 * (left_r32 * r29);
+    let r55 = left_py + (left_r33 * r34 + r51) - 0.1029 * (left_r21 * left_s5);
+    let r58 = left_r23 * r34 + (r55 + 0.1029 * (left_r22 * r29));
+    let r65 = left_s4 * left_c5 + left_c4 * left_s5; let r66 = left_s6 * r65; let r67 = left_c6 * r65;
+    let r68 = left_c4 * left_c5 - left_s4 * left_s5;
+    let r79 = left_r13 * r67 + (left_r11 * r68 + left_r12 * r66);
+    let r82 = left_r33 * r67 + (left_r31 * r68 + left_r32 * r66);
+    let r85 = left_r23 * r67 + (left_r22 * r66 + (left_r21 * r68 + r82));
+    let r87 = 0.7071067811865475 * (left_s1 * (r58 + 0.035)); let r88 = left_c1 * (left_r13 * r34 + r45) - r87;
+    let r91 = 0.1 * (left_c1 * r79) - 0.07071067811865475 * (left_s1 * r85); let r92 = 0.1 * r88;
+    let r93 = 0.1 * r91; let r98 = 1.0 / N::root(r93 * r93 + r92 * r92); let left_c3 = r93 * r98;
+    let left_s3 = 0.0 - r92 * r98;
+    let claim0 = {
+        N::abs(right_dy * right_dy + right_dz * right_dz)
+    };
+    let claim1 = {
+        N::abs(right_dz * right_dz + right_dx * right_dx)
+    };
+    let claim2 = {
+        N::abs(right_dx * right_dx + right_dy * right_dy)
+    };
+    match c.elect(&[claim0, claim1, claim2]) {
+        0 => {
+            // Case 1: across x.
+            block_8(p, found4, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6], c);
+        }
+        1 => {
+            // Case 2: across y.
+            block_8(p, found4, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6], c);
+        }
+        2 => {
+            // Case 3: across z.
+            block_8(p, found4, [left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6], c);
+        }
+        _ => {}
+    }
+}
+
+/// Block 4: HipYawPitch.
+#[inline(always)]
+fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found3: Found<N>, [left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5]: [N; 8], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, left_r12, left_r13, _, left_r22, left_r23, _, left_r32, left_r33, _, _, _, _, _, _, _] = *p;
+    let before4 = c.count(); let r6 = left_r13 * left_s6 - left_r12 * left_c6;
+    let r8 = left_r22 * left_c6 + (left_r32 * left_c6 - left_r33 * left_s6);
+    let r10 = 0.7071067811865475 * (r8 - left_r23 * left_s6);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r11 = r6 * r6; let r12 = r10 * r10; let r13 = r11 + r12;
+    if c.is_usual(N::away(r13, N::of(191.99999999999997))) {
+        let roots1 = N::square_roots(0.0 - r11 - r12, left_f5 * (3.4641016151377544 * left_f6));
+        for (i1, &left_w1) in roots1.as_slice().iter().enumerate() {
+            let r20 = 1.0 / r13; let left_c1 = 0.0 - left_w1 * r10 * r20; let left_s1 = left_w1 * r6 * r20;
+            let found4 = found3.next(3, i1).by_root(&roots1, i1);
+            block_5(p, found4, [left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6], c);
+        }
+    }
+    // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: HipYawPitch.
+    if c.is_due(before4, N::near(r6 * r6 + r10 * r10, N::of(1.2e-6))) {
+        for [left_c1, left_s1] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found4 = found3.next(3, 2).freeing(0b1);
+            rarely(|| block_5(p, found4, [left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6], c));
+        }
+    }
+}
+
+/// Block 3: AnklePitch.
+#[inline(always)]
+fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found2: Found<N>, [left_c4, left_s4, left_c6, left_s6, left_f6]: [N; 5], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, _, _, _, _, _, _, magnitude] = *p;
+    let before3 = c.count(); let r2 = left_r22 * left_s6; let r3 = left_r23 * left_c6;
+    let r4 = left_r32 * left_s6; let r5 = left_r33 * left_c6;
+    let r10 = left_px * (left_r12 * left_s6 + left_r13 * left_c6);
+    let r31 = 0.009300102 * left_c6 + 0.2058 * r10 + 0.2058 * (left_py * (r2 + r3));
+    let r35 = r31 + 0.2058 * (left_pz * (r4 + r5)) - 0.01029 * r2;
+    let r41 = r35 - 0.01029 * r3 + 0.017493 * r4 + 0.017493 * r5;
+    let r44 = 0.2058 * (left_px * left_r11) + 0.2058 * (left_py * left_r21);
+    let r48 = r44 + 0.2058 * (left_pz * left_r31) - 0.01029 * left_r21; let r50 = r48 + 0.017493 * left_r31;
+    let r51 = 2.0 * (left_px * (left_px + 0.04519 * left_r13));
+    let r52 = 2.0 * (left_py * (left_py + 0.04519 * left_r23));
+    let r54 = 2.0 * (left_pz * (left_pz + 0.04519 * left_r33));
+    let r57 = r51 + r52 + r54 - left_px * left_px - left_py * left_py;
+    let r62 = r57 - left_pz * left_pz - 0.1 * left_py - 0.004519 * left_r23;
+    let r67 = r62 + 0.17 * left_pz + 0.0076823 * left_r33 + 0.0123555461; let r68 = 0.02058 * left_s4;
+    let r69 = 0.0 - r68; let r79 = 6.0 * (magnitude * (magnitude + 2.27259)) + 3.0 * (magnitude * magnitude);
+    let r83 = N::abs(8.0748 * magnitude + 1.918265982); let r84 = N::abs(8.5122 * magnitude + 0.383049);
+    let r85 = N::abs(r79 + 0.27 * magnitude + 3.1572666541);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    if c.is_usual(N::away(r41 * r41 + r50 * r50, 16.0 * (r83 * r83 + r84 * r84))) {
+        let left_f5 = N::of(1.0); let r96 = r41 * r68 - (0.0 - r50 * r67); let r99 = r50 * r68 - r41 * r67;
+        let r104 = 1.0 / N::root(r99 * r99 + r96 * r96); let left_c5 = r99 * r104; let left_s5 = r96 * r104;
+        let found3 = found2.next(2, 0);
+        block_4(p, found3, [left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5], c);
+    }
+    // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: left_AnklePitch.
+    let r92 = 1.0000000000000001e-7 * (r83 * r83 + r84 * r84);
+    if c.is_due(before3, N::near(r41 * r41 + r50 * r50, r92) & N::near(r69, N::of(0.00055566)) & N::near(r67, 0.01 * r85)) {
+        let left_f5 = N::of(1000000.0);
+        for [left_c5, left_s5] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found3 = found2.next(2, 1).freeing(0b10000);
+            rarely(|| block_4(p, found3, [left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5], c));
+        }
+    }
+}
+
+/// Block 1: KneePitch.
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, _, left_r12, left_r13, _, left_r22, left_r23, _, left_r32, left_r33, _, _, _, _, _, _, magnitude] = *p;
+    let r12 = 2.0 * (left_px * (left_px + 0.04519 * left_r13));
+    let r13 = 2.0 * (left_py * (left_py + 0.04519 * left_r23));
+    let r15 = 2.0 * (left_pz * (left_pz + 0.04519 * left_r33));
+    let r18 = r12 + r13 + r15 - left_px * left_px - left_py * left_py;
+    let r23 = r18 - left_pz * left_pz - 0.1 * left_py - 0.004519 * left_r23;
+    let r28 = 0.0088212739 - (r23 + 0.17 * left_pz + 0.0076823 * left_r33);
+    let roots1 = N::square_roots(r28 * r28 - 0.00042353640000000005, N::of(1.4142135623730951));
+    for (i1, &left_w4) in roots1.as_slice().iter().enumerate() {
+        let left_c4 = 0.0 - 2361.0721534205795 * (0.02058 * r28);
+        let left_s4 = 2361.0721534205795 * (0.02058 * left_w4);
+        let found1 = Found::first(i1, 2).by_root(&roots1, i1);
+        // Block 2: AnkleRoll.
+        let before2 = c.count(); let r45 = 0.05 * left_r22 - 0.085 * left_r32 - left_px * left_r12;
+        let r47 = left_pz * left_r32 - (r45 - left_py * left_r22);
+        let r51 = 0.05 * left_r23 - 0.085 * left_r33 - left_px * left_r13;
+        let r53 = r51 - left_py * left_r23 - left_pz * left_r33; let r54 = r53 - 0.04519;
+        let r55 = 3.0 * magnitude; let r58 = N::abs(r55 + 0.235); let r59 = N::abs(r55 + 0.75599);
+        // Case 1: generic, where A^2 + B^2 is not zero.
+        let r60 = r47 * r47; let r61 = r54 * r54; let r62 = r60 + r61; let r65 = r58 * r58 + r59 * r59;
+        if c.is_usual(N::away(r62, 16.0 * r65)) {
+            let left_f6 = N::of(1.0); let roots2 = N::square_roots(0.0 - r60 - r61, N::root(r65));
+            for (i2, &left_w6) in roots2.as_slice().iter().enumerate() {
+                let r72 = 1.0 / r62; let left_c6 = 0.0 - left_w6 * r54 * r72;
+                let left_s6 = left_w6 * r47 * r72;
+                let found2 = found1.next(3, i2).by_root(&roots2, i2);
+                block_3(p, found2, [left_c4, left_s4, left_c6, left_s6, left_f6], c);
+            }
+        }
+        // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: left_AnkleRoll.
+        let r66 = 1.0000000000000001e-7 * (r58 * r58 + r59 * r59);
+        if c.is_due(before2, N::near(r47 * r47 + r54 * r54, r66)) {
+            let left_f6 = N::of(1000000.0);
+            for [left_c6, left_s6] in SAMPLES_1.map(|row| row.map(N::of)) {
+                let found2 = found1.next(3, 2).freeing(0b100000);
+                rarely(|| block_3(p, found2, [left_c4, left_s4, left_c6, left_s6, left_f6], c));
+            }
+        }
+    }
+}
+
+/// What the equations compare with parameters.
+#[inline(always)]
+fn tip<N: Number>(at: &[N; 22]) -> [N; 18] where f64: With<N> {
     let [
         left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5,
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
@@ -1131,54 +464,8 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     ]
 }
 
-/// What the equations read of joints: 22 numbers.
-const PLACES: usize = 22;
-
-/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(), q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin().
-fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
-    [
-        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
-        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(),
-        q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(),
-    ]
-}
-
-/// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
-struct Equations {
-    value: [f64; EQUATIONS],
-    size: [f64; SIZES],
-}
-
-const SIZES: usize = 2;
-/// Which of the sizes is that of each equation.
-const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1];
-
-/// The equations' values.
-#[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
-    let reached = tip(at);
-    [
-        reached[0] - p.left_px, reached[1] - p.left_py, reached[2] - p.left_pz, reached[3] - p.left_r11,
-        reached[4] - p.left_r21, reached[5] - p.left_r31, reached[6] - p.left_r12,
-        reached[7] - p.left_r22, reached[8] - p.left_r32, reached[9] - p.left_r13,
-        reached[10] - p.left_r23, reached[11] - p.left_r33, reached[12] - p.right_px,
-        reached[13] - p.right_py, reached[14] - p.right_pz, reached[15] - p.right_dx,
-        reached[16] - p.right_dy, reached[17] - p.right_dz,
-    ]
-}
-
-/// The sizes of equations.
-#[inline(always)]
-fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
-    [0.3467054146165801, 1.0]
-}
-
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    Equations { value: values(p, at), size: sizes(p, at) }
-}
-
-/// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+/// The derivative of each equation by each joint.
+fn jacobian(p: &[f64; 19], at: &[f64; 22]) -> [[f64; 11]; 18] {
     let [
         left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5,
         left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5,
@@ -1322,1101 +609,3 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         [0.0 - r652, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 - (left_c1 * r621 + r653), r666, r666, r666, 0.0 - (r550 * r621 + r545 * r259)],
     ]
 }
-
-/// Answers so far, and the largest share of an equation's value in its size for each.
-struct Answers<'a> {
-    out: &'a mut [Solution],
-    /// Where pairs are written instead, and whether all candidates so far can be.
-    pairs: Option<&'a mut [Pairs; CAPACITY]>,
-    usual: bool,
-    relative: [f64; CAPACITY],
-    count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold where it was found.
-    candidates: usize,
-    unsound: usize,
-    /// By place: the numbers of candidates that wait to be measured.
-    at: [[f64; ROOM]; PLACES],
-    /// How each was found.
-    found: [Found; ROOM],
-    waiting: usize,
-}
-
-impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
-    #[cold]
-    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
-        self.flush(p);
-        self.candidates > candidates && self.unsound <= candidates
-    }
-
-    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
-    #[cold]
-    #[inline(never)]
-    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let mut end = (q, measure(p, &q));
-        if free != NONE_FREE {
-            self.unsound = number;
-            if self.has_member(branch, &free) {
-                return;
-            }
-            let missed = end.1.relative;
-            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
-                end = polish(p, end, &free);
-            }
-            if !self.keep_member(p, branch, last, end, free) {
-                end = polish(p, end, &NONE_FREE);
-                let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another self-motion, of one joint.
-                let is_member = is_member
-                    || (end.1.relative <= ALONE
-                        && !self.is_listed(&end.0)
-                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
-                if !is_member && end.1.relative <= ALONE {
-                    let known = self.count;
-                    self.keep(p, branch, last, end, NONE_FREE);
-                    if self.count > known && RESOLUTION <= missed && missed <= SPLIT {
-                        self.around(p, branch, last, &end, missed, NONE_FREE);
-                    }
-                }
-            }
-            return;
-        }
-        let missed = end.1.relative;
-        end = polish(p, end, &NONE_FREE);
-        let miss = end.1.relative;
-        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
-            self.unsound = number;
-        }
-        if RESOLUTION <= miss && miss <= SPLIT {
-            self.around(p, branch, last, &end, miss, free);
-        } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
-            self.around(p, branch, last, &end, missed, free);
-            // Such a candidate stands between two answers: starts from the other side too.
-            let way = differences(&q, &end.0);
-            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start, &NONE_FREE);
-            self.keep(p, branch, last, start, free);
-        }
-        self.keep(p, branch, last, end, free);
-    }
-
-    /// Whether an isolated answer is listed that has these joints.
-    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
-        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
-    }
-
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
-        let weights = weights(p, &end.0);
-        let mut is_found = end.1.accepted;
-        let mut farther = 1.0;
-        while farther <= FARTHEST {
-            for i in 0..JOINTS {
-                for sign in [-1.0, 1.0] {
-                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
-                    let start = moved(&end.0, i, 2.0 * sign * way);
-                    let start = (start, measure(p, &start));
-                    let start = polish(p, start, &NONE_FREE);
-                    is_found |= start.1.accepted;
-                    self.keep(p, branch, last, start, free);
-                }
-            }
-            if is_found {
-                return;
-            }
-            farther *= FARTHER;
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
-        if is_member {
-            self.keep(p, branch, last, end, free);
-        }
-        is_member
-    }
-
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        if !fit.accepted {
-            return;
-        }
-        if self.is_apart(branch, &q, &free) {
-            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-            self.relative[self.count] = fit.relative;
-            self.count += 1;
-            return;
-        }
-        self.keep_one(p, branch, last, (q, fit), free);
-    }
-
-    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
-    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
-        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
-        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
-    }
-
-    /// As [`Answers::keep`], where others are near.
-    #[cold]
-    #[inline(never)]
-    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        let next = if free == NONE_FREE { last } else { branch };
-        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        let mut answer = Rated { answer, relative: fit.relative };
-        let mut doubles = [false; CAPACITY];
-        let mut first = None;
-        for i in 0..self.count {
-            let other = Rated { answer: self.out[i], relative: self.relative[i] };
-            doubles[i] = is_one(p, &other, &answer);
-            if doubles[i] && holds_against(&other, &answer) {
-                return;
-            }
-            if doubles[i] && first.is_none() {
-                first = Some(other.answer.branch);
-            }
-        }
-        if free == NONE_FREE {
-            answer.answer.branch = first.unwrap_or(branch);
-        }
-        self.drop_doubles(&doubles);
-        self.push(answer);
-    }
-
-    fn has(&self, branch: usize) -> bool {
-        self.out[..self.count].iter().any(|answer| answer.branch == branch)
-    }
-
-    /// Whether a member of this branch holds within rounding.
-    fn has_member(&self, branch: usize, free: &[bool; JOINTS]) -> bool {
-        let listed = self.out[..self.count].iter().zip(&self.relative);
-        listed.into_iter().any(|(a, relative)| *relative <= RESOLUTION && a.branch == branch && a.free == *free)
-    }
-
-    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            if !doubles[i] {
-                self.out[kept] = self.out[i];
-                self.relative[kept] = self.relative[i];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-    }
-
-    /// Adds an answer; where there are too many, the worst is left out.
-    fn push(&mut self, answer: Rated) {
-        if self.count == CAPACITY {
-            let mut worst = 0;
-            for i in 0..CAPACITY {
-                if self.relative[i] >= self.relative[worst] {
-                    worst = i;
-                }
-            }
-            if answer.relative >= self.relative[worst] {
-                return;
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worst] = true;
-            self.drop_doubles(&doubles);
-        }
-        self.out[self.count] = answer.answer;
-        self.relative[self.count] = answer.relative;
-        self.count += 1;
-    }
-
-    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
-    /// nearest two are one, and the better of them stays.
-    fn unite(&mut self) {
-        while self.out[..self.count].iter().filter(|answer| is_isolated(answer)).count() > 64 {
-            let (mut least, mut worse) = (f64::INFINITY, 0);
-            for second in 0..self.count {
-                for first in 0..second {
-                    let (a, b) = (&self.out[first], &self.out[second]);
-                    if is_isolated(a) && is_isolated(b) && farthest(&a.q, &b.q) < least {
-                        least = farthest(&a.q, &b.q);
-                        worse = if self.relative[first] > self.relative[second] { first } else { second };
-                    }
-                }
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worse] = true;
-            self.drop_doubles(&doubles);
-        }
-    }
-
-    /// Insertion sort by branch.
-    fn sort(&mut self) {
-        for end in 1..self.count {
-            for place in (1..=end).rev() {
-                if self.out[place - 1].branch <= self.out[place].branch {
-                    break;
-                }
-                self.out.swap(place - 1, place);
-            }
-        }
-    }
-}
-
-/// An answer with the largest share of an equation's value in its size.
-struct Rated {
-    answer: Solution,
-    relative: f64,
-}
-
-/// Whether two answers are one.
-fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if close(&a.answer, &b.answer, MERGE) {
-        return true;
-    }
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, true) => blurred(p, a, b),
-        (false, false) => {
-            a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
-        }
-        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
-    }
-}
-
-/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
-/// its first member against the others.
-fn holds_against(a: &Rated, b: &Rated) -> bool {
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, false) if b.relative <= RESOLUTION => return false,
-        (false, _) if a.relative <= RESOLUTION => return true,
-        _ => {}
-    }
-    a.relative <= b.relative
-}
-
-/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
-/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
-    let regularity = regularity(p, q);
-    if regularity > REGULAR {
-        return false;
-    }
-    for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
-            return false;
-        }
-        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
-            return true;
-        }
-        way /= 8.0;
-    }
-    false
-}
-
-/// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a self-motion next to it, but not back.
-fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
-    let (mut before, mut at) = (*q, *q);
-    let mut share = 1.0;
-    for _ in 1..DOUBLINGS {
-        share *= 0.5;
-    }
-    for stage in 0..DOUBLINGS {
-        let mut next = beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
-        for i in (0..JOINTS).filter(|&i| free[i]) {
-            next[i] = moved(q, i, share * way)[i];
-        }
-        let (next, fit) = follow(p, next, free);
-        if fit.relative > bound || (stage == 1 && !leads_back(p, q, free, &at, &next, bound)) {
-            return false;
-        }
-        (before, at) = (at, next);
-        share *= 2.0;
-    }
-    true
-}
-
-/// Whether the joints come back to `q` on along the line from `far` through `close_by`.
-fn leads_back(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], close_by: &[f64; JOINTS], far: &[f64; JOINTS], bound: f64) -> bool {
-    let mut back = beyond(far, close_by, 1.0);
-    for i in (0..JOINTS).filter(|&i| free[i]) {
-        back[i] = q[i];
-    }
-    let (back, fit) = follow(p, back, free);
-    fit.accepted && are_joined(p, &back, q, bound, free)
-}
-
-/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
-fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
-    let (mut beyond, way) = (*b, differences(b, a));
-    for i in 0..JOINTS {
-        beyond[i] += ahead * way[i];
-    }
-    beyond
-}
-
-/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
-fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
-    let mut q = a.q;
-    let mut accepted = false;
-    for stages in (1..=STAGES).rev() {
-        let way = differences(&b.q, &q);
-        for i in (0..JOINTS).filter(|&i| b.free[i]) {
-            q[i] += way[i] / stages as f64;
-        }
-        let end = follow(p, q, &b.free);
-        (q, accepted) = (end.0, end.1.accepted);
-    }
-    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
-}
-
-/// Polishes joints of which `free` ones stay where they are.
-fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    polish(p, (q, measure(p, &q)), free)
-}
-
-/// `a - b` joint by joint, angles by the shorter way round.
-fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| shorter(a[i] - b[i]))
-}
-
-fn shorter(difference: f64) -> f64 {
-    if difference > PI {
-        difference - TAU
-    } else if difference < -PI {
-        difference + TAU
-    } else {
-        difference
-    }
-}
-
-/// Whether joint values differ by `tolerance` at most.
-fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    shorter(a[10] - b[10]).abs() <= tolerance
-    && shorter(a[9] - b[9]).abs() <= tolerance
-    && shorter(a[7] - b[7]).abs() <= tolerance
-    && shorter(a[8] - b[8]).abs() <= tolerance
-    && shorter(a[6] - b[6]).abs() <= tolerance
-    && shorter(a[2] - b[2]).abs() <= tolerance
-    && shorter(a[1] - b[1]).abs() <= tolerance
-    && shorter(a[0] - b[0]).abs() <= tolerance
-    && shorter(a[4] - b[4]).abs() <= tolerance
-    && shorter(a[5] - b[5]).abs() <= tolerance
-    && shorter(a[3] - b[3]).abs() <= tolerance
-}
-
-fn is_isolated(answer: &Solution) -> bool {
-    !answer.free.contains(&true)
-}
-
-/// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
-fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [tolerance; JOINTS]
-}
-
-/// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
-fn farthest(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
-    let (difference, size) = (differences(a, b), spans(a, 1.0));
-    (0..JOINTS).fold(0.0, |farthest, i| f64::max(farthest, difference[i].abs() / size[i]))
-}
-
-/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
-fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
-    let (difference, limit) = (differences(&a.q, &b.q), spans(&a.q, tolerance));
-    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
-/// they hold half-way too, as well as at the worse of the two.
-fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let (a, b) = (&a.answer.q, &b.answer.q);
-    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
-        return false;
-    }
-    are_joined(p, a, b, bound, &NONE_FREE)
-}
-
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
-    if farthest(a, b) > BLUR {
-        return false;
-    }
-    let way = differences(a, b);
-    let mut middle = *b;
-    for i in 0..JOINTS {
-        middle[i] += 0.5 * way[i];
-    }
-    let mut fit = measure(p, &middle);
-    for _ in 0..RETURNS {
-        if fit.relative <= bound {
-            return true;
-        }
-        let Some(back) = newton_step(p, &middle, STIFF, held) else { return false };
-        middle = stepped(&middle, &back);
-        fit = measure(p, &middle);
-    }
-    fit.relative <= bound
-}
-
-/// How well joint values solve the equations.
-#[derive(Clone, Copy)]
-struct Fit {
-    /// The largest magnitude of an equation's value.
-    residual: f64,
-    /// The largest share of an equation's value in its size.
-    relative: f64,
-    /// Whether every equation holds.
-    accepted: bool,
-}
-
-fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    measure_at(p, &place(q), q)
-}
-
-/// As [`measure`], where the cosines and sines of `q` are known.
-#[inline(always)]
-fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, at);
-    let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    let mut largest = [0.0; SIZES];
-    for i in 0..EQUATIONS {
-        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
-        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
-    }
-    for (largest, size) in largest.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, *largest);
-        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
-    }
-    fit.accepted &= fit.residual.is_finite();
-    fit
-}
-
-/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-/// after a leap.
-/// Joints that are `held` stay.
-fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let (mut end, mut slow) = (start, 0);
-    for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED || slow == PATIENCE {
-            return end;
-        }
-        let Some(next) = improved(p, &end, held) else { return end };
-        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
-        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
-        end = next;
-        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
-            return end;
-        }
-    }
-    end
-}
-
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-/// it is rounding and a plain step is short, that is the last.
-fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
-    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-    let mut fallen = None;
-    for damping in DAMPINGS {
-        let Some(step) = newton_step(p, q, damping, held) else { continue };
-        let next = stepped(q, &step);
-        let next = (next, measure(p, &next));
-        if next.1.relative < enough {
-            return Some(next);
-        }
-        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
-            return None;
-        }
-        if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
-            let end = returned(p, next.0, fit.relative, held);
-            if end.is_some() {
-                return end;
-            }
-        }
-        if next.1.relative < fit.relative && fallen.is_none() {
-            fallen = Some(next);
-        }
-    }
-    let leap = if leaps { leap(p, q, enough, held) } else { None };
-    leap.or(fallen)
-}
-
-/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-/// beyond one of them, and from there on each quarters the miss.
-fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    for _ in 0..RETURNS {
-        let step = newton_step(p, &q, 0.0, held)?;
-        q = stepped(&q, &step);
-        let fit = measure(p, &q);
-        if fit.relative < relative {
-            return Some((q, fit));
-        }
-    }
-    None
-}
-
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-/// hardly changes along a bent way, and rises on each straight one.
-fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let step = newton_step(p, q, 0.0, held)?;
-    let longest = longest(&step);
-    if !longest.is_finite() {
-        return None;
-    }
-    for most in LEAPS {
-        let share = f64::min(most / longest, 1.0);
-        let mut next = stepped(q, &step.map(|way| share * way));
-        for _ in 0..RETURNS {
-            let Some(back) = newton_step(p, &next, STIFF, held) else { break };
-            next = stepped(&next, &back);
-            let fit = measure(p, &next);
-            if fit.relative < enough {
-                return Some((next, fit));
-            }
-        }
-    }
-    None
-}
-
-/// The longest way of a joint in a step: an angle, or a share of the length scale.
-fn longest(step: &[f64; JOINTS]) -> f64 {
-    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
-}
-
-/// `q - step`, angles in (-pi, pi].
-fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| wrap(q[i] - step[i]))
-}
-
-/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
-fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let sizes = equations(p, &at).size;
-    let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(SIZE_OF) {
-        let size = sizes[size];
-        for i in 0..JOINTS {
-            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
-        }
-    }
-    core::array::from_fn(|i| f64::min(weights[i], 1.0))
-}
-
-/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
-fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let mut next = *q;
-    next[i] = wrap(q[i] + way);
-    next
-}
-
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    substituted(&triangle(p, q, damping, held))
-}
-
-/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-/// hold, or a root is double.
-fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
-    let columns = triangle(p, q, 0.0, &NONE_FREE);
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for i in 0..JOINTS {
-        let pivot = columns[i][i].abs();
-        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
-    }
-    least / most
-}
-
-/// The triangle of a step's equations, the right side in the last column.
-fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
-    let mut columns = [[0.0; ROWS]; JOINTS + 1];
-    let mut size = 0.0;
-    for i in 0..JOINTS {
-        let mut square = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let entry = if held[i] { 0.0 } else { row[i] };
-            columns[i][k] = entry;
-            square += entry * entry;
-        }
-        size = f64::max(size, square);
-    }
-    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
-    for i in 0..JOINTS {
-        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-    }
-    reflect(&mut columns);
-    columns
-}
-
-/// Rows of the equations and of the damping.
-const ROWS: usize = EQUATIONS + JOINTS;
-
-/// Turns columns into a triangle by reflections.
-fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
-    for pivot in 0..JOINTS {
-        let mut mirror = columns[pivot];
-        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
-        if square == 0.0 {
-            continue;
-        }
-        let length = square.sqrt().copysign(mirror[pivot]);
-        mirror[pivot] += length;
-        let half = length * mirror[pivot];
-        columns[pivot][pivot] = -length;
-        for column in &mut columns[pivot + 1..] {
-            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
-            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
-                *x -= along * y;
-            }
-        }
-    }
-}
-
-/// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
-    let mut solution = [0.0; JOINTS];
-    for row in (0..JOINTS).rev() {
-        let pivot = columns[row][row];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
-        }
-        let mut sum = columns[JOINTS][row];
-        for k in row + 1..JOINTS {
-            sum -= columns[k][row] * solution[k];
-        }
-        solution[row] = sum / pivot;
-    }
-    Some(solution)
-}
-
-const PI: f64 = core::f64::consts::PI;
-const TAU: f64 = core::f64::consts::TAU;
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
-#[inline(always)]
-fn acute(across: f64, up: f64) -> f64 {
-    let steep = up > across;
-    let (low, high) = if steep { (across, up) } else { (up, across) };
-    let far = low > 0.41421356237309503 * high;
-    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
-    let z = top / bottom;
-    let mut angle = z + z * (z * z) * series(z * z);
-    if far {
-        angle = 0.25 * PI + (angle + REST);
-    }
-    if steep {
-        angle = 0.5 * PI - (angle - 2.0 * REST);
-    }
-    angle
-}
-
-/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
-#[inline(always)]
-fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
-    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
-    half_open(angle.copysign(sine)) + 0.0
-}
-
-/// What the double nearest to pi/4 lacks.
-const REST: f64 = 3.061616997868383e-17;
-
-fn series(u: f64) -> f64 {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
-    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
-    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
-    first + (second + third * fourth) * fourth
-}
-
-/// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
-fn half_open(angle: f64) -> f64 {
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
-    half_open(angle - TAU * (angle / TAU).round())
-}
-
-/// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64, share: f64) -> bool {
-    value.abs() <= share * scale
-}
-
-/// Whether a factor is not zero.
-fn is_away(value: f64, scale: f64) -> bool {
-    value.abs() > TINY * scale
-}
-
-/// The highest degree of a polynomial.
-const DEGREE: usize = 2;
-/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
-const MEETING: f64 = 1e-5;
-/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
-/// typical size.
-const TANGENT: f64 = 1e-10;
-
-/// Real roots, ascending.
-struct Roots {
-    values: [f64; DEGREE],
-    count: usize,
-    /// Whether some are close to one another, or one is double.
-    close: bool,
-}
-
-impl Roots {
-    fn as_slice(&self) -> &[f64] {
-        &self.values[..self.count]
-    }
-
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
-    fn push(&mut self, x: f64) {
-        if x.is_finite() && self.count < DEGREE {
-            self.values[self.count] = x + 0.0;
-            self.count += 1;
-        }
-    }
-}
-
-/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
-fn square_roots(constant: f64, scale: f64) -> Roots {
-    let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
-        return roots;
-    }
-    if constant >= 0.0 {
-        roots.push(0.0);
-        roots.close = true;
-        return roots;
-    }
-    let root = (-constant).sqrt();
-    roots.close = root <= MEETING * scale;
-    roots.push(-root);
-    roots.push(root);
-    roots
-}
-
-/// What `core` lacks, from the C library.
-#[cfg(feature = "libm")]
-#[allow(dead_code, unsafe_code)]
-mod libm {
-    unsafe extern "C" {
-        pub safe fn sqrt(x: f64) -> f64;
-        pub safe fn sin(x: f64) -> f64;
-        pub safe fn cos(x: f64) -> f64;
-        pub safe fn round(x: f64) -> f64;
-        pub safe fn floor(x: f64) -> f64;
-        pub safe fn ceil(x: f64) -> f64;
-    }
-}
-
-/// The methods that `std` adds to `f64`.
-#[cfg(feature = "libm")]
-#[allow(dead_code)]
-trait Math: Sized {
-    fn sqrt(self) -> Self;
-    fn sin(self) -> Self;
-    fn cos(self) -> Self;
-    fn round(self) -> Self;
-    fn floor(self) -> Self;
-    fn ceil(self) -> Self;
-}
-
-#[cfg(feature = "libm")]
-impl Math for f64 {
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    fn sin(self) -> Self {
-        libm::sin(self)
-    }
-    fn cos(self) -> Self {
-        libm::cos(self)
-    }
-    fn round(self) -> Self {
-        libm::round(self)
-    }
-    fn floor(self) -> Self {
-        libm::floor(self)
-    }
-    fn ceil(self) -> Self {
-        libm::ceil(self)
-    }
-}
-
-use core::ops::{Add, Div, Mul, Sub};
-
-/// How many candidates are measured together, and how many of them an operation takes at once.
-const ROOM: usize = 16;
-const LANES: usize = 2;
-/// By angle: where its cosine and its sine stand among the places.
-const ANGLES: usize = 11;
-const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11], [12, 13], [14, 15], [16, 17], [18, 19], [20, 21]];
-/// The same for the angles that tell candidates apart, those that are found last first.
-const TELLING: [[usize; 2]; 11] = [[20, 21], [18, 19], [14, 15], [16, 17], [12, 13], [4, 5], [2, 3], [0, 1], [8, 9], [10, 11], [6, 7]];
-/// Angles differ by more than `BLUR` where their difference has a cosine below this.
-const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
-
-/// How a candidate was found.
-#[derive(Clone, Copy)]
-struct Found {
-    branch: usize,
-    last: usize,
-    close: bool,
-    free: [bool; JOINTS],
-}
-
-const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
-
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
-struct Fits {
-    residual: [f64; ROOM],
-    relative: [f64; ROOM],
-    sound: [f64; ROOM],
-}
-
-impl Answers<'_> {
-    /// Takes in a candidate, which waits to be measured together with others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
-        if self.waiting >= ROOM {
-            self.flush(p);
-        }
-        let k = self.waiting % ROOM;
-        for i in 0..PLACES {
-            self.at[i][k] = at[i];
-        }
-        self.found[k] = Found { branch, last, close, free };
-        self.waiting = k + 1;
-        self.candidates += 1;
-    }
-
-    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
-    #[inline(never)]
-    fn flush(&mut self, p: &Parameters) {
-        if self.pairs.is_some() {
-            return self.flush_pairs(p);
-        }
-        let angles = angles(&self.at);
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let mut usual = self.count == 0;
-        for k in 0..waiting {
-            let Found { branch, last, close, free } = self.found[k];
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k], angles[6][k], angles[7][k], angles[8][k], angles[9][k], angles[10][k]];
-            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
-            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
-                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-                self.relative[self.count] = fit.relative;
-                self.count += 1;
-                continue;
-            }
-            usual = false;
-            if holds {
-                self.keep(p, branch, last, (q, fit), free);
-            } else {
-                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
-            }
-        }
-    }
-
-    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self, p: &Parameters) {
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let Some(pairs) = &mut self.pairs else { return };
-        for k in 0..waiting {
-            let Found { branch, close, free, .. } = self.found[k];
-            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
-            let joints = [
-                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
-                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
-                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
-                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
-                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
-                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
-                [self.at[12][k] + 0.0, self.at[13][k] + 0.0],
-                [self.at[14][k] + 0.0, self.at[15][k] + 0.0],
-                [self.at[16][k] + 0.0, self.at[17][k] + 0.0],
-                [self.at[18][k] + 0.0, self.at[19][k] + 0.0],
-                [self.at[20][k] + 0.0, self.at[21][k] + 0.0],
-            ];
-            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
-            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
-                self.usual = false;
-                return;
-            }
-            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
-            self.count += 1;
-        }
-    }
-
-    /// Whether an angle tells two candidates apart.
-    #[inline(always)]
-    fn are_apart(&self, k: usize, other: usize) -> bool {
-        TELLING.iter().any(|&[c, s]| {
-            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
-        })
-    }
-}
-
-/// Whether an angle tells two answers apart.
-#[inline(always)]
-fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
-    [10, 9, 7, 8, 6, 2, 1, 0, 4, 5, 3].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
-}
-
-/// Measures the first so many candidates.
-#[inline(never)]
-fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
-    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
-    for first in (0..waiting.min(ROOM)).step_by(LANES) {
-        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let [residual, relative] = fit(p, &at);
-        let mut sound = Lanes([1.0; LANES]);
-        for [c, s] in CIRCLES {
-            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
-        }
-        for lane in 0..LANES {
-            fits.residual[first + lane] = residual.0[lane];
-            fits.relative[first + lane] = relative.0[lane];
-            fits.sound[first + lane] = sound.0[lane];
-        }
-    }
-    fits
-}
-
-/// The largest magnitude of an equation's value, and its largest share of the equation's size.
-#[inline(always)]
-fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
-    let mut largest = [Lanes([0.0; W]); SIZES];
-    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
-        largest[size] = largest[size].greater(value.size());
-    }
-    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
-    for i in 0..SIZES {
-        residual = residual.greater(largest[i]);
-        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
-        relative = relative.greater(largest[i] / size);
-    }
-    [residual, relative]
-}
-
-/// At least as many as there are angles of candidates.
-const POOL: usize = (ANGLES * ROOM).next_power_of_two();
-
-/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
-#[inline(never)]
-fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
-    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
-    let mut which = [[0; ROOM]; ANGLES];
-    let mut last = POOL - 1;
-    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
-            last = (last + is_new as usize) % POOL;
-            across[last] = at[c][k].abs();
-            up[last] = at[s][k].abs();
-            which[k] = last;
-        }
-    }
-    let acutes = acutes(&across, &up, last + 1);
-    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
-    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            row[k] = unfold(row[k], at[c][k], at[s][k]);
-        }
-    }
-    angles
-}
-
-/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
-#[inline(never)]
-fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
-    let mut acutes = [0.0; POOL];
-    for i in 0..count.min(POOL) {
-        acutes[i] = acute(across[i], up[i]);
-    }
-    acutes
-}
-
-/// Numbers that operations take at once.
-#[derive(Clone, Copy)]
-struct Lanes<const W: usize>([f64; W]);
-
-impl<const W: usize> Lanes<W> {
-    #[inline(always)]
-    fn size(self) -> Self {
-        Lanes(self.0.map(f64::abs))
-    }
-
-    /// The greater of two numbers; the first where one is not a number.
-    #[inline(always)]
-    fn greater(self, other: Self) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
-    }
-
-    /// The numbers where others are below a limit, and zero elsewhere.
-    #[inline(always)]
-    fn where_below(self, other: Self, limit: f64) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
-    }
-}
-
-/// A number that operations take with several at once.
-trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-/// What equations are computed of: one number, or several at once.
-trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
-}
-
-impl Number for f64 {
-}
-impl Number for Lanes<LANES> {
-}
-
-macro_rules! by_lane {
-    ($($operation:ident $name:ident $sign:tt)*) => {
-        $(
-            impl<const W: usize> $operation for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
-                }
-            }
-            impl<const W: usize> $operation<f64> for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: f64) -> Lanes<W> {
-                    Lanes(self.0.map(|number| number $sign other))
-                }
-            }
-            impl<const W: usize> $operation<Lanes<W>> for f64 {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(other.0.map(|number| self $sign number))
-                }
-            }
-        )*
-    };
-}
-
-by_lane!(Add add + Sub sub - Mul mul * Div div /);

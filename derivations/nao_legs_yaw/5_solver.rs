@@ -11,31 +11,23 @@
 //! `right_r11` (1), `right_r12` (1), `right_r13` (1), `right_r21` (1), `right_r22` (1),
 //! `right_r23` (1), `right_r31` (1), `right_r32` (1), `right_r33` (1).
 //!
-//! Joints, in order; angles lie in (-pi, pi]:
-//! - `TorsoYaw` (rad)
-//! - `TorsoPitch` (rad)
-//! - `TorsoRoll` (rad)
-//! - `HipYawPitch` (rad)
-//! - `left_HipRoll` (rad)
-//! - `left_HipPitch` (rad)
-//! - `left_KneePitch` (rad)
-//! - `left_AnklePitch` (rad)
-//! - `left_AnkleRoll` (rad)
-//! - `right_HipRoll` (rad)
-//! - `right_HipPitch` (rad)
-//! - `right_KneePitch` (rad)
-//! - `right_AnklePitch` (rad)
-//! - `right_AnkleRoll` (rad)
+//! Joints, in order; angles lie in (-pi, pi]: `TorsoYaw` (rad), `TorsoPitch` (rad), `TorsoRoll` (rad), `HipYawPitch` (rad), `left_HipRoll` (rad), `left_HipPitch` (rad), `left_KneePitch` (rad), `left_AnklePitch` (rad), `left_AnkleRoll` (rad), `right_HipRoll` (rad), `right_HipPitch` (rad), `right_KneePitch` (rad), `right_AnklePitch` (rad), `right_AnkleRoll` (rad).
 //!
-//! A target has 270 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
-//!
-//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
-//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
-//!
-//! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
-//! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
-#![allow(unexpected_cfgs, non_snake_case, clippy::all)]
+//! With `use nao_legs_yaw::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
+//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+#![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
+
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
+pub use groebot_runtime::{Error, Solve};
+
+/// Inverse kinematics of `nao_legs_yaw`: what is particular to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver;
+
+/// One answer.
+pub type Solution = groebot_runtime::Solution<Solver>;
+/// One answer by cosines and sines.
+pub type Pairs = groebot_runtime::Pairs<Solver>;
 
 /// Numbers of a target.
 pub const INPUTS: usize = 26;
@@ -43,424 +35,31 @@ pub const INPUTS: usize = 26;
 pub const JOINTS: usize = 14;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 270;
+/// No answer yet: what a buffer is filled with.
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-#[allow(dead_code)]
 pub const INPUT_NAMES: [&str; INPUTS] = ["left_px", "left_py", "left_pz", "left_r11", "left_r12", "left_r13", "left_r21", "left_r22", "left_r23", "left_r31", "left_r32", "left_r33", "left_TorsoPitch", "left_TorsoRoll", "right_px", "right_py", "right_pz", "right_r11", "right_r12", "right_r13", "right_r21", "right_r22", "right_r23", "right_r31", "right_r32", "right_r33"];
 /// The names of the joints, in order.
-#[allow(dead_code)]
 pub const JOINT_NAMES: [&str; JOINTS] = ["TorsoYaw", "TorsoPitch", "TorsoRoll", "HipYawPitch", "left_HipRoll", "left_HipPitch", "left_KneePitch", "left_AnklePitch", "left_AnkleRoll", "right_HipRoll", "right_HipPitch", "right_KneePitch", "right_AnklePitch", "right_AnkleRoll"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-#[allow(dead_code)]
 pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [-1.145285055158679, 0.7407177345463934], [-0.3794345793835672, 0.7904596182282319], [-1.53588974175501, 0.4839798015780276], [-0.09232791743050003, 2.1125465266139365], [-1.1894418852341357, 0.9225810426042026], [-0.3977605365295077, 0.7689920684287016], [-0.7904596182282319, 0.3794345793835672], [-1.53588974175501, 0.4839798015780276], [-0.10297442586766545, 2.120051442397512], [-1.1863002925805457, 0.9320058205649719], [-0.7689920684287016, 0.39793506945470714]];
 
-/// One answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
-    /// Joint values, in order and unit of the joints.
-    pub q: [f64; JOINTS],
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which cases and which roots gave it.
-    pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
-    pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a self-motion.
-    pub free: [bool; JOINTS],
-}
-
-impl Solution {
-    /// No answer yet: what a buffer is filled with before [`solve`].
-    #[allow(dead_code)]
-    pub const EMPTY: Solution =
-        Solution { q: [0.0; JOINTS], residual: 0.0, branch: 0, chosen: false, free: [false; JOINTS] };
-}
-
-/// Why a target has no answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// A number of the target is infinite or not a number.
-    NotFinite,
-    /// The rotation of the target is off by more than `CONSISTENT`.
-    NotRotation,
-    /// The direction of the target is not of length one within `CONSISTENT`.
-    NotUnit,
-    /// The target lies on this stratum, which could not be derived.
-    OpenStratum(&'static str),
-}
-
-/// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
-///
-/// # Errors
-/// As [`Error`] says; the content of `out` has no meaning then.
-pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    answers.sort();
-    Ok(answers.count)
-}
-
-/// One answer by cosines and sines.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
-    pub joints: [[f64; 2]; JOINTS],
-    /// As in [`Solution`].
-    pub residual: f64,
-    /// As in [`Solution`].
-    pub branch: usize,
-    /// As in [`Solution`].
-    pub free: [bool; JOINTS],
-}
-
-impl Pairs {
-    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
-    #[allow(dead_code)]
-    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
-}
-
-/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
-/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    let count = answers.count;
-    if answers.usual {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
-    }
-    let mut list = [Solution::EMPTY; CAPACITY];
-    let count = solve(target, &mut list)?;
-    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
-        *pairs = Pairs { joints, residual, branch, free };
-    }
-    Ok(count)
-}
-
-/// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
-/// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
-#[allow(dead_code)]
-pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    let Ok(target) = &conform(target) else { return f64::NAN };
-    let mut largest = 0.0;
-    for value in equations(&parameters(target), &place(q)).value {
-        if value.is_nan() {
-            return value;
-        }
-        largest = f64::max(largest, value.abs());
-    }
-    largest
-}
-
-/// The target that joint values `q` reach.
-#[allow(dead_code)]
-pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(&place(q));
-    [reached[4], reached[5], reached[6], reached[7], reached[10], reached[13], reached[8], reached[11], reached[14], reached[9], reached[12], reached[15], angle(reached[0], reached[1]), angle(reached[2], reached[3]), reached[16], reached[17], reached[18], reached[19], reached[22], reached[25], reached[20], reached[23], reached[26], reached[21], reached[24], reached[27]]
-}
-
-/// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-/// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-/// within `limits`; at most [`MOST_TURNS`].
-#[allow(dead_code)]
-pub fn count_turns(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> usize {
-    let mut count = 1.0;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return 0;
-        }
-        let (first, last) = finite_turns(first, last);
-        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
-    }
-    count as usize
-}
-
-/// The most turns that are counted.
-pub const MOST_TURNS: usize = 1_000_000;
-
-/// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
-#[allow(dead_code)]
-pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) -> [f64; JOINTS] {
-    let mut out = *q;
-    for i in (0..JOINTS).rev() {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        let (first, last) = finite_turns(first, last);
-        let count = (last - first) as usize + 1;
-        out[i] += TURNS[i] * (first + (index % count) as f64);
-        index /= count;
-    }
-    out
-}
-
-/// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let count = solve(target, out)?;
-    let target = &conform(target)?;
-    let p = &parameters(target);
-    let mut kept = 0;
-    for k in 0..count {
-        let answer = out[k];
-        if let Some(q) = turned_within(&answer.q, limits) {
-            out[kept] = Solution { q, ..answer };
-            kept += 1;
-        } else if let Some((q, residual)) = strides_within(p, &answer, limits) {
-            out[kept] = Solution { q, residual, ..answer };
-            kept += 1;
-        }
-    }
-    Ok(kept)
-}
-
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
-fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64; JOINTS]> {
-    let mut place = *q;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return None;
-        }
-        place[i] += TURNS[i] * nearest_turn(0.0, first, last);
-    }
-    Some(place)
-}
-
-/// How far, and how often, a free joint is moved in search of a place within limits: rad, or a share of a length; a whole turn in all.
-const STRIDE: f64 = 0.1;
-const STRIDES: usize = 63;
-
-/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
-/// when it meets no such place.
-fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
-    for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
-        let mut q = answer.q;
-        for _ in 0..STRIDES {
-            let (next, fit) = follow(p, moved(&q, i / 2, if i % 2 == 0 { STRIDE } else { -STRIDE }), &answer.free);
-            if !fit.accepted {
-                break;
-            }
-            if let Some(place) = turned_within(&next, limits) {
-                return Some((place, fit.residual));
-            }
-            q = next;
-        }
-    }
-    None
-}
-
-/// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-/// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-/// its weight, which is not negative.
-#[allow(dead_code)]
-pub fn nearest(list: &[Solution], reference: &[f64; JOINTS], weights: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<(usize, [f64; JOINTS])> {
-    let mut least = f64::INFINITY;
-    let mut best = None;
-    for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q, 0.0);
-        for i in 0..JOINTS {
-            let (first, last) = turns_within(i, answer.q[i], limits[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if TURNS[i] > 0.0 { ((reference[i] - answer.q[i]) / TURNS[i]).round() } else { 0.0 };
-            place[i] += TURNS[i] * nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
-        }
-    }
-    best
-}
-
-/// How far a joint may be beyond a limit.
-const SLACK: f64 = 1e-9;
-/// By joint: a turn of an angle, 0 for a length.
-const TURNS: [f64; JOINTS] = [TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU, TAU];
-
-/// The least and the greatest number of turns that bring joint `i` within its limits: the first is greater when none does.
-fn turns_within(i: usize, value: f64, limit: [f64; 2]) -> (f64, f64) {
-    let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
-    if TURNS[i] > 0.0 {
-        return ((low / TURNS[i]).ceil(), (high / TURNS[i]).floor());
-    }
-    (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
-}
-
-/// The number of turns between bounds that is nearest to another.
-fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
-    f64::min(f64::max(turn, first), last) + 0.0
-}
-
-/// The bounds, brought together where one is infinite, and not too far apart.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
-    if !first.is_finite() || !last.is_finite() {
-        first = nearest_turn(0.0, first, last);
-        last = first;
-    }
-    (first, f64::min(last, first + MOST_TURNS as f64))
-}
-
-const EQUATIONS: usize = 28;
-/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
-const ACCEPT: f64 = 1e-12;
-/// Answers whose joints all differ by no more than this are one.
-const MERGE: f64 = 1e-7;
-/// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.05;
-/// Half-way between two that are one the equations hold within this share.
-const ALIKE: f64 = 2.5e-15;
-/// Where no pivot is below this share of the largest, an answer is a root of its own.
-const DISTINCT: f64 = 0.0001;
-/// What rounding leaves of an equation that holds, as a share of its size.
-const RESOLUTION: f64 = 1e-14;
-/// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve a miss by more than rounding are the last.
-const PATIENCE: usize = 3;
-/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
-const OVERSHOT: f64 = 100.0;
-/// Shares of the squared Jacobian's size that are added where a plain step fails.
-const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 0.001, 1e-18];
-/// A candidate that misses the equations by this share of their size at most may be a double root.
-const APART: f64 = 0.7;
-const SPLIT: f64 = 0.001;
-/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
-const LEVER: f64 = 0.1;
-/// Points around a candidate are so much farther where no nearer one leads to an answer.
-const FARTHER: f64 = 16.0;
-const FARTHEST: f64 = 256.0;
-/// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
-/// is added to it in these.
-const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-const RETURNS: usize = 4;
-const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
-const POLISHED: f64 = 1e-15;
-const SHORT: f64 = 1e-9;
-/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
-const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
-const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a self-motion.
-const ASIDE: f64 = 0.1;
-const NARROWS: usize = 5;
-const SINGULAR: f64 = 1e-13;
-const REGULAR: f64 = 1e-6;
-/// In how many stages, each twice as far as the one before.
-const DOUBLINGS: i32 = 8;
-/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
-const ARRIVED: f64 = 0.001;
-/// In how many stages a self-motion is followed from one member to another.
-const STAGES: usize = 4;
-/// A rotation or a unit vector may be this far from one.
-const CONSISTENT: f64 = 1e-9;
-/// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
-const NEAR: f64 = 0.001;
-const BESIDE: f64 = 1e-7;
-/// A factor is not zero above this share of its scale.
-const TINY: f64 = 1e-30;
-const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some case frees: that joint alone.
-const FREED: [[bool; JOINTS]; 6] = [[true, false, false, false, false, false, false, false, false, false, false, false, false, false], [false, false, false, true, false, false, false, false, false, false, false, false, false, false], [false, false, false, false, false, false, false, true, false, false, false, false, false, false], [false, false, false, false, false, false, false, false, true, false, false, false, false, false], [false, false, false, false, false, false, false, false, false, false, false, false, true, false], [false, false, false, false, false, false, false, false, false, false, false, false, false, true]];
-
-/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
-fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
-    if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::NotFinite);
-    }
-    let mut target = *target;
-    if !make_rotation(&mut target[3..12]) {
-        return Err(Error::NotRotation);
-    }
-    if !make_rotation(&mut target[17..26]) {
-        return Err(Error::NotRotation);
-    }
-    Ok(target)
-}
-
-/// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
-fn make_rotation(r: &mut [f64]) -> bool {
-    let mut excess = [[0.0; 3]; 3];
-    let mut deviation = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
-            deviation = f64::max(excess[i][j].abs(), deviation);
-        }
-    }
-    let determinant =
-        r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
-    for i in 0..9 {
-        let (row, column) = (excess[i / 3], i % 3);
-        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
-    }
-    determinant >= 0.0 && deviation <= CONSISTENT
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Parameters of the equations.
-struct Parameters {
-    left_px: f64, left_py: f64, left_pz: f64, left_r11: f64, left_r12: f64, left_r13: f64,
-    left_r21: f64, left_r22: f64, left_r23: f64, left_r31: f64, left_r32: f64, left_r33: f64,
-    left_c2: f64, left_s2: f64, left_c3: f64, left_s3: f64, right_px: f64, right_py: f64,
-    right_pz: f64, right_r11: f64, right_r12: f64, right_r13: f64, right_r21: f64, right_r22: f64,
-    right_r23: f64, right_r31: f64, right_r32: f64, right_r33: f64,
-    /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
-    magnitude: f64,
-}
-
-fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
-    let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
-    let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10]; let left_r33 = target[11];
-    let left_c2 = target[12].cos(); let left_s2 = target[12].sin(); let left_c3 = target[13].cos();
-    let left_s3 = target[13].sin(); let right_px = target[14]; let right_py = target[15];
-    let right_pz = target[16]; let right_r11 = target[17]; let right_r12 = target[18];
-    let right_r13 = target[19]; let right_r21 = target[20]; let right_r22 = target[21];
-    let right_r23 = target[22]; let right_r31 = target[23]; let right_r32 = target[24];
-    let right_r33 = target[25];
-    let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(0.3467054146165801, f64::abs(left_px)), f64::abs(left_py)), f64::abs(left_pz)), f64::abs(left_r11)), f64::abs(left_r12)), f64::abs(left_r13)), f64::abs(left_r21)), f64::abs(left_r22)), f64::abs(left_r23)), f64::abs(left_r31)), f64::abs(left_r32)), f64::abs(left_r33)), f64::abs(left_c2)), f64::abs(left_s2)), f64::abs(left_c3)), f64::abs(left_s3)), f64::abs(right_px)), f64::abs(right_py)), f64::abs(right_pz)), f64::abs(right_r11)), f64::abs(right_r12)), f64::abs(right_r13)), f64::abs(right_r21)), f64::abs(right_r22)), f64::abs(right_r23)), f64::abs(right_r31)), f64::abs(right_r32)), f64::abs(right_r33));
-    Parameters { left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude }
-}
-
-/// What the blocks so far have found, and the choices made.
-#[derive(Clone, Copy)]
-struct Known {
-    /// The branch number so far.
-    branch: usize,
-    /// The end of the branch numbers of the first block's case.
-    last: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
-    close: bool,
-    free: [bool; JOINTS],
-    left_c2_: f64, left_s2_: f64, left_c3_: f64, left_s3_: f64, left_c1: f64, left_s1: f64,
-    left_c4: f64, left_s4: f64, left_c7: f64, left_s7: f64, left_c9: f64, left_s9: f64, left_c8: f64,
-    left_s8: f64, left_c5: f64, left_s5: f64, left_c6: f64, left_s6: f64, right_c7: f64,
-    right_s7: f64, right_c9: f64, right_s9: f64, right_c8: f64, right_s8: f64, right_c5: f64,
-    right_s5: f64,
-}
-
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, left_c2_: 0.0, left_s2_: 0.0, left_c3_: 0.0, left_s3_: 0.0, left_c1: 0.0, left_s1: 0.0, left_c4: 0.0, left_s4: 0.0, left_c7: 0.0, left_s7: 0.0, left_c9: 0.0, left_s9: 0.0, left_c8: 0.0, left_s8: 0.0, left_c5: 0.0, left_s5: 0.0, left_c6: 0.0, left_s6: 0.0, right_c7: 0.0, right_s7: 0.0, right_c9: 0.0, right_s9: 0.0, right_c8: 0.0, right_s8: 0.0, right_c5: 0.0, right_s5: 0.0 };
+const FACTS: Facts<'static> = Facts {
+    inputs: INPUTS,
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3]), Joint::Angle([4, 5]), Joint::Angle([6, 7]), Joint::Angle([8, 9]), Joint::Angle([10, 11]), Joint::Angle([12, 13]), Joint::Angle([14, 15]), Joint::Angle([16, 17]), Joint::Angle([18, 19]), Joint::Angle([20, 21]), Joint::Angle([22, 23]), Joint::Angle([24, 25]), Joint::Angle([26, 27])],
+    last_first: &[10, 9, 12, 13, 11, 5, 4, 7, 8, 6, 3, 0, 2, 1],
+    places: 28,
+    size_of: &[0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+    sizes: 2,
+    compared: &[12, 13, 14, 15, 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11, 16, 17, 18, 19, 22, 25, 20, 23, 26, 21, 24, 27],
+    candidates: 16,
+    scale: 0.3467054146165801,
+    capacity: CAPACITY,
+    freed: &[0, 3, 7, 8, 12, 13],
+    conditions: &[Condition::Rotation(3), Condition::Rotation(17)],
+    reached: &[Reached::Value(4), Reached::Value(5), Reached::Value(6), Reached::Value(7), Reached::Value(10), Reached::Value(13), Reached::Value(8), Reached::Value(11), Reached::Value(14), Reached::Value(9), Reached::Value(12), Reached::Value(15), Reached::Angle([0, 1]), Reached::Angle([2, 3]), Reached::Value(16), Reached::Value(17), Reached::Value(18), Reached::Value(19), Reached::Value(22), Reached::Value(25), Reached::Value(20), Reached::Value(23), Reached::Value(26), Reached::Value(21), Reached::Value(24), Reached::Value(27)],
+    ..Facts::NONE
+};
 
 /// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 16] = [
@@ -482,85 +81,498 @@ const SAMPLES_2: [[f64; 2]; 8] = [
     [-0.38941834230865036, 0.9210609940028851], [-0.9266488253107329, 0.3759281241809912],
 ];
 
+impl Mechanism for Solver {
+    type Storage = Fixed<26, 29, 14, 28, 28, 2, 0, 16, 270, 630>;
+    const IS_SINGLE: bool = true;
+
+    #[inline(always)]
+    fn facts(&self) -> Facts<'_> {
+        FACTS
+    }
+
+    fn parameters<N: Number>(&self, target: &[N; 26]) -> [N; 29] where f64: With<N> {
+        let left_px = target[0]; let left_py = target[1]; let left_pz = target[2]; let left_r11 = target[3];
+        let left_r12 = target[4]; let left_r13 = target[5]; let left_r21 = target[6]; let left_r22 = target[7];
+        let left_r23 = target[8]; let left_r31 = target[9]; let left_r32 = target[10];
+        let left_r33 = target[11]; let left_c2 = N::cos(target[12]); let left_s2 = N::sin(target[12]);
+        let left_c3 = N::cos(target[13]); let left_s3 = N::sin(target[13]); let right_px = target[14];
+        let right_py = target[15]; let right_pz = target[16]; let right_r11 = target[17];
+        let right_r12 = target[18]; let right_r13 = target[19]; let right_r21 = target[20];
+        let right_r22 = target[21]; let right_r23 = target[22]; let right_r31 = target[23];
+        let right_r32 = target[24]; let right_r33 = target[25];
+        let magnitude = N::largest(0.3467054146165801, &[
+            left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+            left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11,
+            right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33,
+        ]);
+        [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31,
+        left_r32, left_r33, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11,
+        right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33,
+        magnitude]
+    }
+
+    #[inline(always)]
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 29], c: &mut C) where f64: With<N> {
+        block_1(p, c);
+    }
+
+    #[inline(always)]
+    fn tip<N: Number>(&self, at: &[N; 28]) -> [N; 28] where f64: With<N> {
+        tip(at)
+    }
+
+    #[inline(always)]
+    fn sizes<N: Number>(&self, p: &[N; 29], at: &[N; 28]) -> [N; 2] where f64: With<N> {
+
+        [N::of(1.0), N::of(0.3467054146165801)]
+    }
+
+    fn jacobian(&self, p: &[f64; 29], at: &[f64; 28]) -> [[f64; 14]; 28] {
+        jacobian(p, at)
+    }
+}
+
+/// Block 13: HipRoll.
+#[inline(always)]
+fn block_13<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found12: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9]: [N; 24], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, _] = *p;
+    let r6 = right_r12 * right_c9 - right_r13 * right_s9; let r8 = right_r22 * right_c9 - right_r23 * right_s9;
+    let r12 = left_c1 * r6 + left_s1 * r8; let r14 = right_r32 * right_c9 - right_r33 * right_s9;
+    let r18 = left_c1 * r8 - left_s1 * r6; let r19 = left_c3_ * r18; let r20 = left_c2_ * r14 + left_s2_ * r12;
+    let r21 = left_s3_ * r20; let r22 = left_c3_ * r20; let r23 = left_s3_ * r18;
+    let r40 = 0.5 * r19 + 0.5 * r21 + 0.5 * r22 - 0.5 * r23;
+    let r42 = r40 + 0.5 * (left_c4 * (r22 - r23 - r19 - r21));
+    let r43 = 0.7071067811865475 * (left_s4 * (left_c2_ * r12 - left_s2_ * r14)); let r44 = r42 + r43;
+    let r46 = r40 + 0.5 * (left_c4 * (r23 + (r19 + r21 - r22))); let r47 = r46 - r43;
+    let r52 = 1.0 / N::root(r47 * r47 + r44 * r44); let right_c5 = r47 * r52; let right_s5 = r44 * r52;
+    let r55 = right_c8 * right_s9; let r60 = 0.1029 * (right_c8 * right_c9) + 0.04519;
+    let r71 = right_px - 0.1029 * (right_r11 * right_s8) + 0.1029 * (right_r12 * r55);
+    let r72 = right_r13 * r60 + r71;
+    let r77 = right_py - 0.1029 * (right_r21 * right_s8) + 0.1029 * (right_r22 * r55);
+    let r78 = right_r23 * r60 + r77; let r82 = left_c1 * r72 + left_s1 * r78;
+    let r87 = right_pz - 0.1029 * (right_r31 * right_s8) + 0.1029 * (right_r32 * r55);
+    let r88 = right_r33 * r60 + r87; let r92 = left_c1 * r78 - left_s1 * r72;
+    let r94 = left_c2_ * r88 + left_s2_ * r82; let r101 = left_c3_ * r94 - left_s3_ * r92 - left_c3_ * r92;
+    let r109 = right_s7 * right_c8 + right_c7 * right_s8; let r110 = right_s9 * r109;
+    let r111 = right_c9 * r109; let r112 = right_c7 * right_c8 - right_s7 * right_s8;
+    let r123 = right_r13 * r111 + (right_r11 * r112 + right_r12 * r110);
+    let r126 = right_r23 * r111 + (right_r21 * r112 + right_r22 * r110);
+    let r130 = left_c1 * r123 + left_s1 * r126;
+    let r133 = right_r33 * r111 + (right_r31 * r112 + right_r32 * r110);
+    let r137 = left_c1 * r126 - left_s1 * r123; let r139 = left_c2_ * r133 + left_s2_ * r130;
+    let r144 = left_c4 * (left_c2_ * r130 - left_s2_ * r133);
+    let r146 = left_c3_ * r139 - left_s3_ * r137 - left_c3_ * r137;
+    let r149 = 0.7071067811865475 * (left_s4 * (r101 - left_s3_ * r94 + 0.035));
+    let r150 = left_c4 * (left_c2_ * r82 - left_s2_ * r88) - r149;
+    let r152 = 0.07071067811865475 * (left_s4 * (r146 - left_s3_ * r139)); let r153 = 0.1 * r144 - r152;
+    let r154 = 0.1 * r150; let r155 = 0.1 * r153; let r160 = 1.0 / N::root(r155 * r155 + r154 * r154);
+    let right_c6 = r155 * r160; let right_s6 = 0.0 - r154 * r160;
+    c.finish(&Solver, found12, &[
+        left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5,
+        left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
+        right_c6, right_s6, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9,
+    ]);
+}
+
+/// Block 12: AnklePitch.
+#[inline(always)]
+fn block_12<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found11: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9]: [N; 22], c: &mut C) where f64: With<N> {
+    let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, right_px, right_py, right_pz, right_r11, right_r12, right_r13, right_r21, right_r22, right_r23, right_r31, right_r32, right_r33, magnitude] = *p;
+    let before12 = c.count(); let r0 = right_c7 * right_s9; let r1 = right_s7 * right_s9;
+    let r2 = right_c7 * right_c9; let r3 = right_s7 * right_c9;
+    let r23 = right_r11 * right_s7 - right_r12 * r0 - right_r13 * r2;
+    let r26 = right_r13 * r3 + (right_r11 * right_c7 + right_r12 * r1);
+    let r29 = right_r21 * right_s7 - right_r22 * r0 - right_r23 * r2;
+    let r32 = right_r23 * r3 + (right_r21 * right_c7 + right_r22 * r1);
+    let r35 = right_r31 * right_s7 - right_r32 * r0 - right_r33 * r2;
+    let r38 = right_r33 * r3 + (right_r31 * right_c7 + right_r32 * r1);
+    let r54 = left_c1 * r29 - left_s1 * r23; let r56 = left_c1 * r32 - left_s1 * r26;
+    let r58 = left_c2_ * r35 + left_s2_ * (left_c1 * r23 + left_s1 * r29);
+    let r60 = left_c2_ * r38 + left_s2_ * (left_c1 * r26 + left_s1 * r32);
+    let r68 = 0.05 * (left_c3_ * r54) + 0.05 * (left_s3_ * r58);
+    let r72 = r68 + 0.085 * (left_c3_ * r58) - 0.085 * (left_s3_ * r54);
+    let r76 = right_py * r29 + (right_px * r23 + (r72 - 0.04519 * r2)); let r77 = right_pz * r35 + r76;
+    let r80 = 0.05 * (left_c3_ * r56) + 0.05 * (left_s3_ * r60);
+    let r84 = r80 + 0.085 * (left_c3_ * r60) - 0.085 * (left_s3_ * r56);
+    let r88 = right_py * r32 + (right_px * r26 + (r84 + 0.04519 * r3)); let r89 = right_pz * r38 + r88;
+    let r91 = 0.1029 * right_c7 + 0.1; let r92 = 0.1029 * right_s7;
+    let r95 = N::abs(15.0 * magnitude + 8.72179);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r99 = r95 * r95;
+    if c.is_usual(N::away(r77 * r77 + r89 * r89, 16.0 * (r99 + r99))) {
+        let r105 = r77 * r92 - (0.0 - r89 * r91); let r108 = r77 * r91 - r89 * r92;
+        let r113 = 1.0 / N::root(r108 * r108 + r105 * r105); let right_c8 = r108 * r113;
+        let right_s8 = r105 * r113; let found12 = found11.next(2, 0);
+        block_13(p, found12, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9], c);
+    }
+    // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: right_AnklePitch.
+    let r99 = r95 * r95;
+    if c.is_due(before12, N::near(r77 * r77 + r89 * r89, 1.0000000000000001e-7 * (r99 + r99)) & N::near(r92, N::of(0.004729)) & N::near(r91, N::of(0.011129))) {
+        for [right_c8, right_s8] in SAMPLES_2.map(|row| row.map(N::of)) {
+            let found12 = found11.next(2, 1).freeing(0b1000000000000);
+            rarely(|| block_13(p, found12, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9], c));
+        }
+    }
+}
+
+/// Block 8: HipRoll.
+#[inline(always)]
+fn block_8<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found7: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9]: [N; 14], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, _, _, _, _, right_px, right_py, right_pz, _, right_r12, right_r13, _, right_r22, right_r23, _, right_r32, right_r33, magnitude] = *p;
+    let r6 = left_r12 * left_c9 - left_r13 * left_s9; let r8 = left_r22 * left_c9 - left_r23 * left_s9;
+    let r12 = left_c1 * r6 + left_s1 * r8; let r14 = left_r32 * left_c9 - left_r33 * left_s9;
+    let r18 = left_c1 * r8 - left_s1 * r6; let r19 = left_c3_ * r18; let r20 = left_c2_ * r14 + left_s2_ * r12;
+    let r21 = left_s3_ * r20; let r22 = left_c3_ * r20; let r23 = left_s3_ * r18;
+    let r40 = 0.5 * r19 + 0.5 * r21 - 0.5 * r22 + 0.5 * r23;
+    let r41 = 0.5 * (left_c4 * (r21 + (r19 + (r22 - r23))));
+    let r43 = 0.7071067811865475 * (left_s4 * (left_c2_ * r12 - left_s2_ * r14)); let r44 = r43 - (r40 - r41);
+    let r46 = r40 + 0.5 * (left_c4 * (r22 + (r19 + r21) - r23)); let r47 = r43 + r46;
+    let r52 = 1.0 / N::root(r47 * r47 + r44 * r44); let left_c5 = r47 * r52; let left_s5 = r44 * r52;
+    let r55 = left_c8 * left_s9; let r60 = 0.1029 * (left_c8 * left_c9) + 0.04519;
+    let r71 = left_px - 0.1029 * (left_r11 * left_s8) + 0.1029 * (left_r12 * r55);
+    let r72 = left_r13 * r60 + r71;
+    let r77 = left_py - 0.1029 * (left_r21 * left_s8) + 0.1029 * (left_r22 * r55);
+    let r78 = left_r23 * r60 + r77; let r82 = left_c1 * r72 + left_s1 * r78;
+    let r87 = left_pz - 0.1029 * (left_r31 * left_s8) + 0.1029 * (left_r32 * r55);
+    let r88 = left_r33 * r60 + r87; let r92 = left_c1 * r78 - left_s1 * r72;
+    let r94 = left_c2_ * r88 + left_s2_ * r82; let r101 = left_c3_ * r92 + (left_c3_ * r94 - left_s3_ * r92);
+    let r109 = left_s7 * left_c8 + left_c7 * left_s8; let r110 = left_s9 * r109; let r111 = left_c9 * r109;
+    let r112 = left_c7 * left_c8 - left_s7 * left_s8;
+    let r123 = left_r13 * r111 + (left_r11 * r112 + left_r12 * r110);
+    let r126 = left_r23 * r111 + (left_r21 * r112 + left_r22 * r110);
+    let r130 = left_c1 * r123 + left_s1 * r126;
+    let r133 = left_r33 * r111 + (left_r31 * r112 + left_r32 * r110);
+    let r137 = left_c1 * r126 - left_s1 * r123; let r139 = left_c2_ * r133 + left_s2_ * r130;
+    let r144 = left_c4 * (left_c2_ * r130 - left_s2_ * r133);
+    let r146 = left_c3_ * r137 + (left_c3_ * r139 - left_s3_ * r137);
+    let r149 = 0.7071067811865475 * (left_s4 * (left_s3_ * r94 + r101 + 0.035));
+    let r150 = left_c4 * (left_c2_ * r82 - left_s2_ * r88) - r149;
+    let r152 = 0.07071067811865475 * (left_s4 * (left_s3_ * r139 + r146)); let r153 = 0.1 * r144 - r152;
+    let r154 = 0.1 * r150; let r155 = 0.1 * r153; let r160 = 1.0 / N::root(r155 * r155 + r154 * r154);
+    let left_c6 = r155 * r160; let left_s6 = 0.0 - r154 * r160; let r165 = right_px + 0.04519 * right_r13;
+    let r168 = right_py + 0.04519 * right_r23; let r171 = right_pz + 0.04519 * right_r33;
+    let r183 = left_c1 * r168 - left_s1 * r165;
+    let r185 = left_c2_ * r171 + left_s2_ * (left_c1 * r165 + left_s1 * r168);
+    let r191 = 2.0 * (right_px * r165) + 2.0 * (right_py * r168);
+    let r194 = r191 + 2.0 * (right_pz * r171) - right_px * right_px;
+    let r196 = r194 - right_py * right_py - right_pz * right_pz;
+    let r200 = r196 + 0.1 * (left_c3_ * r183) + 0.1 * (left_s3_ * r185);
+    let r204 = r200 + 0.17 * (left_c3_ * r185) - 0.17 * (left_s3_ * r183); let r205 = 0.0088212739 - r204;
+    let roots1 = N::grazing_roots(r205 * r205 - 0.00042353640000000005, N::of(1.4142135623730951));
+    for (i1, &right_w7) in roots1.as_slice().iter().enumerate() {
+        let right_c7 = 0.0 - 2361.0721534205795 * (0.02058 * r205);
+        let right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
+        let found10 = found7.next(2, i1).by_root(&roots1, i1);
+        // Block 11: AnkleRoll.
+        let before11 = c.count(); let r227 = right_r12 * left_c1 + right_r22 * left_s1;
+        let r229 = right_r13 * left_c1 + right_r23 * left_s1;
+        let r237 = right_r22 * left_c1 - right_r12 * left_s1; let r238 = left_c3_ * r237;
+        let r239 = right_r23 * left_c1 - right_r13 * left_s1; let r240 = left_c3_ * r239;
+        let r241 = right_r32 * left_c2_ + left_s2_ * r227; let r242 = left_s3_ * r241;
+        let r243 = right_r33 * left_c2_ + left_s2_ * r229; let r244 = left_s3_ * r243;
+        let r245 = left_c3_ * r241; let r246 = left_c3_ * r243; let r247 = left_s3_ * r237;
+        let r248 = left_s3_ * r239; let r250 = left_c4 * (left_c2_ * r227 - right_r32 * left_s2_);
+        let r252 = left_c4 * (left_c2_ * r229 - right_r33 * left_s2_);
+        let r267 = 0.05 * r238 + 0.05 * r242 + 0.085 * r245 - 0.085 * r247;
+        let r269 = right_py * right_r22 + (right_px * right_r12 + r267);
+        let r270 = right_pz * right_r32 + r269;
+        let r277 = 0.05 * r240 + 0.05 * r244 + 0.085 * r246 - 0.085 * r248;
+        let r279 = right_py * right_r23 + (right_px * right_r13 + r277);
+        let r281 = right_pz * right_r33 + r279 + 0.04519;
+        let r282 = 0.7071067811865475 * (left_s4 * (r245 - r247 - r238 - r242)); let r283 = r282 - r250;
+        let r284 = 0.7071067811865475 * (left_s4 * (r246 - r248 - r240 - r244)); let r285 = r252 - r284;
+        let r286 = 3.0 * magnitude; let r289 = N::abs(r286 + 1.585); let r290 = N::abs(r286 + 2.10599);
+        let r291 = r270 * r285; let r292 = r281 * r283; let r293 = 0.0 - r292; let r294 = r291 + r292;
+        let r297 = 37.0 * r289 + 37.0 * r290; let r298 = 0.001 * r297;
+        // Case 1: generic, where B*E - A*F is not zero.
+        if c.is_usual(N::away(r293 - r291, 16.0 * r297)) {
+            let right_c9 = N::of(0.0); let right_s9 = N::of(0.0); let found11 = found10.next(7, 0);
+            block_12(p, found11, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9], c);
+        }
+        // Case 2: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+        let r299 = r270 * r270; let r300 = r281 * r281; let r301 = r299 + r300;
+        let r304 = r289 * r289 + r290 * r290;
+        if c.is_due(before11, N::near(r294, r298) & N::away(r301, 16.0 * r304)) {
+            let roots2 = N::grazing_roots(0.0 - r299 - r300, N::root(r304));
+            for (i2, &right_w9) in roots2.as_slice().iter().enumerate() {
+                let r311 = 1.0 / r301; let right_c9 = right_w9 * r281 * r311;
+                let right_s9 = right_w9 * r270 * r311;
+                let found11 = found10.next(7, 1 + i2).by_root(&roots2, i2);
+                rarely(|| block_12(p, found11, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9], c));
+            }
+        }
+        // Case 3: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: right_AnkleRoll.
+        let r305 = 1.0000000000000001e-7 * (r289 * r289 + r290 * r290);
+        if c.is_due(before11, N::near(r294, r298) & N::near(r270 * r270 + r281 * r281, r305)) {
+            for [right_c9, right_s9] in SAMPLES_2.map(|row| row.map(N::of)) {
+                let found11 = found10.next(7, 3).freeing(0b10000000000000);
+                rarely(|| block_12(p, found11, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9], c));
+            }
+        }
+        // Case 4: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+        let r299 = r283 * r283; let r300 = r285 * r285; let r301 = r299 + r300;
+        if c.is_due(before11, N::near(r294, r298) & N::away(r301, N::of(43808.0))) {
+            let roots4 = N::grazing_roots(0.0 - r299 - r300, N::of(52.32590180780452));
+            for (i4, &right_w9) in roots4.as_slice().iter().enumerate() {
+                let r306 = 1.0 / r301; let right_c9 = 0.0 - right_w9 * r285 * r306;
+                let right_s9 = right_w9 * r283 * r306;
+                let found11 = found10.next(7, 4 + i4).by_root(&roots4, i4);
+                rarely(|| block_12(p, found11, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9], c));
+            }
+        }
+        // Case 5: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: right_AnkleRoll.
+        if c.is_due(before11, N::near(r294, r298) & N::near(r283 * r283 + r285 * r285, N::of(0.00027380000000000004))) {
+            for [right_c9, right_s9] in SAMPLES_2.map(|row| row.map(N::of)) {
+                let found11 = found10.next(7, 6).freeing(0b10000000000000);
+                rarely(|| block_12(p, found11, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9], c));
+            }
+        }
+    }
+}
+
+/// Block 7: AnklePitch.
+#[inline(always)]
+fn block_7<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found6: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9]: [N; 12], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, left_r13, left_r21, left_r22, left_r23, left_r31, left_r32, left_r33, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, magnitude] = *p;
+    let before7 = c.count(); let r0 = left_c7 * left_s9; let r1 = left_s7 * left_s9;
+    let r2 = left_c7 * left_c9; let r3 = left_s7 * left_c9;
+    let r23 = left_r11 * left_s7 - left_r12 * r0 - left_r13 * r2;
+    let r26 = left_r13 * r3 + (left_r11 * left_c7 + left_r12 * r1);
+    let r29 = left_r21 * left_s7 - left_r22 * r0 - left_r23 * r2;
+    let r32 = left_r23 * r3 + (left_r21 * left_c7 + left_r22 * r1);
+    let r35 = left_r31 * left_s7 - left_r32 * r0 - left_r33 * r2;
+    let r38 = left_r33 * r3 + (left_r31 * left_c7 + left_r32 * r1); let r54 = left_c1 * r29 - left_s1 * r23;
+    let r56 = left_c1 * r32 - left_s1 * r26;
+    let r58 = left_c2_ * r35 + left_s2_ * (left_c1 * r23 + left_s1 * r29);
+    let r60 = left_c2_ * r38 + left_s2_ * (left_c1 * r26 + left_s1 * r32);
+    let r68 = 0.05 * (left_c3_ * r54) + 0.05 * (left_s3_ * r58);
+    let r72 = r68 - 0.085 * (left_c3_ * r58) + 0.085 * (left_s3_ * r54);
+    let r76 = r72 + 0.04519 * r2 - left_px * r23 - left_py * r29; let r77 = left_pz * r35 - r76;
+    let r80 = 0.05 * (left_c3_ * r56) + 0.05 * (left_s3_ * r60);
+    let r84 = r80 - 0.085 * (left_c3_ * r60) + 0.085 * (left_s3_ * r56);
+    let r88 = r84 - 0.04519 * r3 - left_px * r26 - left_py * r32; let r89 = r88 - left_pz * r38;
+    let r91 = 0.1029 * left_c7 + 0.1; let r92 = 0.1029 * left_s7; let r95 = N::abs(15.0 * magnitude + 8.72179);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r99 = r95 * r95;
+    if c.is_usual(N::away(r77 * r77 + r89 * r89, 16.0 * (r99 + r99))) {
+        let r104 = r77 * r92 - r89 * r91; let r108 = r89 * r92 - (0.0 - r77 * r91);
+        let r113 = 1.0 / N::root(r108 * r108 + r104 * r104); let left_c8 = r108 * r113;
+        let left_s8 = r104 * r113; let found7 = found6.next(2, 0);
+        block_8(p, found7, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9], c);
+    }
+    // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: left_AnklePitch.
+    let r99 = r95 * r95;
+    if c.is_due(before7, N::near(r77 * r77 + r89 * r89, 1.0000000000000001e-7 * (r99 + r99)) & N::near(r92, N::of(0.004729)) & N::near(r91, N::of(0.011129))) {
+        for [left_c8, left_s8] in SAMPLES_2.map(|row| row.map(N::of)) {
+            let found7 = found6.next(2, 1).freeing(0b10000000);
+            rarely(|| block_8(p, found7, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9], c));
+        }
+    }
+}
+
+/// Block 5: KneePitch.
+#[inline(always)]
+fn block_5<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found4: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4]: [N; 8], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, _, left_r12, left_r13, _, left_r22, left_r23, _, left_r32, left_r33, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, magnitude] = *p;
+    let r1 = left_px + 0.04519 * left_r13; let r4 = left_py + 0.04519 * left_r23;
+    let r7 = left_pz + 0.04519 * left_r33; let r19 = left_c1 * r4 - left_s1 * r1;
+    let r21 = left_c2_ * r7 + left_s2_ * (left_c1 * r1 + left_s1 * r4);
+    let r29 = 2.0 * (left_px * r1) + 2.0 * (left_py * r4) + 2.0 * (left_pz * r7);
+    let r32 = r29 - left_px * left_px - left_py * left_py - left_pz * left_pz;
+    let r36 = r32 - 0.1 * (left_c3_ * r19) - 0.1 * (left_s3_ * r21);
+    let r40 = r36 + 0.17 * (left_c3_ * r21) - 0.17 * (left_s3_ * r19); let r41 = 0.0088212739 - r40;
+    let roots1 = N::grazing_roots(r41 * r41 - 0.00042353640000000005, N::of(1.4142135623730951));
+    for (i1, &left_w7) in roots1.as_slice().iter().enumerate() {
+        let left_c7 = 0.0 - 2361.0721534205795 * (0.02058 * r41);
+        let left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
+        let found5 = found4.next(2, i1).by_root(&roots1, i1);
+        // Block 6: AnkleRoll.
+        let before6 = c.count(); let r63 = left_r12 * left_c1 + left_r22 * left_s1;
+        let r65 = left_r13 * left_c1 + left_r23 * left_s1; let r73 = left_r22 * left_c1 - left_r12 * left_s1;
+        let r74 = left_c3_ * r73; let r75 = left_r23 * left_c1 - left_r13 * left_s1; let r76 = left_c3_ * r75;
+        let r77 = left_r32 * left_c2_ + left_s2_ * r63; let r78 = left_s3_ * r77;
+        let r79 = left_r33 * left_c2_ + left_s2_ * r65; let r80 = left_s3_ * r79; let r81 = left_c3_ * r77;
+        let r82 = left_c3_ * r79; let r83 = left_s3_ * r73; let r84 = left_s3_ * r75;
+        let r86 = left_c4 * (left_c2_ * r63 - left_r32 * left_s2_);
+        let r88 = left_c4 * (left_c2_ * r65 - left_r33 * left_s2_);
+        let r103 = 0.05 * r74 + 0.05 * r78 - 0.085 * r81 + 0.085 * r83;
+        let r105 = r103 - left_px * left_r12 - left_py * left_r22; let r106 = left_pz * left_r32 - r105;
+        let r113 = 0.05 * r76 + 0.05 * r80 - 0.085 * r82 + 0.085 * r84;
+        let r115 = r113 - left_px * left_r13 - left_py * left_r23;
+        let r117 = r115 - left_pz * left_r33 - 0.04519;
+        let r118 = 0.7071067811865475 * (left_s4 * (r78 + (r74 + (r81 - r83)))); let r119 = r118 - r86;
+        let r120 = 0.7071067811865475 * (left_s4 * (r80 + (r76 + (r82 - r84)))); let r121 = r88 - r120;
+        let r122 = 3.0 * magnitude; let r125 = N::abs(r122 + 1.585); let r126 = N::abs(r122 + 2.10599);
+        let r127 = r106 * r121; let r128 = r117 * r119; let r129 = r127 - r128;
+        let r132 = 37.0 * r125 + 37.0 * r126; let r133 = 0.001 * r132;
+        // Case 1: generic, where B*E - A*F is not zero.
+        if c.is_usual(N::away(r128 - r127, 16.0 * r132)) {
+            let left_c9 = N::of(0.0); let left_s9 = N::of(0.0); let found6 = found5.next(7, 0);
+            block_7(p, found6, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9], c);
+        }
+        // Case 2: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+        let r134 = r106 * r106; let r135 = r117 * r117; let r136 = r134 + r135;
+        let r139 = r125 * r125 + r126 * r126;
+        if c.is_due(before6, N::near(r129, r133) & N::away(r136, 16.0 * r139)) {
+            let roots2 = N::grazing_roots(0.0 - r134 - r135, N::root(r139));
+            for (i2, &left_w9) in roots2.as_slice().iter().enumerate() {
+                let r146 = 1.0 / r136; let left_c9 = 0.0 - left_w9 * r117 * r146;
+                let left_s9 = left_w9 * r106 * r146;
+                let found6 = found5.next(7, 1 + i2).by_root(&roots2, i2);
+                rarely(|| block_7(p, found6, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9], c));
+            }
+        }
+        // Case 3: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: left_AnkleRoll.
+        let r140 = 1.0000000000000001e-7 * (r125 * r125 + r126 * r126);
+        if c.is_due(before6, N::near(r129, r133) & N::near(r106 * r106 + r117 * r117, r140)) {
+            for [left_c9, left_s9] in SAMPLES_2.map(|row| row.map(N::of)) {
+                let found6 = found5.next(7, 3).freeing(0b100000000);
+                rarely(|| block_7(p, found6, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9], c));
+            }
+        }
+        // Case 4: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+        let r134 = r119 * r119; let r135 = r121 * r121; let r136 = r134 + r135;
+        if c.is_due(before6, N::near(r129, r133) & N::away(r136, N::of(43808.0))) {
+            let roots4 = N::grazing_roots(0.0 - r134 - r135, N::of(52.32590180780452));
+            for (i4, &left_w9) in roots4.as_slice().iter().enumerate() {
+                let r141 = 1.0 / r136; let left_c9 = 0.0 - left_w9 * r121 * r141;
+                let left_s9 = left_w9 * r119 * r141;
+                let found6 = found5.next(7, 4 + i4).by_root(&roots4, i4);
+                rarely(|| block_7(p, found6, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9], c));
+            }
+        }
+        // Case 5: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: left_AnkleRoll.
+        if c.is_due(before6, N::near(r129, r133) & N::near(r119 * r119 + r121 * r121, N::of(0.00027380000000000004))) {
+            for [left_c9, left_s9] in SAMPLES_2.map(|row| row.map(N::of)) {
+                let found6 = found5.next(7, 6).freeing(0b100000000);
+                rarely(|| block_7(p, found6, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9], c));
+            }
+        }
+    }
+}
+
+/// Block 4: HipYawPitch.
+fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found3: Found<N>, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_]: [N; 6], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, _, left_r21, left_r22, _, left_r31, left_r32, _, _, _, _, _, right_px, right_py, right_pz, right_r11, right_r12, _, right_r21, right_r22, _, right_r31, right_r32, _, magnitude] = *p;
+    let before4 = c.count(); let r12 = left_py * left_r31 - left_pz * left_r21 + 0.04519 * left_r12;
+    let r16 = left_pz * left_r11 - left_px * left_r31 + 0.04519 * left_r22;
+    let r20 = left_r11 * left_c1 + left_r21 * left_s1; let r25 = left_c1 * r12 + left_s1 * r16;
+    let r29 = left_px * left_r21 - left_py * left_r11 + 0.04519 * left_r32;
+    let r33 = left_r21 * left_c1 - left_r11 * left_s1; let r35 = left_r31 * left_c2_ + left_s2_ * r20;
+    let r39 = left_c1 * r16 - left_s1 * r12; let r41 = left_c2_ * r29 + left_s2_ * r25;
+    let r57 = right_py * right_r31 - right_pz * right_r21 + 0.04519 * right_r12;
+    let r61 = right_pz * right_r11 - right_px * right_r31 + 0.04519 * right_r22;
+    let r65 = right_r11 * left_c1 + right_r21 * left_s1; let r70 = left_c1 * r57 + left_s1 * r61;
+    let r74 = right_px * right_r21 - right_py * right_r11 + 0.04519 * right_r32;
+    let r78 = right_r21 * left_c1 - right_r11 * left_s1; let r80 = right_r31 * left_c2_ + left_s2_ * r65;
+    let r84 = left_c1 * r61 - left_s1 * r57; let r86 = left_c2_ * r74 + left_s2_ * r70;
+    let r92 = 0.085 * (left_c3_ * r33) + 0.085 * (left_s3_ * r35);
+    let r96 = r92 + 0.05 * (left_c3_ * r35) - 0.05 * (left_s3_ * r33);
+    let r98 = left_s2_ * r29 + (r96 - left_c2_ * r25);
+    let r102 = 0.09545941546018391 * (left_c2_ * r20) - 0.09545941546018391 * (left_r31 * left_s2_);
+    let r106 = r102 + 0.7071067811865475 * (left_c3_ * r41) - 0.7071067811865475 * (left_s3_ * r39);
+    let r110 = r106 + 0.7071067811865475 * (left_c3_ * r39) + 0.7071067811865475 * (left_s3_ * r41);
+    let r114 = 0.085 * (left_c3_ * r78) + 0.085 * (left_s3_ * r80);
+    let r118 = r114 - 0.05 * (left_c3_ * r80) + 0.05 * (left_s3_ * r78);
+    let r120 = left_s2_ * r74 + (r118 - left_c2_ * r70);
+    let r124 = 0.09545941546018391 * (left_c2_ * r65) - 0.09545941546018391 * (right_r31 * left_s2_);
+    let r128 = r124 - 0.7071067811865475 * (left_c3_ * r86) + 0.7071067811865475 * (left_s3_ * r84);
+    let r132 = r128 + 0.7071067811865475 * (left_c3_ * r84) + 0.7071067811865475 * (left_s3_ * r86);
+    let r136 = 31.112698372208087 * magnitude + 15.51164589539743;
+    let r137 = N::abs(30.0 * magnitude + 18.23985); let r138 = N::abs(r136); let r139 = r98 * r132;
+    let r141 = r110 * r120; let r142 = 0.0 - r139 - r141; let r143 = r137 * r138; let r144 = r143 + r143;
+    let r145 = 0.001 * r144;
+    // Case 1: generic, where B*E - A*F is not zero.
+    if c.is_usual(N::away(r139 + r141, 16.0 * r144)) {
+        let left_c4 = N::of(0.0); let left_s4 = N::of(0.0); let found4 = found3.next(7, 0);
+        block_5(p, found4, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4], c);
+    }
+    // Case 2: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+    let r146 = r98 * r98; let r147 = r110 * r110; let r148 = r146 + r147; let r151 = r137 * r137 + r138 * r138;
+    if c.is_due(before4, N::near(r142, r145) & N::away(r148, 16.0 * r151)) {
+        let roots1 = N::grazing_roots(0.0 - r146 - r147, N::root(r151));
+        for (i1, &left_w4) in roots1.as_slice().iter().enumerate() {
+            let r163 = 1.0 / r148; let left_c4 = left_w4 * r110 * r163;
+            let left_s4 = 0.0 - left_w4 * r98 * r163;
+            let found4 = found3.next(7, 1 + i1).by_root(&roots1, i1);
+            rarely(|| block_5(p, found4, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4], c));
+        }
+    }
+    // Case 3: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: HipYawPitch.
+    let r152 = 1.0000000000000001e-7 * (r137 * r137 + r138 * r138);
+    if c.is_due(before4, N::near(r142, r145) & N::near(r98 * r98 + r110 * r110, r152)) {
+        for [left_c4, left_s4] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found4 = found3.next(7, 3).freeing(0b1000);
+            rarely(|| block_5(p, found4, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4], c));
+        }
+    }
+    // Case 4: generic, where A*F - B*E is near zero and A^2 + B^2 is not zero.
+    let r146 = r120 * r120; let r147 = r132 * r132; let r148 = r146 + r147;
+    let r151 = r137 * r137 + r138 * r138;
+    if c.is_due(before4, N::near(r142, r145) & N::away(r148, 16.0 * r151)) {
+        let roots3 = N::grazing_roots(0.0 - r146 - r147, N::root(r151));
+        for (i3, &left_w4) in roots3.as_slice().iter().enumerate() {
+            let r164 = 1.0 / r148; let left_c4 = 0.0 - left_w4 * r132 * r164;
+            let left_s4 = 0.0 - left_w4 * r120 * r164;
+            let found4 = found3.next(7, 4 + i3).by_root(&roots3, i3);
+            rarely(|| block_5(p, found4, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4], c));
+        }
+    }
+    // Case 5: A = 0, B = 0, C = 0, where A*F - B*E is near zero and A^2 + B^2 is near zero; free: HipYawPitch.
+    let r152 = 1.0000000000000001e-7 * (r137 * r137 + r138 * r138);
+    if c.is_due(before4, N::near(r142, r145) & N::near(r120 * r120 + r132 * r132, r152)) {
+        for [left_c4, left_s4] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found4 = found3.next(7, 6).freeing(0b1000);
+            rarely(|| block_5(p, found4, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4], c));
+        }
+    }
+}
+
 /// Block 1: TorsoPitch.
-fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    case_1_1(p, answers);
-}
-
-/// Case 1 of block 1: given.
-#[inline(always)]
-fn case_1_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let left_c2_ = p.left_c2; let left_s2_ = p.left_s2;
-    let next = Known { branch: 0, last: 1, close: false, left_c2_, left_s2_, ..NOTHING_KNOWN };
-    block_2(p, &next, answers);
-}
-
-/// Block 2: TorsoRoll.
-#[inline(always)]
-fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    case_2_1(p, known, answers);
-}
-
-/// Case 1 of block 2: given.
-#[inline(always)]
-fn case_2_1(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let left_c3_ = p.left_c3; let left_s3_ = p.left_s3;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c3_, left_s3_, ..*known };
-    block_3(p, &next, answers);
-}
-
-/// Block 3: TorsoYaw.
-#[inline(always)]
-fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r9 = p.left_r31 * known.left_c2_;
-    let r10 = p.left_r11 * known.left_s2_; let r11 = p.left_r21 * known.left_s2_;
-    let r12 = p.left_py * p.left_r31 - p.left_pz * p.left_r21; let r14 = r12 + 0.04519 * p.left_r12;
-    let r16 = p.left_pz * p.left_r11 - p.left_px * p.left_r31; let r18 = r16 + 0.04519 * p.left_r22;
-    let r20 = p.left_px * p.left_r21 - p.left_py * p.left_r11; let r22 = r20 + 0.04519 * p.left_r32;
-    let r24 = known.left_c2_ * r22; let r25 = known.left_s2_ * r14; let r26 = known.left_s2_ * r18;
-    let r56 = p.right_r31 * known.left_c2_; let r57 = p.right_r11 * known.left_s2_;
-    let r58 = p.right_r21 * known.left_s2_; let r59 = p.right_py * p.right_r31 - p.right_pz * p.right_r21;
-    let r61 = r59 + 0.04519 * p.right_r12; let r63 = p.right_pz * p.right_r11 - p.right_px * p.right_r31;
-    let r65 = r63 + 0.04519 * p.right_r22; let r67 = p.right_px * p.right_r21 - p.right_py * p.right_r11;
-    let r69 = r67 + 0.04519 * p.right_r32; let r71 = known.left_c2_ * r69; let r72 = known.left_s2_ * r61;
-    let r73 = known.left_s2_ * r65;
-    let r96 = 0.085 * (p.left_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r10);
-    let r100 = r96 + 0.05 * (known.left_c3_ * r10) - 0.05 * (p.left_r21 * known.left_s3_);
-    let r102 = known.left_c2_ * r14 - r100;
-    let r104 = known.left_c3_ * r25 + 0.135 * (p.left_r11 * known.left_c2_);
-    let r106 = known.left_c3_ * r18 + (r104 - known.left_s3_ * r18); let r107 = known.left_s3_ * r25 + r106;
-    let r111 = 0.085 * (known.left_s3_ * r9) + 0.05 * (known.left_c3_ * r9);
-    let r112 = known.left_s2_ * r22 + r111;
-    let r116 = 0.085 * (p.left_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r11);
-    let r120 = r116 - 0.05 * (known.left_c3_ * r11) - 0.05 * (p.left_r11 * known.left_s3_);
-    let r121 = known.left_c2_ * r18 + r120;
-    let r123 = known.left_c3_ * r26 + 0.135 * (p.left_r21 * known.left_c2_);
-    let r125 = known.left_s3_ * r14 + r123 - known.left_c3_ * r14; let r126 = known.left_s3_ * r26 + r125;
-    let r129 = 0.135 * (p.left_r31 * known.left_s2_) - known.left_c3_ * r24;
-    let r130 = r129 - known.left_s3_ * r24;
-    let r133 = 0.085 * (p.right_r21 * known.left_c3_) + 0.085 * (known.left_s3_ * r57);
-    let r137 = r133 - 0.05 * (known.left_c3_ * r57) + 0.05 * (p.right_r21 * known.left_s3_);
-    let r139 = known.left_c2_ * r61 - r137;
-    let r141 = 0.135 * (p.right_r11 * known.left_c2_) - known.left_c3_ * r72;
-    let r143 = known.left_c3_ * r65 + (known.left_s3_ * r65 + r141); let r144 = known.left_s3_ * r72 + r143;
-    let r147 = 0.085 * (known.left_s3_ * r56) - 0.05 * (known.left_c3_ * r56);
-    let r148 = known.left_s2_ * r69 + r147;
-    let r152 = 0.085 * (p.right_r11 * known.left_c3_) - 0.085 * (known.left_s3_ * r58);
-    let r156 = r152 + 0.05 * (known.left_c3_ * r58) + 0.05 * (p.right_r11 * known.left_s3_);
-    let r157 = known.left_c2_ * r65 + r156;
-    let r159 = 0.135 * (p.right_r21 * known.left_c2_) - known.left_c3_ * r73;
-    let r161 = r159 - known.left_s3_ * r61 - known.left_c3_ * r61; let r162 = known.left_s3_ * r73 + r161;
-    let r164 = known.left_c3_ * r71 + 0.135 * (p.right_r31 * known.left_s2_);
-    let r166 = known.left_s3_ * r71 - r164; let r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162;
-    let r176 = r107 * r139; let r178 = r102 * r144; let r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], c: &mut C) where f64: With<N> {
+    let [left_px, left_py, left_pz, left_r11, left_r12, _, left_r21, left_r22, _, left_r31, left_r32, _, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, _, right_r21, right_r22, _, right_r31, right_r32, _, magnitude] = *p;
+    let left_c2_ = left_c2; let left_s2_ = left_s2; let found1 = Found::first(0, 1); let left_c3_ = left_c3;
+    let left_s3_ = left_s3; let before3 = c.count(); let r9 = left_r31 * left_c2_;
+    let r10 = left_r11 * left_s2_; let r11 = left_r21 * left_s2_;
+    let r14 = left_py * left_r31 - left_pz * left_r21 + 0.04519 * left_r12;
+    let r18 = left_pz * left_r11 - left_px * left_r31 + 0.04519 * left_r22;
+    let r22 = left_px * left_r21 - left_py * left_r11 + 0.04519 * left_r32; let r24 = left_c2_ * r22;
+    let r25 = left_s2_ * r14; let r26 = left_s2_ * r18; let r56 = right_r31 * left_c2_;
+    let r57 = right_r11 * left_s2_; let r58 = right_r21 * left_s2_;
+    let r61 = right_py * right_r31 - right_pz * right_r21 + 0.04519 * right_r12;
+    let r65 = right_pz * right_r11 - right_px * right_r31 + 0.04519 * right_r22;
+    let r69 = right_px * right_r21 - right_py * right_r11 + 0.04519 * right_r32; let r71 = left_c2_ * r69;
+    let r72 = left_s2_ * r61; let r73 = left_s2_ * r65;
+    let r96 = 0.085 * (left_r21 * left_c3_) + 0.085 * (left_s3_ * r10);
+    let r100 = r96 + 0.05 * (left_c3_ * r10) - 0.05 * (left_r21 * left_s3_); let r102 = left_c2_ * r14 - r100;
+    let r104 = left_c3_ * r25 + 0.135 * (left_r11 * left_c2_);
+    let r107 = left_s3_ * r25 + (left_c3_ * r18 + (r104 - left_s3_ * r18));
+    let r111 = 0.085 * (left_s3_ * r9) + 0.05 * (left_c3_ * r9); let r112 = left_s2_ * r22 + r111;
+    let r116 = 0.085 * (left_r11 * left_c3_) - 0.085 * (left_s3_ * r11);
+    let r120 = r116 - 0.05 * (left_c3_ * r11) - 0.05 * (left_r11 * left_s3_); let r121 = left_c2_ * r18 + r120;
+    let r123 = left_c3_ * r26 + 0.135 * (left_r21 * left_c2_);
+    let r126 = left_s3_ * r26 + (left_s3_ * r14 + r123 - left_c3_ * r14);
+    let r129 = 0.135 * (left_r31 * left_s2_) - left_c3_ * r24; let r130 = r129 - left_s3_ * r24;
+    let r133 = 0.085 * (right_r21 * left_c3_) + 0.085 * (left_s3_ * r57);
+    let r137 = r133 - 0.05 * (left_c3_ * r57) + 0.05 * (right_r21 * left_s3_);
+    let r139 = left_c2_ * r61 - r137; let r141 = 0.135 * (right_r11 * left_c2_) - left_c3_ * r72;
+    let r144 = left_s3_ * r72 + (left_c3_ * r65 + (left_s3_ * r65 + r141));
+    let r147 = 0.085 * (left_s3_ * r56) - 0.05 * (left_c3_ * r56); let r148 = left_s2_ * r69 + r147;
+    let r152 = 0.085 * (right_r11 * left_c3_) - 0.085 * (left_s3_ * r58);
+    let r156 = r152 + 0.05 * (left_c3_ * r58) + 0.05 * (right_r11 * left_s3_);
+    let r157 = left_c2_ * r65 + r156; let r159 = 0.135 * (right_r21 * left_c2_) - left_c3_ * r73;
+    let r162 = left_s3_ * r73 + (r159 - left_s3_ * r61 - left_c3_ * r61);
+    let r164 = left_c3_ * r71 + 0.135 * (right_r31 * left_s2_); let r166 = left_s3_ * r71 - r164;
+    let r175 = r121 * r144 + r126 * r139 + r107 * r157 + r102 * r162; let r176 = r107 * r139;
+    let r178 = r102 * r144; let r184 = 0.0 - r176 - r178 + r126 * r157 + r121 * r162;
     let r190 = 0.0 - r112 * r144 - r130 * r139 - r107 * r148; let r192 = r190 + r102 * r166;
     let r198 = 0.0 - r112 * r162 - r126 * r148 - r130 * r157; let r200 = r198 + r121 * r166;
-    let r207 = r176 + r178 + r130 * r148 - r112 * r166; let r209 = 18.0 * p.magnitude + 10.53891;
-    let r211 = 24.0 * p.magnitude + 12.29688; let r212 = 6.0 * p.magnitude; let r213 = r212 + 2.83797;
-    let r214 = r212 + 4.86297; let r216 = 16.0 * p.magnitude + 6.98292; let r218 = 4.0 * p.magnitude + 2.65698;
-    let r219 = f64::abs(r102); let r220 = f64::abs(r107); let r221 = f64::abs(r112); let r222 = f64::abs(r121);
-    let r223 = f64::abs(r126); let r224 = f64::abs(r130); let r225 = f64::abs(r139); let r226 = f64::abs(r144);
-    let r227 = f64::abs(r148); let r228 = f64::abs(r157); let r229 = f64::abs(r162); let r230 = f64::abs(r166);
+    let r207 = r176 + r178 + r130 * r148 - r112 * r166; let r209 = 18.0 * magnitude + 10.53891;
+    let r211 = 24.0 * magnitude + 12.29688; let r212 = 6.0 * magnitude; let r213 = r212 + 2.83797;
+    let r214 = r212 + 4.86297; let r216 = 16.0 * magnitude + 6.98292; let r218 = 4.0 * magnitude + 2.65698;
+    let r219 = N::abs(r102); let r220 = N::abs(r107); let r221 = N::abs(r112); let r222 = N::abs(r121);
+    let r223 = N::abs(r126); let r224 = N::abs(r130); let r225 = N::abs(r139); let r226 = N::abs(r144);
+    let r227 = N::abs(r148); let r228 = N::abs(r157); let r229 = N::abs(r162); let r230 = N::abs(r166);
     let r237 = r216 * r225 + r209 * r223 + r214 * r226 + r211 * r222;
     let r243 = r237 + r211 * r228 + r214 * r220 + r209 * r229;
     let r252 = r211 * r225 + r209 * r220 + r209 * r226 + r211 * r219;
@@ -569,966 +581,154 @@ fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
     let r273 = r267 + r211 * r227 + r213 * r220 + r209 * r230;
     let r282 = r216 * r227 + r213 * r223 + r218 * r228 + r214 * r224;
     let r288 = r282 + r213 * r229 + r216 * r221 + r214 * r230;
-    let r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230; let r299 = f64::abs(r243 + r216 * r219);
-    let r300 = f64::abs(r258 + r216 * r222); let r301 = f64::abs(r273 + r218 * r219);
-    let r302 = f64::abs(r288 + r218 * r222); let r303 = f64::abs(r296 + r218 * r221);
-    let shared = &Shared3 { r175, r184, r192, r200, r207, r299, r300, r301, r302, r303 };
-    match greatest(&[claim_3_1(shared), claim_3_2(shared), claim_3_3(shared), claim_3_4(shared), claim_3_5(shared)]) {
-        0 => case_3_1(p, known, shared, answers),
-        1 => case_3_2(p, known, shared, answers),
-        2 => case_3_3(p, known, shared, answers),
-        3 => case_3_4(p, known, shared, answers),
-        4 => case_3_5(p, known, shared, answers),
+    let r296 = r252 + r218 * r227 + r213 * r224 + r213 * r230; let r299 = N::abs(r243 + r216 * r219);
+    let r300 = N::abs(r258 + r216 * r222); let r301 = N::abs(r273 + r218 * r219);
+    let r302 = N::abs(r288 + r218 * r222); let r303 = N::abs(r296 + r218 * r221);
+    let claim0 = {
+        let r315 = r192 - r207; let r320 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+        (N::away(r315, r320)).claim(r315)
+    };
+    let claim1 = {
+        let r315 = r207 + (r184 - r200); let r320 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+        (N::away(r315, r320)).claim(r315)
+    };
+    let claim2 = {
+        let r313 = r192 + r207; let r318 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+        (N::away(r313, r318)).claim(r313)
+    };
+    let claim3 = {
+        let r314 = r207 + (r184 + r200); let r319 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+        (N::away(r314, r319)).claim(r314)
+    };
+    let claim4 = {
+        let r327 = r175 + 1.3333333333333333 * r184 - 1.25 * r192;
+        let r329 = 2.0833333333333335 * r207 + (r327 - 1.6666666666666667 * r200);
+        let r334 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+        (N::away(r329, r334)).claim(r329)
+    };
+    match c.elect(&[claim0, claim1, claim2, claim3, claim4]) {
+        0 => {
+            // Case 1: half angle, where leading coefficient is not zero.
+            let r306 = 2.0 * r175; let r308 = 2.0 * r200; let r315 = r192 - r207;
+            let r320 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+            let roots1 = N::real_roots::<4>(&[
+                &[0.0 - r192 - r207, 0.0 - r306 - r308, 0.0 - 4.0 * r184 - 2.0 * r207, r306 - r308, r315],
+            ], N::of(1.0));
+            for (i1, &left_w1) in roots1.as_slice().iter().enumerate() {
+                let r321 = 0.5 * r192; let r322 = 0.5 * r207;
+                let r327 = left_w1 * (left_w1 * (r321 - r322) + (r175 - r200));
+                let r337 = r175 * (left_w1 * (r322 - r321) + (r200 - r175));
+                let r338 = r184 * (r327 - (r322 + (r321 + 2.0 * r184))) + r337;
+                let r347 = (left_w1 * r338 + r175 * (r321 + r322)) / (r175 * r175 + r184 * r184);
+                let r352 = 1.0 - (0.0 - left_w1 * r347); let r357 = 1.0 / N::root(r352 * r352 + r347 * r347);
+                let left_c1 = r352 * r357; let left_s1 = 0.0 - r347 * r357;
+                let found3 = found1.next(5, i1).by_root(&roots1, i1);
+                block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c);
+            }
+        }
+        1 => {
+            // Case 2: half angle, where leading coefficient is not zero.
+            let r306 = 2.0 * r175; let r308 = 2.0 * r192; let r315 = r207 + (r184 - r200);
+            let r320 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+            let roots2 = N::real_roots::<4>(&[
+                &[r207 + (r184 + r200), 0.0 - r306 - r308, 2.0 * r207 - 2.0 * r184, r306 - r308, r315],
+            ], N::of(1.0));
+            for (i2, &left_w1) in roots2.as_slice().iter().enumerate() {
+                let r321 = 0.5 * r184; let r322 = 0.5 * r200; let r324 = 0.5 * r207;
+                let r325 = r321 - r322 + r324;
+                let r331 = r175 * (left_w1 * r325 + (r175 - r192)) + r184 * r325;
+                let r334 = r324 + (r322 - r321);
+                let r339 = left_w1 * (left_w1 * r331 + (r175 * r334 - r184 * r192)); let r341 = r175 * r175;
+                let r347 = (r339 + (r184 * r334 - r341)) / (r341 + r184 * r184);
+                let r350 = left_w1 * (1.0 - r347); let r356 = 1.0 / N::root(r350 * r350 + r347 * r347);
+                let left_c1 = 0.0 - r350 * r356; let left_s1 = 0.0 - r347 * r356;
+                let found3 = found1.next(5, i2).by_root(&roots2, i2);
+                block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c);
+            }
+        }
+        2 => {
+            // Case 3: half angle, where leading coefficient is not zero.
+            let r305 = 2.0 * r175; let r306 = 2.0 * r200; let r313 = r192 + r207;
+            let r318 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+            let roots3 = N::real_roots::<4>(&[
+                &[r207 - r192, r305 - r306, 4.0 * r184 + 2.0 * r207, 0.0 - r305 - r306, r313],
+            ], N::of(1.0));
+            for (i3, &left_w1) in roots3.as_slice().iter().enumerate() {
+                let r319 = 0.5 * r192; let r320 = 0.5 * r207; let r323 = r175 + r200;
+                let r329 = left_w1 * (left_w1 * (r319 + r320) - r323) + (r320 + (2.0 * r184 - r319));
+                let r335 = r175 * (r323 + left_w1 * (0.0 - r319 - r320));
+                let r340 = left_w1 * (r184 * r329 + r335) + r175 * (r319 - r320);
+                let r345 = r340 / (r175 * r175 + r184 * r184); let r350 = left_w1 * r345 - 1.0;
+                let r355 = 1.0 / N::root(r350 * r350 + r345 * r345); let left_c1 = r350 * r355;
+                let left_s1 = 0.0 - r345 * r355;
+                let found3 = found1.next(5, i3).by_root(&roots3, i3);
+                block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c);
+            }
+        }
+        3 => {
+            // Case 4: half angle, where leading coefficient is not zero.
+            let r306 = 2.0 * r192; let r307 = 2.0 * r175; let r314 = r207 + (r184 + r200);
+            let r319 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+            let roots4 = N::real_roots::<4>(&[
+                &[r207 + (r184 - r200), r306 - r307, 2.0 * r207 - 2.0 * r184, r306 + r307, r314],
+            ], N::of(1.0));
+            for (i4, &left_w1) in roots4.as_slice().iter().enumerate() {
+                let r320 = 0.5 * r184; let r322 = 0.5 * r200; let r324 = 0.5 * r207;
+                let r328 = left_w1 * (0.0 - r320 - r322 - r324) - (r175 + r192); let r330 = r320 + r322;
+                let r334 = left_w1 * (r175 * r328 - r184 * (r324 + r330)); let r335 = r330 - r324;
+                let r340 = left_w1 * (r334 + (r175 * r335 - r184 * r192)); let r342 = r175 * r175;
+                let r348 = (r340 + (r184 * r335 + r342)) / (r342 + r184 * r184);
+                let r351 = left_w1 * (0.0 - r348 - 1.0); let r357 = 1.0 / N::root(r351 * r351 + r348 * r348);
+                let left_c1 = 0.0 - r351 * r357; let left_s1 = 0.0 - r348 * r357;
+                let found3 = found1.next(5, i4).by_root(&roots4, i4);
+                block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c);
+            }
+        }
+        4 => {
+            // Case 5: half angle, where leading coefficient is not zero.
+            let r305 = r175 + 1.3333333333333333 * r184; let r306 = 1.25 * r192;
+            let r308 = 1.6666666666666667 * r200; let r310 = 2.0833333333333335 * r207; let r312 = 4.0 * r184;
+            let r313 = 1.1666666666666667 * r175; let r315 = 3.3333333333333335 * r192; let r317 = 2.5 * r200;
+            let r323 = 0.3333333333333333 * r184 - 6.0 * r175 + 4.166666666666667 * r207;
+            let r329 = r310 + (r305 - r306 - r308);
+            let r334 = 1000000000000.0 * (r303 + (r302 + (r301 + (r299 + r300))));
+            let roots5 = N::real_roots::<4>(&[
+                &[r305 + r306 + r308 + r310, r312 - r313 - r315 + r317, r323, r317 + (r313 - r312 - r315), r329],
+            ], N::of(1.0));
+            for (i5, &left_w1) in roots5.as_slice().iter().enumerate() {
+                let r338 = 0.24 * r192; let r340 = 0.32 * r200; let r342 = 0.4 * r207;
+                let r343 = 0.192 * r175 + 0.112 * r184 - r338 - r340 + r342; let r348 = 0.82 * r192;
+                let r350 = 0.24 * r200; let r352 = 0.3 * r207;
+                let r353 = 0.368 * r175 - 0.552 * r184 - r348 + r350 + r352; let r356 = 0.18 * r192;
+                let r361 = left_w1 * (r350 + (r356 - 0.192 * r184) - r352); let r364 = 0.68 * r200;
+                let r368 = r184 * (r361 + (r342 + (r338 + 0.832 * r184 - r364)));
+                let r370 = left_w1 * (r175 * (left_w1 * r343 + r353) + r368);
+                let r376 = r342 + (r364 + (0.464 * r184 - 1.176 * r175 - r338));
+                let r383 = r175 * r376 + r184 * (r350 - 0.624 * r184 - r348 - r352);
+                let r390 = r350 + (r356 + (0.384 * r184 - 0.656 * r175));
+                let r397 = r184 * (r342 + (r340 + (r338 - 0.544 * r184)));
+                let r399 = left_w1 * (r370 + r383) + (r175 * (r352 + r390) + r397);
+                let r404 = r399 / (r175 * r175 + r184 * r184); let r409 = 0.6 - left_w1 * (0.8 - r404);
+                let r414 = 1.0 / N::root(r409 * r409 + r404 * r404); let left_c1 = r409 * r414;
+                let left_s1 = 0.0 - r404 * r414;
+                let found3 = found1.next(5, i5).by_root(&roots5, i5);
+                block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c);
+            }
+        }
         _ => {}
     }
-    case_3_6(p, known, shared, before, answers);
-}
-
-/// What the cases of block 3 share.
-struct Shared3 { r175: f64, r184: f64, r192: f64, r200: f64, r207: f64, r299: f64, r300: f64, r301: f64,
-    r302: f64, r303: f64 }
-
-/// Case 1 of block 3: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r200; let r315 = shared.r192 - shared.r207;
-    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
-        return;
-    }
-    let roots0 = real_roots(&[
-        0.0 - shared.r192 - shared.r207, 0.0 - r306 - r308, 0.0 - 4.0 * shared.r184 - 2.0 * shared.r207,
-        r306 - r308, r315,
-    ], 1.0);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r321 = 0.5 * shared.r192; let r322 = 0.5 * shared.r207;
-        let r326 = left_w1 * (r321 - r322) + (shared.r175 - shared.r200);
-        let r331 = left_w1 * r326 - (r322 + (r321 + 2.0 * shared.r184));
-        let r336 = left_w1 * (r322 - r321) + (shared.r200 - shared.r175);
-        let r339 = left_w1 * (shared.r184 * r331 + shared.r175 * r336);
-        let r345 = shared.r175 * shared.r175 + shared.r184 * shared.r184;
-        let r347 = (r339 + shared.r175 * (r321 + r322)) / r345; let r352 = 1.0 - (0.0 - left_w1 * r347);
-        let r356 = f64::max(r352 * r352 + r347 * r347, 0.0).sqrt(); let r357 = 1.0 / r356;
-        let left_c1 = r352 * r357; let left_s1 = 0.0 - r347 * r357;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
-    }
-}
-
-/// The pivot of case 1 of block 3; -1 where it does not run.
-fn claim_3_1(shared: &Shared3) -> f64 {
-    let r315 = shared.r192 - shared.r207; let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
-}
-
-/// Case 2 of block 3: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r175; let r308 = 2.0 * shared.r192;
-    let r315 = shared.r207 + (shared.r184 - shared.r200);
-    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if !is_away(r315, 1000000000000.0 * (shared.r303 + r318)) {
-        return;
-    }
-    let roots0 = real_roots(&[
-        shared.r207 + (shared.r184 + shared.r200), 0.0 - r306 - r308,
-        2.0 * shared.r207 - 2.0 * shared.r184, r306 - r308, r315,
-    ], 1.0);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r321 = 0.5 * shared.r184; let r322 = 0.5 * shared.r200; let r324 = 0.5 * shared.r207;
-        let r325 = r321 - r322 + r324; let r329 = shared.r175 * (left_w1 * r325 + (shared.r175 - shared.r192));
-        let r334 = r324 + (r322 - r321); let r337 = shared.r175 * r334 - shared.r184 * shared.r192;
-        let r339 = left_w1 * (left_w1 * (r329 + shared.r184 * r325) + r337);
-        let r341 = shared.r175 * shared.r175;
-        let r347 = (r339 + (shared.r184 * r334 - r341)) / (r341 + shared.r184 * shared.r184);
-        let r350 = left_w1 * (1.0 - r347); let r355 = f64::max(r350 * r350 + r347 * r347, 0.0).sqrt();
-        let r356 = 1.0 / r355; let left_c1 = 0.0 - r350 * r356; let left_s1 = 0.0 - r347 * r356;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
-    }
-}
-
-/// The pivot of case 2 of block 3; -1 where it does not run.
-fn claim_3_2(shared: &Shared3) -> f64 {
-    let r315 = shared.r207 + (shared.r184 - shared.r200);
-    let r318 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if is_away(r315, 1000000000000.0 * (shared.r303 + r318)) { f64::abs(r315) } else { -1.0 }
-}
-
-/// Case 3 of block 3: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_3_3(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r305 = 2.0 * shared.r175; let r306 = 2.0 * shared.r200; let r313 = shared.r192 + shared.r207;
-    let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if !is_away(r313, 1000000000000.0 * (shared.r303 + r316)) {
-        return;
-    }
-    let roots0 = real_roots(&[
-        shared.r207 - shared.r192, r305 - r306, 4.0 * shared.r184 + 2.0 * shared.r207, 0.0 - r305 - r306,
-        r313,
-    ], 1.0);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r319 = 0.5 * shared.r192; let r320 = 0.5 * shared.r207; let r323 = shared.r175 + shared.r200;
-        let r329 = left_w1 * (left_w1 * (r319 + r320) - r323) + (r320 + (2.0 * shared.r184 - r319));
-        let r335 = shared.r175 * (r323 + left_w1 * (0.0 - r319 - r320));
-        let r340 = left_w1 * (shared.r184 * r329 + r335) + shared.r175 * (r319 - r320);
-        let r343 = shared.r175 * shared.r175 + shared.r184 * shared.r184; let r345 = r340 / r343;
-        let r350 = left_w1 * r345 - 1.0; let r354 = f64::max(r350 * r350 + r345 * r345, 0.0).sqrt();
-        let r355 = 1.0 / r354; let left_c1 = r350 * r355; let left_s1 = 0.0 - r345 * r355;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
-    }
-}
-
-/// The pivot of case 3 of block 3; -1 where it does not run.
-fn claim_3_3(shared: &Shared3) -> f64 {
-    let r313 = shared.r192 + shared.r207; let r316 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if is_away(r313, 1000000000000.0 * (shared.r303 + r316)) { f64::abs(r313) } else { -1.0 }
-}
-
-/// Case 4 of block 3: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_3_4(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r306 = 2.0 * shared.r192; let r307 = 2.0 * shared.r175;
-    let r314 = shared.r207 + (shared.r184 + shared.r200);
-    let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if !is_away(r314, 1000000000000.0 * (shared.r303 + r317)) {
-        return;
-    }
-    let roots0 = real_roots(&[
-        shared.r207 + (shared.r184 - shared.r200), r306 - r307, 2.0 * shared.r207 - 2.0 * shared.r184,
-        r306 + r307, r314,
-    ], 1.0);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r320 = 0.5 * shared.r184; let r322 = 0.5 * shared.r200; let r324 = 0.5 * shared.r207;
-        let r328 = left_w1 * (0.0 - r320 - r322 - r324) - (shared.r175 + shared.r192); let r330 = r320 + r322;
-        let r333 = shared.r175 * r328 - shared.r184 * (r324 + r330); let r335 = r330 - r324;
-        let r338 = shared.r175 * r335 - shared.r184 * shared.r192; let r342 = shared.r175 * shared.r175;
-        let r344 = left_w1 * (left_w1 * r333 + r338) + (shared.r184 * r335 + r342);
-        let r348 = r344 / (r342 + shared.r184 * shared.r184); let r351 = left_w1 * (0.0 - r348 - 1.0);
-        let r356 = f64::max(r351 * r351 + r348 * r348, 0.0).sqrt(); let r357 = 1.0 / r356;
-        let left_c1 = 0.0 - r351 * r357; let left_s1 = 0.0 - r348 * r357;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
-    }
-}
-
-/// The pivot of case 4 of block 3; -1 where it does not run.
-fn claim_3_4(shared: &Shared3) -> f64 {
-    let r314 = shared.r207 + (shared.r184 + shared.r200);
-    let r317 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if is_away(r314, 1000000000000.0 * (shared.r303 + r317)) { f64::abs(r314) } else { -1.0 }
-}
-
-/// Case 5 of block 3: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_3_5(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r305 = shared.r175 + 1.3333333333333333 * shared.r184; let r306 = 1.25 * shared.r192;
-    let r308 = 1.6666666666666667 * shared.r200; let r310 = 2.0833333333333335 * shared.r207;
-    let r312 = 4.0 * shared.r184; let r313 = 1.1666666666666667 * shared.r175;
-    let r315 = 3.3333333333333335 * shared.r192; let r317 = 2.5 * shared.r200;
-    let r321 = 0.3333333333333333 * shared.r184 - 6.0 * shared.r175; let r329 = r310 + (r305 - r306 - r308);
-    let r332 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if !is_away(r329, 1000000000000.0 * (shared.r303 + r332)) {
-        return;
-    }
-    let roots0 = real_roots(&[
-        r305 + r306 + r308 + r310, r312 - r313 - r315 + r317, r321 + 4.166666666666667 * shared.r207,
-        r317 + (r313 - r312 - r315), r329,
-    ], 1.0);
-    for (i0, &left_w1) in roots0.as_slice().iter().enumerate() {
-        let r338 = 0.24 * shared.r192; let r339 = 0.192 * shared.r175 + 0.112 * shared.r184 - r338;
-        let r340 = 0.32 * shared.r200; let r342 = 0.4 * shared.r207; let r348 = 0.82 * shared.r192;
-        let r349 = 0.368 * shared.r175 - 0.552 * shared.r184 - r348; let r350 = 0.24 * shared.r200;
-        let r352 = 0.3 * shared.r207; let r354 = left_w1 * (r339 - r340 + r342) + (r349 + r350 + r352);
-        let r356 = 0.18 * shared.r192; let r361 = left_w1 * (r350 + (r356 - 0.192 * shared.r184) - r352);
-        let r364 = 0.68 * shared.r200; let r367 = r361 + (r342 + (r338 + 0.832 * shared.r184 - r364));
-        let r370 = left_w1 * (shared.r175 * r354 + shared.r184 * r367);
-        let r374 = 0.464 * shared.r184 - 1.176 * shared.r175 - r338;
-        let r382 = shared.r184 * (r350 - 0.624 * shared.r184 - r348 - r352);
-        let r384 = r370 + (shared.r175 * (r342 + (r364 + r374)) + r382);
-        let r389 = r356 + (0.384 * shared.r184 - 0.656 * shared.r175);
-        let r397 = shared.r184 * (r342 + (r340 + (r338 - 0.544 * shared.r184)));
-        let r399 = left_w1 * r384 + (shared.r175 * (r352 + (r350 + r389)) + r397);
-        let r402 = shared.r175 * shared.r175 + shared.r184 * shared.r184; let r404 = r399 / r402;
-        let r409 = 0.6 - left_w1 * (0.8 - r404); let r413 = f64::max(r409 * r409 + r404 * r404, 0.0).sqrt();
-        let r414 = 1.0 / r413; let left_c1 = r409 * r414; let left_s1 = 0.0 - r404 * r414;
-        let next = Known { branch: 5 * known.branch + i0, last: 5 * known.last, close: known.close || roots0.close, left_c1, left_s1, ..*known };
-        block_4(p, &next, answers);
-    }
-}
-
-/// The pivot of case 5 of block 3; -1 where it does not run.
-fn claim_3_5(shared: &Shared3) -> f64 {
-    let r305 = shared.r175 + 1.3333333333333333 * shared.r184;
-    let r328 = r305 - 1.25 * shared.r192 - 1.6666666666666667 * shared.r200;
-    let r329 = 2.0833333333333335 * shared.r207 + r328;
-    let r332 = shared.r302 + (shared.r301 + (shared.r299 + shared.r300));
-    if is_away(r329, 1000000000000.0 * (shared.r303 + r332)) { f64::abs(r329) } else { -1.0 }
-}
-
-/// Case 6 of block 3: A = B = C = D = E = 0.
-/// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
-/// Free: TorsoYaw.
-fn case_3_6(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    if !(is_near(shared.r175, 0.01 * shared.r299, NEAR) && is_near(shared.r184, 0.01 * shared.r300, NEAR) && is_near(shared.r192, 0.01 * shared.r301, NEAR) && is_near(shared.r200, 0.01 * shared.r302, NEAR) && is_near(shared.r207, 0.01 * shared.r303, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r175, 0.01 * shared.r299, BESIDE) && is_near(shared.r184, 0.01 * shared.r300, BESIDE) && is_near(shared.r192, 0.01 * shared.r301, BESIDE) && is_near(shared.r200, 0.01 * shared.r302, BESIDE) && is_near(shared.r207, 0.01 * shared.r303, BESIDE))) {
-        return;
-    }
-    for [left_c1, left_s1] in SAMPLES_1 {
-        let next = Known { branch: 5 * known.branch + 4, last: 5 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c1, left_s1, ..*known };
-        again_4(p, &next, answers);
-    }
-}
-
-/// Block 4: HipYawPitch.
-fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r10 = p.left_py * p.left_r31 - p.left_pz * p.left_r21;
-    let r12 = r10 + 0.04519 * p.left_r12; let r14 = p.left_pz * p.left_r11 - p.left_px * p.left_r31;
-    let r16 = r14 + 0.04519 * p.left_r22; let r20 = p.left_r11 * known.left_c1 + p.left_r21 * known.left_s1;
-    let r25 = known.left_c1 * r12 + known.left_s1 * r16;
-    let r27 = p.left_px * p.left_r21 - p.left_py * p.left_r11; let r29 = r27 + 0.04519 * p.left_r32;
-    let r33 = p.left_r21 * known.left_c1 - p.left_r11 * known.left_s1;
-    let r35 = p.left_r31 * known.left_c2_ + known.left_s2_ * r20;
-    let r39 = known.left_c1 * r16 - known.left_s1 * r12; let r41 = known.left_c2_ * r29 + known.left_s2_ * r25;
-    let r55 = p.right_py * p.right_r31 - p.right_pz * p.right_r21; let r57 = r55 + 0.04519 * p.right_r12;
-    let r59 = p.right_pz * p.right_r11 - p.right_px * p.right_r31; let r61 = r59 + 0.04519 * p.right_r22;
-    let r65 = p.right_r11 * known.left_c1 + p.right_r21 * known.left_s1;
-    let r70 = known.left_c1 * r57 + known.left_s1 * r61;
-    let r72 = p.right_px * p.right_r21 - p.right_py * p.right_r11; let r74 = r72 + 0.04519 * p.right_r32;
-    let r78 = p.right_r21 * known.left_c1 - p.right_r11 * known.left_s1;
-    let r80 = p.right_r31 * known.left_c2_ + known.left_s2_ * r65;
-    let r84 = known.left_c1 * r61 - known.left_s1 * r57; let r86 = known.left_c2_ * r74 + known.left_s2_ * r70;
-    let r92 = 0.085 * (known.left_c3_ * r33) + 0.085 * (known.left_s3_ * r35);
-    let r96 = r92 + 0.05 * (known.left_c3_ * r35) - 0.05 * (known.left_s3_ * r33);
-    let r98 = known.left_s2_ * r29 + (r96 - known.left_c2_ * r25);
-    let r101 = 0.09545941546018391 * (p.left_r31 * known.left_s2_);
-    let r102 = 0.09545941546018391 * (known.left_c2_ * r20) - r101;
-    let r104 = r102 + 0.7071067811865475 * (known.left_c3_ * r41);
-    let r106 = r104 - 0.7071067811865475 * (known.left_s3_ * r39);
-    let r108 = r106 + 0.7071067811865475 * (known.left_c3_ * r39);
-    let r110 = r108 + 0.7071067811865475 * (known.left_s3_ * r41);
-    let r114 = 0.085 * (known.left_c3_ * r78) + 0.085 * (known.left_s3_ * r80);
-    let r118 = r114 - 0.05 * (known.left_c3_ * r80) + 0.05 * (known.left_s3_ * r78);
-    let r120 = known.left_s2_ * r74 + (r118 - known.left_c2_ * r70);
-    let r123 = 0.09545941546018391 * (p.right_r31 * known.left_s2_);
-    let r124 = 0.09545941546018391 * (known.left_c2_ * r65) - r123;
-    let r126 = r124 - 0.7071067811865475 * (known.left_c3_ * r86);
-    let r128 = r126 + 0.7071067811865475 * (known.left_s3_ * r84);
-    let r130 = r128 + 0.7071067811865475 * (known.left_c3_ * r84);
-    let r132 = r130 + 0.7071067811865475 * (known.left_s3_ * r86);
-    let r136 = 31.112698372208087 * p.magnitude + 15.51164589539743;
-    let r137 = f64::abs(30.0 * p.magnitude + 18.23985); let r138 = f64::abs(r136); let r139 = r98 * r132;
-    let r141 = r110 * r120; let r142 = 0.0 - r139 - r141; let r143 = r137 * r138; let r144 = r143 + r143;
-    let r145 = 0.001 * r144;
-    let shared = &Shared4 { r98, r110, r120, r132, r137, r138, r139, r141, r142, r144, r145 };
-    case_4_1(p, known, shared, answers);
-    case_4_2(p, known, shared, before, answers);
-    case_4_3(p, known, shared, before, answers);
-    case_4_4(p, known, shared, before, answers);
-    case_4_5(p, known, shared, before, answers);
-}
-
-/// Block 4 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_4(p, known, answers);
-}
-
-/// What the cases of block 4 share.
-struct Shared4 { r98: f64, r110: f64, r120: f64, r132: f64, r137: f64, r138: f64, r139: f64, r141: f64, r142: f64,
-    r144: f64, r145: f64 }
-
-/// Case 1 of block 4: generic.
-/// It runs where B*E - A*F is not zero.
-#[inline(always)]
-fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    if !is_away(shared.r139 + shared.r141, 16.0 * shared.r144) {
-        return;
-    }
-    let left_c4 = 0.0; let left_s4 = 0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c4, left_s4, ..*known };
-    block_5(p, &next, answers);
-}
-
-/// Case 2 of block 4: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r146 = shared.r98 * shared.r98; let r147 = shared.r110 * shared.r110; let r148 = r146 + r147;
-    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
-    for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r163 = 1.0 / r148; let left_c4 = left_w4 * shared.r110 * r163;
-        let left_s4 = 0.0 - left_w4 * shared.r98 * r163;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Case 3 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: HipYawPitch.
-fn case_4_3(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r148 = shared.r98 * shared.r98 + shared.r110 * shared.r110;
-    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
-        return;
-    }
-    for [left_c4, left_s4] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Case 4 of block 4: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_4_4(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r146 = shared.r120 * shared.r120; let r147 = shared.r132 * shared.r132; let r148 = r146 + r147;
-    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145, NEAR) && is_away(r148, 16.0 * r151)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_away(r148, 16.0 * r151))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r146 - r147, f64::max(r151, 0.0).sqrt());
-    for (i0, &left_w4) in roots0.as_slice().iter().enumerate() {
-        let r164 = 1.0 / r148; let left_c4 = 0.0 - left_w4 * shared.r132 * r164;
-        let left_s4 = 0.0 - left_w4 * shared.r120 * r164;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c4, left_s4, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Case 5 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: HipYawPitch.
-fn case_4_5(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r148 = shared.r120 * shared.r120 + shared.r132 * shared.r132;
-    let r151 = shared.r137 * shared.r137 + shared.r138 * shared.r138;
-    if !(is_near(shared.r142, shared.r145, NEAR) && is_near(r148, 1.0000000000000001e-7 * r151, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r142, shared.r145, BESIDE) && is_near(r148, 1.0000000000000001e-7 * r151, BESIDE))) {
-        return;
-    }
-    for [left_c4, left_s4] in SAMPLES_1 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c4, left_s4, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Block 5: KneePitch.
-#[inline(always)]
-fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.left_px + 0.04519 * p.left_r13; let r4 = p.left_py + 0.04519 * p.left_r23;
-    let r7 = p.left_pz + 0.04519 * p.left_r33;
-    let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
-    let r19 = known.left_c1 * r4 - known.left_s1 * r1; let r21 = known.left_c2_ * r7 + r18;
-    let r27 = 2.0 * (p.left_px * r1) + 2.0 * (p.left_py * r4);
-    let r30 = r27 + 2.0 * (p.left_pz * r7) - p.left_px * p.left_px;
-    let r32 = r30 - p.left_py * p.left_py - p.left_pz * p.left_pz;
-    let r36 = r32 - 0.1 * (known.left_c3_ * r19) - 0.1 * (known.left_s3_ * r21);
-    let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
-    let r41 = 0.0088212739 - r40;
-    let shared = &Shared5 { r41 };
-    case_5_1(p, known, shared, answers);
-}
-
-/// Block 5 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_5(p, known, answers);
-}
-
-/// What the cases of block 5 share.
-struct Shared5 { r41: f64 }
-
-/// Case 1 of block 5: generic.
-#[inline(always)]
-fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
-    let roots0 = square_roots(r43, 1.4142135623730951);
-    for (i0, &left_w7) in roots0.as_slice().iter().enumerate() {
-        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41); let left_c7 = r47;
-        let left_s7 = 2361.0721534205795 * (0.02058 * left_w7);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, left_c7, left_s7, ..*known };
-        block_6(p, &next, answers);
-    }
-}
-
-/// Block 6: AnkleRoll.
-#[inline(always)]
-fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r14 = p.left_r12 * known.left_c1 + p.left_r22 * known.left_s1;
-    let r16 = p.left_r13 * known.left_c1 + p.left_r23 * known.left_s1;
-    let r24 = p.left_r22 * known.left_c1 - p.left_r12 * known.left_s1; let r25 = known.left_c3_ * r24;
-    let r26 = p.left_r23 * known.left_c1 - p.left_r13 * known.left_s1; let r27 = known.left_c3_ * r26;
-    let r28 = p.left_r32 * known.left_c2_ + known.left_s2_ * r14; let r29 = known.left_s3_ * r28;
-    let r30 = p.left_r33 * known.left_c2_ + known.left_s2_ * r16; let r31 = known.left_s3_ * r30;
-    let r32 = known.left_c3_ * r28; let r33 = known.left_c3_ * r30; let r34 = known.left_s3_ * r24;
-    let r35 = known.left_s3_ * r26; let r36 = known.left_c2_ * r14 - p.left_r32 * known.left_s2_;
-    let r38 = known.left_c2_ * r16 - p.left_r33 * known.left_s2_;
-    let r54 = 0.05 * r25 + 0.05 * r29 - 0.085 * r32 + 0.085 * r34;
-    let r56 = r54 - p.left_px * p.left_r12 - p.left_py * p.left_r22; let r57 = p.left_pz * p.left_r32 - r56;
-    let r64 = 0.05 * r27 + 0.05 * r31 - 0.085 * r33 + 0.085 * r35;
-    let r66 = r64 - p.left_px * p.left_r13 - p.left_py * p.left_r23;
-    let r68 = r66 - p.left_pz * p.left_r33 - 0.04519;
-    let r69 = 0.7071067811865475 * (known.left_s4 * (r29 + (r25 + (r32 - r34))));
-    let r70 = r69 - known.left_c4 * r36;
-    let r71 = 0.7071067811865475 * (known.left_s4 * (r31 + (r27 + (r33 - r35))));
-    let r72 = known.left_c4 * r38 - r71; let r73 = 3.0 * p.magnitude; let r76 = f64::abs(r73 + 1.585);
-    let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = r78 - r79;
-    let r83 = 37.0 * r76 + 37.0 * r77; let r84 = 0.001 * r83;
-    let shared = &Shared6 { r57, r68, r70, r72, r76, r77, r78, r79, r80, r83, r84 };
-    case_6_1(p, known, shared, answers);
-    case_6_2(p, known, shared, before, answers);
-    case_6_3(p, known, shared, before, answers);
-    case_6_4(p, known, shared, before, answers);
-    case_6_5(p, known, shared, before, answers);
-}
-
-/// What the cases of block 6 share.
-struct Shared6 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r79: f64, r80: f64,
-    r83: f64, r84: f64 }
-
-/// Case 1 of block 6: generic.
-/// It runs where B*E - A*F is not zero.
-#[inline(always)]
-fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    if !is_away(shared.r79 - shared.r78, 16.0 * shared.r83) {
-        return;
-    }
-    let left_c9 = 0.0; let left_s9 = 0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, left_c9, left_s9, ..*known };
-    block_7(p, &next, answers);
-}
-
-/// Case 2 of block 6: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_6_2(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r85 = shared.r57 * shared.r57; let r86 = shared.r68 * shared.r68; let r87 = r85 + r86;
-    let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 16.0 * r90)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 16.0 * r90))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r85 - r86, f64::max(r90, 0.0).sqrt());
-    for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r97 = 1.0 / r87; let left_c9 = 0.0 - left_w9 * shared.r68 * r97;
-        let left_s9 = left_w9 * shared.r57 * r97;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
-        again_7(p, &next, answers);
-    }
-}
-
-/// Case 3 of block 6: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: left_AnkleRoll.
-fn case_6_3(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r87 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
-    let r90 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 1.0000000000000001e-7 * r90, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 1.0000000000000001e-7 * r90, BESIDE))) {
-        return;
-    }
-    for [left_c9, left_s9] in SAMPLES_2 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
-        again_7(p, &next, answers);
-    }
-}
-
-/// Case 4 of block 6: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_6_4(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r85 = shared.r70 * shared.r70; let r86 = shared.r72 * shared.r72; let r87 = r85 + r86;
-    if !(is_near(shared.r80, shared.r84, NEAR) && is_away(r87, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_away(r87, 43808.0))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r85 - r86, 52.32590180780452);
-    for (i0, &left_w9) in roots0.as_slice().iter().enumerate() {
-        let r92 = 1.0 / r87; let left_c9 = 0.0 - left_w9 * shared.r72 * r92;
-        let left_s9 = left_w9 * shared.r70 * r92;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, left_c9, left_s9, ..*known };
-        again_7(p, &next, answers);
-    }
-}
-
-/// Case 5 of block 6: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: left_AnkleRoll.
-fn case_6_5(p: &Parameters, known: &Known, shared: &Shared6, before: usize, answers: &mut Answers<'_>) {
-    let r87 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
-    if !(is_near(shared.r80, shared.r84, NEAR) && is_near(r87, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r80, shared.r84, BESIDE) && is_near(r87, 0.00027380000000000004, BESIDE))) {
-        return;
-    }
-    for [left_c9, left_s9] in SAMPLES_2 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], true, known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c9, left_s9, ..*known };
-        again_7(p, &next, answers);
-    }
-}
-
-/// Block 7: AnklePitch.
-#[inline(always)]
-fn block_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r0 = known.left_c7 * known.left_s9;
-    let r1 = known.left_s7 * known.left_s9; let r2 = known.left_c7 * known.left_c9;
-    let r3 = known.left_s7 * known.left_c9;
-    let r23 = p.left_r11 * known.left_s7 - p.left_r12 * r0 - p.left_r13 * r2;
-    let r26 = p.left_r13 * r3 + (p.left_r11 * known.left_c7 + p.left_r12 * r1);
-    let r29 = p.left_r21 * known.left_s7 - p.left_r22 * r0 - p.left_r23 * r2;
-    let r32 = p.left_r23 * r3 + (p.left_r21 * known.left_c7 + p.left_r22 * r1);
-    let r35 = p.left_r31 * known.left_s7 - p.left_r32 * r0 - p.left_r33 * r2;
-    let r38 = p.left_r33 * r3 + (p.left_r31 * known.left_c7 + p.left_r32 * r1);
-    let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
-    let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
-    let r54 = known.left_c1 * r29 - known.left_s1 * r23; let r56 = known.left_c1 * r32 - known.left_s1 * r26;
-    let r58 = known.left_c2_ * r35 + r52; let r60 = known.left_c2_ * r38 + r53;
-    let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
-    let r72 = r68 - 0.085 * (known.left_c3_ * r58) + 0.085 * (known.left_s3_ * r54);
-    let r76 = r72 + 0.04519 * r2 - p.left_px * r23 - p.left_py * r29; let r77 = p.left_pz * r35 - r76;
-    let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
-    let r84 = r80 - 0.085 * (known.left_c3_ * r60) + 0.085 * (known.left_s3_ * r56);
-    let r88 = r84 - 0.04519 * r3 - p.left_px * r26 - p.left_py * r32; let r89 = r88 - p.left_pz * r38;
-    let r91 = 0.1029 * known.left_c7 + 0.1; let r92 = 0.1029 * known.left_s7;
-    let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
-    let shared = &Shared7 { r77, r89, r91, r92, r95 };
-    case_7_1(p, known, shared, answers);
-    case_7_2(p, known, shared, before, answers);
-}
-
-/// Block 7 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_7(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_7(p, known, answers);
-}
-
-/// What the cases of block 7 share.
-struct Shared7 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
-
-/// Case 1 of block 7: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_7_1(p: &Parameters, known: &Known, shared: &Shared7, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 16.0 * (r99 + r99)) {
-        return;
-    }
-    let r104 = shared.r77 * shared.r92 - shared.r89 * shared.r91;
-    let r108 = shared.r89 * shared.r92 - (0.0 - shared.r77 * shared.r91);
-    let r112 = f64::max(r108 * r108 + r104 * r104, 0.0).sqrt(); let r113 = 1.0 / r112;
-    let left_c8 = r108 * r113; let left_s8 = r104 * r113;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, left_c8, left_s8, ..*known };
-    block_8(p, &next, answers);
-}
-
-/// Case 2 of block 7: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: left_AnklePitch.
-fn case_7_2(p: &Parameters, known: &Known, shared: &Shared7, before: usize, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
-    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
-        return;
-    }
-    for [left_c8, left_s8] in SAMPLES_2 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], true, known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], known.free[13]], left_c8, left_s8, ..*known };
-        again_8(p, &next, answers);
-    }
-}
-
-/// Block 8: HipRoll.
-#[inline(always)]
-fn block_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.left_r12 * known.left_c9 - p.left_r13 * known.left_s9;
-    let r8 = p.left_r22 * known.left_c9 - p.left_r23 * known.left_s9;
-    let r12 = known.left_c1 * r6 + known.left_s1 * r8;
-    let r14 = p.left_r32 * known.left_c9 - p.left_r33 * known.left_s9;
-    let r18 = known.left_c1 * r8 - known.left_s1 * r6; let r19 = known.left_c3_ * r18;
-    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12; let r21 = known.left_s3_ * r20;
-    let r22 = known.left_c3_ * r20; let r23 = known.left_s3_ * r18;
-    let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
-    let r40 = 0.5 * r19 + 0.5 * r21 - 0.5 * r22 + 0.5 * r23;
-    let r41 = 0.5 * (known.left_c4 * (r21 + (r19 + (r22 - r23)))); let r43 = 0.7071067811865475 * r32;
-    let r44 = r43 - (r40 - r41); let r45 = 0.5 * (known.left_c4 * (r22 + (r19 + r21) - r23));
-    let r47 = r43 + (r40 + r45);
-    let shared = &Shared8 { r44, r47 };
-    case_8_1(p, known, shared, answers);
-}
-
-/// Block 8 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_8(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_8(p, known, answers);
-}
-
-/// What the cases of block 8 share.
-struct Shared8 { r44: f64, r47: f64 }
-
-/// Case 1 of block 8: generic.
-#[inline(always)]
-fn case_8_1(p: &Parameters, known: &Known, shared: &Shared8, answers: &mut Answers<'_>) {
-    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
-    let left_c5 = shared.r47 * r52; let left_s5 = shared.r44 * r52;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c5, left_s5, ..*known };
-    block_9(p, &next, answers);
-}
-
-/// Block 9: HipPitch.
-#[inline(always)]
-fn block_9(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.left_c8 * known.left_s9; let r5 = 0.1029 * (known.left_c8 * known.left_c9) + 0.04519;
-    let r14 = p.left_px - 0.1029 * (p.left_r11 * known.left_s8);
-    let r17 = p.left_r13 * r5 + (r14 + 0.1029 * (p.left_r12 * r0));
-    let r20 = p.left_py - 0.1029 * (p.left_r21 * known.left_s8);
-    let r23 = p.left_r23 * r5 + (r20 + 0.1029 * (p.left_r22 * r0));
-    let r27 = known.left_c1 * r17 + known.left_s1 * r23;
-    let r30 = p.left_pz - 0.1029 * (p.left_r31 * known.left_s8);
-    let r33 = p.left_r33 * r5 + (r30 + 0.1029 * (p.left_r32 * r0));
-    let r37 = known.left_c1 * r23 - known.left_s1 * r17; let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
-    let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
-    let r46 = known.left_c3_ * r37 + (known.left_c3_ * r39 - known.left_s3_ * r37);
-    let r49 = known.left_s4 * (known.left_s3_ * r39 + r46 + 0.035);
-    let r54 = known.left_s7 * known.left_c8 + known.left_c7 * known.left_s8; let r55 = known.left_s9 * r54;
-    let r56 = known.left_c9 * r54; let r57 = known.left_c7 * known.left_c8 - known.left_s7 * known.left_s8;
-    let r68 = p.left_r13 * r56 + (p.left_r11 * r57 + p.left_r12 * r55);
-    let r71 = p.left_r23 * r56 + (p.left_r21 * r57 + p.left_r22 * r55);
-    let r75 = known.left_c1 * r68 + known.left_s1 * r71;
-    let r78 = p.left_r33 * r56 + (p.left_r31 * r57 + p.left_r32 * r55);
-    let r82 = known.left_c1 * r71 - known.left_s1 * r68; let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
-    let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
-    let r91 = known.left_c3_ * r82 + (known.left_c3_ * r84 - known.left_s3_ * r82);
-    let r95 = r44 - 0.7071067811865475 * r49;
-    let r97 = 0.07071067811865475 * (known.left_s4 * (known.left_s3_ * r84 + r91)); let r98 = 0.1 * r89 - r97;
-    let shared = &Shared9 { r95, r98 };
-    case_9_1(p, known, shared, answers);
-}
-
-/// What the cases of block 9 share.
-struct Shared9 { r95: f64, r98: f64 }
-
-/// Case 1 of block 9: generic.
-#[inline(always)]
-fn case_9_1(p: &Parameters, known: &Known, shared: &Shared9, answers: &mut Answers<'_>) {
-    let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
-    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104; let left_c6 = r100 * r105;
-    let left_s6 = 0.0 - r99 * r105;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, left_c6, left_s6, ..*known };
-    block_10(p, &next, answers);
-}
-
-/// Block 10: KneePitch.
-#[inline(always)]
-fn block_10(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r1 = p.right_px + 0.04519 * p.right_r13; let r4 = p.right_py + 0.04519 * p.right_r23;
-    let r7 = p.right_pz + 0.04519 * p.right_r33;
-    let r18 = known.left_s2_ * (known.left_c1 * r1 + known.left_s1 * r4);
-    let r19 = known.left_c1 * r4 - known.left_s1 * r1; let r21 = known.left_c2_ * r7 + r18;
-    let r27 = 2.0 * (p.right_px * r1) + 2.0 * (p.right_py * r4);
-    let r30 = r27 + 2.0 * (p.right_pz * r7) - p.right_px * p.right_px;
-    let r32 = r30 - p.right_py * p.right_py - p.right_pz * p.right_pz;
-    let r36 = r32 + 0.1 * (known.left_c3_ * r19) + 0.1 * (known.left_s3_ * r21);
-    let r40 = r36 + 0.17 * (known.left_c3_ * r21) - 0.17 * (known.left_s3_ * r19);
-    let r41 = 0.0088212739 - r40;
-    let shared = &Shared10 { r41 };
-    case_10_1(p, known, shared, answers);
-}
-
-/// What the cases of block 10 share.
-struct Shared10 { r41: f64 }
-
-/// Case 1 of block 10: generic.
-#[inline(always)]
-fn case_10_1(p: &Parameters, known: &Known, shared: &Shared10, answers: &mut Answers<'_>) {
-    let r43 = shared.r41 * shared.r41 - 0.00042353640000000005;
-    let roots0 = square_roots(r43, 1.4142135623730951);
-    for (i0, &right_w7) in roots0.as_slice().iter().enumerate() {
-        let r47 = 0.0 - 2361.0721534205795 * (0.02058 * shared.r41); let right_c7 = r47;
-        let right_s7 = 2361.0721534205795 * (0.02058 * right_w7);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, right_c7, right_s7, ..*known };
-        block_11(p, &next, answers);
-    }
-}
-
-/// Block 11: AnkleRoll.
-#[inline(always)]
-fn block_11(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r14 = p.right_r12 * known.left_c1 + p.right_r22 * known.left_s1;
-    let r16 = p.right_r13 * known.left_c1 + p.right_r23 * known.left_s1;
-    let r24 = p.right_r22 * known.left_c1 - p.right_r12 * known.left_s1; let r25 = known.left_c3_ * r24;
-    let r26 = p.right_r23 * known.left_c1 - p.right_r13 * known.left_s1; let r27 = known.left_c3_ * r26;
-    let r28 = p.right_r32 * known.left_c2_ + known.left_s2_ * r14; let r29 = known.left_s3_ * r28;
-    let r30 = p.right_r33 * known.left_c2_ + known.left_s2_ * r16; let r31 = known.left_s3_ * r30;
-    let r32 = known.left_c3_ * r28; let r33 = known.left_c3_ * r30; let r34 = known.left_s3_ * r24;
-    let r35 = known.left_s3_ * r26; let r36 = known.left_c2_ * r14 - p.right_r32 * known.left_s2_;
-    let r38 = known.left_c2_ * r16 - p.right_r33 * known.left_s2_;
-    let r54 = 0.05 * r25 + 0.05 * r29 + 0.085 * r32 - 0.085 * r34;
-    let r56 = p.right_py * p.right_r22 + (p.right_px * p.right_r12 + r54);
-    let r57 = p.right_pz * p.right_r32 + r56; let r64 = 0.05 * r27 + 0.05 * r31 + 0.085 * r33 - 0.085 * r35;
-    let r66 = p.right_py * p.right_r23 + (p.right_px * p.right_r13 + r64);
-    let r68 = p.right_pz * p.right_r33 + r66 + 0.04519;
-    let r69 = 0.7071067811865475 * (known.left_s4 * (r32 - r34 - r25 - r29));
-    let r70 = r69 - known.left_c4 * r36;
-    let r71 = 0.7071067811865475 * (known.left_s4 * (r33 - r35 - r27 - r31));
-    let r72 = known.left_c4 * r38 - r71; let r73 = 3.0 * p.magnitude; let r76 = f64::abs(r73 + 1.585);
-    let r77 = f64::abs(r73 + 2.10599); let r78 = r57 * r72; let r79 = r68 * r70; let r80 = 0.0 - r79;
-    let r81 = r78 + r79; let r84 = 37.0 * r76 + 37.0 * r77; let r85 = 0.001 * r84;
-    let shared = &Shared11 { r57, r68, r70, r72, r76, r77, r78, r80, r81, r84, r85 };
-    case_11_1(p, known, shared, answers);
-    case_11_2(p, known, shared, before, answers);
-    case_11_3(p, known, shared, before, answers);
-    case_11_4(p, known, shared, before, answers);
-    case_11_5(p, known, shared, before, answers);
-}
-
-/// What the cases of block 11 share.
-struct Shared11 { r57: f64, r68: f64, r70: f64, r72: f64, r76: f64, r77: f64, r78: f64, r80: f64, r81: f64,
-    r84: f64, r85: f64 }
-
-/// Case 1 of block 11: generic.
-/// It runs where B*E - A*F is not zero.
-#[inline(always)]
-fn case_11_1(p: &Parameters, known: &Known, shared: &Shared11, answers: &mut Answers<'_>) {
-    if !is_away(shared.r80 - shared.r78, 16.0 * shared.r84) {
-        return;
-    }
-    let right_c9 = 0.0; let right_s9 = 0.0;
-    let next = Known { branch: 7 * known.branch, last: 7 * known.last, close: known.close, right_c9, right_s9, ..*known };
-    block_12(p, &next, answers);
-}
-
-/// Case 2 of block 11: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_11_2(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r86 = shared.r57 * shared.r57; let r87 = shared.r68 * shared.r68; let r88 = r86 + r87;
-    let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 16.0 * r91)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 16.0 * r91))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r86 - r87, f64::max(r91, 0.0).sqrt());
-    for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r98 = 1.0 / r88; let right_c9 = right_w9 * shared.r68 * r98;
-        let right_s9 = right_w9 * shared.r57 * r98;
-        let next = Known { branch: 7 * known.branch + 1 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
-        again_12(p, &next, answers);
-    }
-}
-
-/// Case 3 of block 11: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: right_AnkleRoll.
-fn case_11_3(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r88 = shared.r57 * shared.r57 + shared.r68 * shared.r68;
-    let r91 = shared.r76 * shared.r76 + shared.r77 * shared.r77;
-    if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 1.0000000000000001e-7 * r91, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 1.0000000000000001e-7 * r91, BESIDE))) {
-        return;
-    }
-    for [right_c9, right_s9] in SAMPLES_2 {
-        let next = Known { branch: 7 * known.branch + 3, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
-        again_12(p, &next, answers);
-    }
-}
-
-/// Case 4 of block 11: generic.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is not zero.
-fn case_11_4(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r86 = shared.r70 * shared.r70; let r87 = shared.r72 * shared.r72; let r88 = r86 + r87;
-    if !(is_near(shared.r81, shared.r85, NEAR) && is_away(r88, 43808.0)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_away(r88, 43808.0))) {
-        return;
-    }
-    let roots0 = square_roots(0.0 - r86 - r87, 52.32590180780452);
-    for (i0, &right_w9) in roots0.as_slice().iter().enumerate() {
-        let r93 = 1.0 / r88; let right_c9 = 0.0 - right_w9 * shared.r72 * r93;
-        let right_s9 = right_w9 * shared.r70 * r93;
-        let next = Known { branch: 7 * known.branch + 4 + i0, last: 7 * known.last, close: known.close || roots0.close, right_c9, right_s9, ..*known };
-        again_12(p, &next, answers);
-    }
-}
-
-/// Case 5 of block 11: A = 0, B = 0, C = 0.
-/// It runs where A*F - B*E is near zero and A^2 + B^2 is near zero.
-/// Free: right_AnkleRoll.
-fn case_11_5(p: &Parameters, known: &Known, shared: &Shared11, before: usize, answers: &mut Answers<'_>) {
-    let r88 = shared.r70 * shared.r70 + shared.r72 * shared.r72;
-    if !(is_near(shared.r81, shared.r85, NEAR) && is_near(r88, 0.00027380000000000004, NEAR)) || (answers.suffice_since(p, before) && !(is_near(shared.r81, shared.r85, BESIDE) && is_near(r88, 0.00027380000000000004, BESIDE))) {
-        return;
-    }
-    for [right_c9, right_s9] in SAMPLES_2 {
-        let next = Known { branch: 7 * known.branch + 6, last: 7 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], known.free[12], true], right_c9, right_s9, ..*known };
-        again_12(p, &next, answers);
-    }
-}
-
-/// Block 12: AnklePitch.
-#[inline(always)]
-fn block_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r0 = known.right_c7 * known.right_s9;
-    let r1 = known.right_s7 * known.right_s9; let r2 = known.right_c7 * known.right_c9;
-    let r3 = known.right_s7 * known.right_c9; let r22 = p.right_r11 * known.right_s7 - p.right_r12 * r0;
-    let r23 = r22 - p.right_r13 * r2; let r25 = p.right_r11 * known.right_c7 + p.right_r12 * r1;
-    let r26 = p.right_r13 * r3 + r25; let r28 = p.right_r21 * known.right_s7 - p.right_r22 * r0;
-    let r29 = r28 - p.right_r23 * r2; let r31 = p.right_r21 * known.right_c7 + p.right_r22 * r1;
-    let r32 = p.right_r23 * r3 + r31; let r34 = p.right_r31 * known.right_s7 - p.right_r32 * r0;
-    let r35 = r34 - p.right_r33 * r2; let r37 = p.right_r31 * known.right_c7 + p.right_r32 * r1;
-    let r38 = p.right_r33 * r3 + r37; let r52 = known.left_s2_ * (known.left_c1 * r23 + known.left_s1 * r29);
-    let r53 = known.left_s2_ * (known.left_c1 * r26 + known.left_s1 * r32);
-    let r54 = known.left_c1 * r29 - known.left_s1 * r23; let r56 = known.left_c1 * r32 - known.left_s1 * r26;
-    let r58 = known.left_c2_ * r35 + r52; let r60 = known.left_c2_ * r38 + r53;
-    let r68 = 0.05 * (known.left_c3_ * r54) + 0.05 * (known.left_s3_ * r58);
-    let r72 = r68 + 0.085 * (known.left_c3_ * r58) - 0.085 * (known.left_s3_ * r54);
-    let r76 = p.right_py * r29 + (p.right_px * r23 + (r72 - 0.04519 * r2)); let r77 = p.right_pz * r35 + r76;
-    let r80 = 0.05 * (known.left_c3_ * r56) + 0.05 * (known.left_s3_ * r60);
-    let r84 = r80 + 0.085 * (known.left_c3_ * r60) - 0.085 * (known.left_s3_ * r56);
-    let r88 = p.right_py * r32 + (p.right_px * r26 + (r84 + 0.04519 * r3)); let r89 = p.right_pz * r38 + r88;
-    let r91 = 0.1029 * known.right_c7 + 0.1; let r92 = 0.1029 * known.right_s7;
-    let r95 = f64::abs(15.0 * p.magnitude + 8.72179);
-    let shared = &Shared12 { r77, r89, r91, r92, r95 };
-    case_12_1(p, known, shared, answers);
-    case_12_2(p, known, shared, before, answers);
-}
-
-/// Block 12 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_12(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_12(p, known, answers);
-}
-
-/// What the cases of block 12 share.
-struct Shared12 { r77: f64, r89: f64, r91: f64, r92: f64, r95: f64 }
-
-/// Case 1 of block 12: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_12_1(p: &Parameters, known: &Known, shared: &Shared12, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
-    if !is_away(r98, 16.0 * (r99 + r99)) {
-        return;
-    }
-    let r105 = shared.r77 * shared.r92 - (0.0 - shared.r89 * shared.r91);
-    let r108 = shared.r77 * shared.r91 - shared.r89 * shared.r92;
-    let r112 = f64::max(r108 * r108 + r105 * r105, 0.0).sqrt(); let r113 = 1.0 / r112;
-    let right_c8 = r108 * r113; let right_s8 = r105 * r113;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, right_c8, right_s8, ..*known };
-    block_13(p, &next, answers);
-}
-
-/// Case 2 of block 12: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: right_AnklePitch.
-fn case_12_2(p: &Parameters, known: &Known, shared: &Shared12, before: usize, answers: &mut Answers<'_>) {
-    let r98 = shared.r77 * shared.r77 + shared.r89 * shared.r89; let r99 = shared.r95 * shared.r95;
-    if !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), NEAR) && is_near(shared.r92, 0.004729, NEAR) && is_near(shared.r91, 0.011129, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r98, 1.0000000000000001e-7 * (r99 + r99), BESIDE) && is_near(shared.r92, 0.004729, BESIDE) && is_near(shared.r91, 0.011129, BESIDE))) {
-        return;
-    }
-    for [right_c8, right_s8] in SAMPLES_2 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], known.free[5], known.free[6], known.free[7], known.free[8], known.free[9], known.free[10], known.free[11], true, known.free[13]], right_c8, right_s8, ..*known };
-        again_13(p, &next, answers);
-    }
-}
-
-/// Block 13: HipRoll.
-#[inline(always)]
-fn block_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = p.right_r12 * known.right_c9 - p.right_r13 * known.right_s9;
-    let r8 = p.right_r22 * known.right_c9 - p.right_r23 * known.right_s9;
-    let r12 = known.left_c1 * r6 + known.left_s1 * r8;
-    let r14 = p.right_r32 * known.right_c9 - p.right_r33 * known.right_s9;
-    let r18 = known.left_c1 * r8 - known.left_s1 * r6; let r19 = known.left_c3_ * r18;
-    let r20 = known.left_c2_ * r14 + known.left_s2_ * r12; let r21 = known.left_s3_ * r20;
-    let r22 = known.left_c3_ * r20; let r23 = known.left_s3_ * r18;
-    let r32 = known.left_s4 * (known.left_c2_ * r12 - known.left_s2_ * r14);
-    let r40 = 0.5 * r19 + 0.5 * r21 + 0.5 * r22 - 0.5 * r23;
-    let r41 = 0.5 * (known.left_c4 * (r22 - r23 - r19 - r21)); let r43 = 0.7071067811865475 * r32;
-    let r44 = r40 + r41 + r43; let r45 = 0.5 * (known.left_c4 * (r23 + (r19 + r21 - r22)));
-    let r47 = r40 + r45 - r43;
-    let shared = &Shared13 { r44, r47 };
-    case_13_1(p, known, shared, answers);
-}
-
-/// Block 13 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_13(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_13(p, known, answers);
-}
-
-/// What the cases of block 13 share.
-struct Shared13 { r44: f64, r47: f64 }
-
-/// Case 1 of block 13: generic.
-#[inline(always)]
-fn case_13_1(p: &Parameters, known: &Known, shared: &Shared13, answers: &mut Answers<'_>) {
-    let r50 = shared.r47 * shared.r47 + shared.r44 * shared.r44; let r52 = 1.0 / f64::max(r50, 0.0).sqrt();
-    let right_c5 = shared.r47 * r52; let right_s5 = shared.r44 * r52;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, right_c5, right_s5, ..*known };
-    block_14(p, &next, answers);
-}
-
-/// Block 14: HipPitch.
-#[inline(always)]
-fn block_14(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = known.right_c8 * known.right_s9; let r5 = 0.1029 * (known.right_c8 * known.right_c9) + 0.04519;
-    let r14 = p.right_px - 0.1029 * (p.right_r11 * known.right_s8);
-    let r17 = p.right_r13 * r5 + (r14 + 0.1029 * (p.right_r12 * r0));
-    let r20 = p.right_py - 0.1029 * (p.right_r21 * known.right_s8);
-    let r23 = p.right_r23 * r5 + (r20 + 0.1029 * (p.right_r22 * r0));
-    let r27 = known.left_c1 * r17 + known.left_s1 * r23;
-    let r30 = p.right_pz - 0.1029 * (p.right_r31 * known.right_s8);
-    let r33 = p.right_r33 * r5 + (r30 + 0.1029 * (p.right_r32 * r0));
-    let r37 = known.left_c1 * r23 - known.left_s1 * r17; let r39 = known.left_c2_ * r33 + known.left_s2_ * r27;
-    let r44 = known.left_c4 * (known.left_c2_ * r27 - known.left_s2_ * r33);
-    let r46 = known.left_c3_ * r39 - known.left_s3_ * r37 - known.left_c3_ * r37;
-    let r49 = known.left_s4 * (r46 - known.left_s3_ * r39 + 0.035);
-    let r54 = known.right_s7 * known.right_c8 + known.right_c7 * known.right_s8;
-    let r55 = known.right_s9 * r54; let r56 = known.right_c9 * r54;
-    let r57 = known.right_c7 * known.right_c8 - known.right_s7 * known.right_s8;
-    let r68 = p.right_r13 * r56 + (p.right_r11 * r57 + p.right_r12 * r55);
-    let r71 = p.right_r23 * r56 + (p.right_r21 * r57 + p.right_r22 * r55);
-    let r75 = known.left_c1 * r68 + known.left_s1 * r71;
-    let r78 = p.right_r33 * r56 + (p.right_r31 * r57 + p.right_r32 * r55);
-    let r82 = known.left_c1 * r71 - known.left_s1 * r68; let r84 = known.left_c2_ * r78 + known.left_s2_ * r75;
-    let r89 = known.left_c4 * (known.left_c2_ * r75 - known.left_s2_ * r78);
-    let r91 = known.left_c3_ * r84 - known.left_s3_ * r82 - known.left_c3_ * r82;
-    let r95 = r44 - 0.7071067811865475 * r49;
-    let r97 = 0.07071067811865475 * (known.left_s4 * (r91 - known.left_s3_ * r84)); let r98 = 0.1 * r89 - r97;
-    let shared = &Shared14 { r95, r98 };
-    case_14_1(p, known, shared, answers);
-}
-
-/// What the cases of block 14 share.
-struct Shared14 { r95: f64, r98: f64 }
-
-/// Case 1 of block 14: generic.
-#[inline(always)]
-fn case_14_1(p: &Parameters, known: &Known, shared: &Shared14, answers: &mut Answers<'_>) {
-    let r99 = 0.1 * shared.r95; let r100 = 0.1 * shared.r98;
-    let r104 = f64::max(r100 * r100 + r99 * r99, 0.0).sqrt(); let r105 = 1.0 / r104;
-    let right_c6 = r100 * r105; let right_s6 = 0.0 - r99 * r105;
-    let at = [
-        known.left_c1, known.left_s1, known.left_c2_, known.left_s2_, known.left_c3_, known.left_s3_,
-        known.left_c4, known.left_s4, known.left_c5, known.left_s5, known.left_c6, known.left_s6,
-        known.left_c7, known.left_s7, known.left_c8, known.left_s8, known.left_c9, known.left_s9,
-        known.right_c5, known.right_s5, right_c6, right_s6, known.right_c7, known.right_s7,
-        known.right_c8, known.right_s8, known.right_c9, known.right_s9,
-    ];
-    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
-}
-
-/// The place of the greatest number that is not negative, the first of equals; the length without one.
-fn greatest(claims: &[f64]) -> usize {
-    let (mut most, mut place) = (-1.0, claims.len());
-    for (i, &claim) in claims.iter().enumerate() {
-        if claim > most {
-            (most, place) = (claim, i);
+    // Case 6: A = B = C = D = E = 0, where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero; free: TorsoYaw.
+    if c.is_due(before3, N::near(r175, 0.01 * r299) & N::near(r184, 0.01 * r300) & N::near(r192, 0.01 * r301) & N::near(r200, 0.01 * r302) & N::near(r207, 0.01 * r303)) {
+        for [left_c1, left_s1] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found3 = found1.next(5, 4).freeing(0b1);
+            rarely(|| block_4(p, found3, [left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_], c));
         }
     }
-    place
 }
 
-/// What the equations compare with the target.
-const TIP: usize = 28;
-
-/// The tip, as the equations compare it.
+/// What the equations compare with parameters.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
+fn tip<N: Number>(at: &[N; 28]) -> [N; 28] where f64: With<N> {
     let [
         left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5,
         left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
@@ -1631,58 +831,8 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     ]
 }
 
-/// What the equations read of joints: 28 numbers.
-const PLACES: usize = 28;
-
-/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(), q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(), q[11].cos(), q[11].sin(), q[12].cos(), q[12].sin(), q[13].cos(), q[13].sin().
-fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
-    [
-        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
-        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(), q[6].cos(), q[6].sin(), q[7].cos(), q[7].sin(),
-        q[8].cos(), q[8].sin(), q[9].cos(), q[9].sin(), q[10].cos(), q[10].sin(), q[11].cos(),
-        q[11].sin(), q[12].cos(), q[12].sin(), q[13].cos(), q[13].sin(),
-    ]
-}
-
-/// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
-struct Equations {
-    value: [f64; EQUATIONS],
-    size: [f64; SIZES],
-}
-
-const SIZES: usize = 2;
-/// Which of the sizes is that of each equation.
-const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0];
-
-/// The equations' values.
-#[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
-    let reached = tip(at);
-    [
-        reached[0] - p.left_c2, reached[1] - p.left_s2, reached[2] - p.left_c3, reached[3] - p.left_s3,
-        reached[4] - p.left_px, reached[5] - p.left_py, reached[6] - p.left_pz, reached[7] - p.left_r11,
-        reached[8] - p.left_r21, reached[9] - p.left_r31, reached[10] - p.left_r12,
-        reached[11] - p.left_r22, reached[12] - p.left_r32, reached[13] - p.left_r13,
-        reached[14] - p.left_r23, reached[15] - p.left_r33, reached[16] - p.right_px,
-        reached[17] - p.right_py, reached[18] - p.right_pz, reached[19] - p.right_r11,
-        reached[20] - p.right_r21, reached[21] - p.right_r31, reached[22] - p.right_r12,
-        reached[23] - p.right_r22, reached[24] - p.right_r32, reached[25] - p.right_r13,
-        reached[26] - p.right_r23, reached[27] - p.right_r33,
-    ]
-}
-
-/// The sizes of equations.
-#[inline(always)]
-fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
-    [1.0, 0.3467054146165801]
-}
-
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    Equations { value: values(p, at), size: sizes(p, at) }
-}
-
-/// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+/// The derivative of each equation by each joint.
+fn jacobian(p: &[f64; 29], at: &[f64; 28]) -> [[f64; 14]; 28] {
     let [
         left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5,
         left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c5, right_s5,
@@ -1835,1409 +985,3 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         [0.0, 0.0 - (left_s1 * r384 + left_c1 * r385), r4 * r384 - r5 * r385, 0.0 - r945, 0.0, 0.0, 0.0, 0.0, 0.0, r269 * r384 - r274 * r385, r948, r948, r948, r796],
     ]
 }
-
-/// Answers so far, and the largest share of an equation's value in its size for each.
-struct Answers<'a> {
-    out: &'a mut [Solution],
-    /// Where pairs are written instead, and whether all candidates so far can be.
-    pairs: Option<&'a mut [Pairs; CAPACITY]>,
-    usual: bool,
-    relative: [f64; CAPACITY],
-    count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold where it was found.
-    candidates: usize,
-    unsound: usize,
-    /// By place: the numbers of candidates that wait to be measured.
-    at: [[f64; ROOM]; PLACES],
-    /// How each was found.
-    found: [Found; ROOM],
-    waiting: usize,
-}
-
-impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
-    #[cold]
-    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
-        self.flush(p);
-        self.candidates > candidates && self.unsound <= candidates
-    }
-
-    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
-    #[cold]
-    #[inline(never)]
-    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let mut end = (q, measure(p, &q));
-        if free != NONE_FREE {
-            self.unsound = number;
-            if self.has_member(branch, &free) {
-                return;
-            }
-            let missed = end.1.relative;
-            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
-                end = polish(p, end, &free);
-            }
-            if !self.keep_member(p, branch, last, end, free) {
-                end = polish(p, end, &NONE_FREE);
-                let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another self-motion, of one joint.
-                let is_member = is_member
-                    || (end.1.relative <= ALONE
-                        && !self.is_listed(&end.0)
-                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
-                if !is_member && end.1.relative <= ALONE {
-                    let known = self.count;
-                    self.keep(p, branch, last, end, NONE_FREE);
-                    if self.count > known && RESOLUTION <= missed && missed <= SPLIT {
-                        self.around(p, branch, last, &end, missed, NONE_FREE);
-                    }
-                }
-            }
-            return;
-        }
-        let missed = end.1.relative;
-        end = polish(p, end, &NONE_FREE);
-        let miss = end.1.relative;
-        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
-            self.unsound = number;
-        }
-        if RESOLUTION <= miss && miss <= SPLIT {
-            self.around(p, branch, last, &end, miss, free);
-        } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
-            self.around(p, branch, last, &end, missed, free);
-            // Such a candidate stands between two answers: starts from the other side too.
-            let way = differences(&q, &end.0);
-            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start, &NONE_FREE);
-            self.keep(p, branch, last, start, free);
-        }
-        self.keep(p, branch, last, end, free);
-    }
-
-    /// Whether an isolated answer is listed that has these joints.
-    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
-        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
-    }
-
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
-        let weights = weights(p, &end.0);
-        let mut is_found = end.1.accepted;
-        let mut farther = 1.0;
-        while farther <= FARTHEST {
-            for i in 0..JOINTS {
-                for sign in [-1.0, 1.0] {
-                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
-                    let start = moved(&end.0, i, 2.0 * sign * way);
-                    let start = (start, measure(p, &start));
-                    let start = polish(p, start, &NONE_FREE);
-                    is_found |= start.1.accepted;
-                    self.keep(p, branch, last, start, free);
-                }
-            }
-            if is_found {
-                return;
-            }
-            farther *= FARTHER;
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
-        if is_member {
-            self.keep(p, branch, last, end, free);
-        }
-        is_member
-    }
-
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        if !fit.accepted {
-            return;
-        }
-        if self.is_apart(branch, &q, &free) {
-            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-            self.relative[self.count] = fit.relative;
-            self.count += 1;
-            return;
-        }
-        self.keep_one(p, branch, last, (q, fit), free);
-    }
-
-    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
-    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
-        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
-        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
-    }
-
-    /// As [`Answers::keep`], where others are near.
-    #[cold]
-    #[inline(never)]
-    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        let next = if free == NONE_FREE { last } else { branch };
-        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        let mut answer = Rated { answer, relative: fit.relative };
-        let mut doubles = [false; CAPACITY];
-        let mut first = None;
-        for i in 0..self.count {
-            let other = Rated { answer: self.out[i], relative: self.relative[i] };
-            doubles[i] = is_one(p, &other, &answer);
-            if doubles[i] && holds_against(&other, &answer) {
-                return;
-            }
-            if doubles[i] && first.is_none() {
-                first = Some(other.answer.branch);
-            }
-        }
-        if free == NONE_FREE {
-            answer.answer.branch = first.unwrap_or(branch);
-        }
-        self.drop_doubles(&doubles);
-        self.push(answer);
-    }
-
-    fn has(&self, branch: usize) -> bool {
-        self.out[..self.count].iter().any(|answer| answer.branch == branch)
-    }
-
-    /// Whether a member of this branch holds within rounding.
-    fn has_member(&self, branch: usize, free: &[bool; JOINTS]) -> bool {
-        let listed = self.out[..self.count].iter().zip(&self.relative);
-        listed.into_iter().any(|(a, relative)| *relative <= RESOLUTION && a.branch == branch && a.free == *free)
-    }
-
-    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            if !doubles[i] {
-                self.out[kept] = self.out[i];
-                self.relative[kept] = self.relative[i];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-    }
-
-    /// Adds an answer; where there are too many, the worst is left out.
-    fn push(&mut self, answer: Rated) {
-        if self.count == CAPACITY {
-            let mut worst = 0;
-            for i in 0..CAPACITY {
-                if self.relative[i] >= self.relative[worst] {
-                    worst = i;
-                }
-            }
-            if answer.relative >= self.relative[worst] {
-                return;
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worst] = true;
-            self.drop_doubles(&doubles);
-        }
-        self.out[self.count] = answer.answer;
-        self.relative[self.count] = answer.relative;
-        self.count += 1;
-    }
-
-    /// Insertion sort by branch.
-    fn sort(&mut self) {
-        for end in 1..self.count {
-            for place in (1..=end).rev() {
-                if self.out[place - 1].branch <= self.out[place].branch {
-                    break;
-                }
-                self.out.swap(place - 1, place);
-            }
-        }
-    }
-}
-
-/// An answer with the largest share of an equation's value in its size.
-struct Rated {
-    answer: Solution,
-    relative: f64,
-}
-
-/// Whether two answers are one.
-fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if close(&a.answer, &b.answer, MERGE) {
-        return true;
-    }
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, true) => blurred(p, a, b),
-        (false, false) => {
-            a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
-        }
-        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
-    }
-}
-
-/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
-/// its first member against the others.
-fn holds_against(a: &Rated, b: &Rated) -> bool {
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, false) if b.relative <= RESOLUTION => return false,
-        (false, _) if a.relative <= RESOLUTION => return true,
-        _ => {}
-    }
-    a.relative <= b.relative
-}
-
-/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
-/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
-    let regularity = regularity(p, q);
-    if regularity > REGULAR {
-        return false;
-    }
-    for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
-            return false;
-        }
-        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
-            return true;
-        }
-        way /= 8.0;
-    }
-    false
-}
-
-/// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a self-motion next to it, but not back.
-fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
-    let (mut before, mut at) = (*q, *q);
-    let mut share = 1.0;
-    for _ in 1..DOUBLINGS {
-        share *= 0.5;
-    }
-    for stage in 0..DOUBLINGS {
-        let mut next = beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
-        for i in (0..JOINTS).filter(|&i| free[i]) {
-            next[i] = moved(q, i, share * way)[i];
-        }
-        let (next, fit) = follow(p, next, free);
-        if fit.relative > bound || (stage == 1 && !leads_back(p, q, free, &at, &next, bound)) {
-            return false;
-        }
-        (before, at) = (at, next);
-        share *= 2.0;
-    }
-    true
-}
-
-/// Whether the joints come back to `q` on along the line from `far` through `close_by`.
-fn leads_back(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], close_by: &[f64; JOINTS], far: &[f64; JOINTS], bound: f64) -> bool {
-    let mut back = beyond(far, close_by, 1.0);
-    for i in (0..JOINTS).filter(|&i| free[i]) {
-        back[i] = q[i];
-    }
-    let (back, fit) = follow(p, back, free);
-    fit.accepted && are_joined(p, &back, q, bound, free)
-}
-
-/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
-fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
-    let (mut beyond, way) = (*b, differences(b, a));
-    for i in 0..JOINTS {
-        beyond[i] += ahead * way[i];
-    }
-    beyond
-}
-
-/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
-fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
-    let mut q = a.q;
-    let mut accepted = false;
-    for stages in (1..=STAGES).rev() {
-        let way = differences(&b.q, &q);
-        for i in (0..JOINTS).filter(|&i| b.free[i]) {
-            q[i] += way[i] / stages as f64;
-        }
-        let end = follow(p, q, &b.free);
-        (q, accepted) = (end.0, end.1.accepted);
-    }
-    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
-}
-
-/// Polishes joints of which `free` ones stay where they are.
-fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    polish(p, (q, measure(p, &q)), free)
-}
-
-/// `a - b` joint by joint, angles by the shorter way round.
-fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| shorter(a[i] - b[i]))
-}
-
-fn shorter(difference: f64) -> f64 {
-    if difference > PI {
-        difference - TAU
-    } else if difference < -PI {
-        difference + TAU
-    } else {
-        difference
-    }
-}
-
-/// Whether joint values differ by `tolerance` at most.
-fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    shorter(a[10] - b[10]).abs() <= tolerance
-    && shorter(a[9] - b[9]).abs() <= tolerance
-    && shorter(a[12] - b[12]).abs() <= tolerance
-    && shorter(a[13] - b[13]).abs() <= tolerance
-    && shorter(a[11] - b[11]).abs() <= tolerance
-    && shorter(a[5] - b[5]).abs() <= tolerance
-    && shorter(a[4] - b[4]).abs() <= tolerance
-    && shorter(a[7] - b[7]).abs() <= tolerance
-    && shorter(a[8] - b[8]).abs() <= tolerance
-    && shorter(a[6] - b[6]).abs() <= tolerance
-    && shorter(a[3] - b[3]).abs() <= tolerance
-    && shorter(a[0] - b[0]).abs() <= tolerance
-    && shorter(a[2] - b[2]).abs() <= tolerance
-    && shorter(a[1] - b[1]).abs() <= tolerance
-}
-
-fn is_isolated(answer: &Solution) -> bool {
-    !answer.free.contains(&true)
-}
-
-/// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
-fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [tolerance; JOINTS]
-}
-
-/// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
-fn farthest(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
-    let (difference, size) = (differences(a, b), spans(a, 1.0));
-    (0..JOINTS).fold(0.0, |farthest, i| f64::max(farthest, difference[i].abs() / size[i]))
-}
-
-/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
-fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
-    let (difference, limit) = (differences(&a.q, &b.q), spans(&a.q, tolerance));
-    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
-/// they hold half-way too, as well as at the worse of the two.
-fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let (a, b) = (&a.answer.q, &b.answer.q);
-    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
-        return false;
-    }
-    are_joined(p, a, b, bound, &NONE_FREE)
-}
-
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
-    if farthest(a, b) > BLUR {
-        return false;
-    }
-    let way = differences(a, b);
-    let mut middle = *b;
-    for i in 0..JOINTS {
-        middle[i] += 0.5 * way[i];
-    }
-    let mut fit = measure(p, &middle);
-    for _ in 0..RETURNS {
-        if fit.relative <= bound {
-            return true;
-        }
-        let Some(back) = newton_step(p, &middle, STIFF, held) else { return false };
-        middle = stepped(&middle, &back);
-        fit = measure(p, &middle);
-    }
-    fit.relative <= bound
-}
-
-/// How well joint values solve the equations.
-#[derive(Clone, Copy)]
-struct Fit {
-    /// The largest magnitude of an equation's value.
-    residual: f64,
-    /// The largest share of an equation's value in its size.
-    relative: f64,
-    /// Whether every equation holds.
-    accepted: bool,
-}
-
-fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    measure_at(p, &place(q), q)
-}
-
-/// As [`measure`], where the cosines and sines of `q` are known.
-#[inline(always)]
-fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, at);
-    let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    let mut largest = [0.0; SIZES];
-    for i in 0..EQUATIONS {
-        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
-        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
-    }
-    for (largest, size) in largest.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, *largest);
-        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
-    }
-    fit.accepted &= fit.residual.is_finite();
-    fit
-}
-
-/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-/// after a leap.
-/// Joints that are `held` stay.
-fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let (mut end, mut slow) = (start, 0);
-    for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED || slow == PATIENCE {
-            return end;
-        }
-        let Some(next) = improved(p, &end, held) else { return end };
-        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
-        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
-        end = next;
-        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
-            return end;
-        }
-    }
-    end
-}
-
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-/// it is rounding and a plain step is short, that is the last.
-fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
-    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-    let mut fallen = None;
-    for damping in DAMPINGS {
-        let Some(step) = newton_step(p, q, damping, held) else { continue };
-        let next = stepped(q, &step);
-        let next = (next, measure(p, &next));
-        if next.1.relative < enough {
-            return Some(next);
-        }
-        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
-            return None;
-        }
-        if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
-            let end = returned(p, next.0, fit.relative, held);
-            if end.is_some() {
-                return end;
-            }
-        }
-        if next.1.relative < fit.relative && fallen.is_none() {
-            fallen = Some(next);
-        }
-    }
-    let leap = if leaps { leap(p, q, enough, held) } else { None };
-    leap.or(fallen)
-}
-
-/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-/// beyond one of them, and from there on each quarters the miss.
-fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    for _ in 0..RETURNS {
-        let step = newton_step(p, &q, 0.0, held)?;
-        q = stepped(&q, &step);
-        let fit = measure(p, &q);
-        if fit.relative < relative {
-            return Some((q, fit));
-        }
-    }
-    None
-}
-
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-/// hardly changes along a bent way, and rises on each straight one.
-fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let step = newton_step(p, q, 0.0, held)?;
-    let longest = longest(&step);
-    if !longest.is_finite() {
-        return None;
-    }
-    for most in LEAPS {
-        let share = f64::min(most / longest, 1.0);
-        let mut next = stepped(q, &step.map(|way| share * way));
-        for _ in 0..RETURNS {
-            let Some(back) = newton_step(p, &next, STIFF, held) else { break };
-            next = stepped(&next, &back);
-            let fit = measure(p, &next);
-            if fit.relative < enough {
-                return Some((next, fit));
-            }
-        }
-    }
-    None
-}
-
-/// The longest way of a joint in a step: an angle, or a share of the length scale.
-fn longest(step: &[f64; JOINTS]) -> f64 {
-    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
-}
-
-/// `q - step`, angles in (-pi, pi].
-fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| wrap(q[i] - step[i]))
-}
-
-/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
-fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let sizes = equations(p, &at).size;
-    let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(SIZE_OF) {
-        let size = sizes[size];
-        for i in 0..JOINTS {
-            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
-        }
-    }
-    core::array::from_fn(|i| f64::min(weights[i], 1.0))
-}
-
-/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
-fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let mut next = *q;
-    next[i] = wrap(q[i] + way);
-    next
-}
-
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    substituted(&triangle(p, q, damping, held))
-}
-
-/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-/// hold, or a root is double.
-fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
-    let columns = triangle(p, q, 0.0, &NONE_FREE);
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for i in 0..JOINTS {
-        let pivot = columns[i][i].abs();
-        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
-    }
-    least / most
-}
-
-/// The triangle of a step's equations, the right side in the last column.
-fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
-    let mut columns = [[0.0; ROWS]; JOINTS + 1];
-    let mut size = 0.0;
-    for i in 0..JOINTS {
-        let mut square = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let entry = if held[i] { 0.0 } else { row[i] };
-            columns[i][k] = entry;
-            square += entry * entry;
-        }
-        size = f64::max(size, square);
-    }
-    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
-    for i in 0..JOINTS {
-        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-    }
-    reflect(&mut columns);
-    columns
-}
-
-/// Rows of the equations and of the damping.
-const ROWS: usize = EQUATIONS + JOINTS;
-
-/// Turns columns into a triangle by reflections.
-fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
-    for pivot in 0..JOINTS {
-        let mut mirror = columns[pivot];
-        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
-        if square == 0.0 {
-            continue;
-        }
-        let length = square.sqrt().copysign(mirror[pivot]);
-        mirror[pivot] += length;
-        let half = length * mirror[pivot];
-        columns[pivot][pivot] = -length;
-        for column in &mut columns[pivot + 1..] {
-            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
-            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
-                *x -= along * y;
-            }
-        }
-    }
-}
-
-/// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
-    let mut solution = [0.0; JOINTS];
-    for row in (0..JOINTS).rev() {
-        let pivot = columns[row][row];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
-        }
-        let mut sum = columns[JOINTS][row];
-        for k in row + 1..JOINTS {
-            sum -= columns[k][row] * solution[k];
-        }
-        solution[row] = sum / pivot;
-    }
-    Some(solution)
-}
-
-const PI: f64 = core::f64::consts::PI;
-const TAU: f64 = core::f64::consts::TAU;
-
-/// The angle of a cosine and a sine, in (-pi, pi], within 5e-16 rad.
-#[inline(always)]
-fn angle(cosine: f64, sine: f64) -> f64 {
-    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
-}
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
-#[inline(always)]
-fn acute(across: f64, up: f64) -> f64 {
-    let steep = up > across;
-    let (low, high) = if steep { (across, up) } else { (up, across) };
-    let far = low > 0.41421356237309503 * high;
-    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
-    let z = top / bottom;
-    let mut angle = z + z * (z * z) * series(z * z);
-    if far {
-        angle = 0.25 * PI + (angle + REST);
-    }
-    if steep {
-        angle = 0.5 * PI - (angle - 2.0 * REST);
-    }
-    angle
-}
-
-/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
-#[inline(always)]
-fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
-    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
-    half_open(angle.copysign(sine)) + 0.0
-}
-
-/// What the double nearest to pi/4 lacks.
-const REST: f64 = 3.061616997868383e-17;
-
-fn series(u: f64) -> f64 {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
-    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
-    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
-    first + (second + third * fourth) * fourth
-}
-
-/// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
-fn half_open(angle: f64) -> f64 {
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
-    half_open(angle - TAU * (angle / TAU).round())
-}
-
-/// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64, share: f64) -> bool {
-    value.abs() <= share * scale
-}
-
-/// Whether a factor is not zero.
-fn is_away(value: f64, scale: f64) -> bool {
-    value.abs() > TINY * scale
-}
-
-/// The highest degree of a polynomial.
-const DEGREE: usize = 4;
-/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
-const MEETING: f64 = 1e-5;
-/// A leading coefficient below this share of the largest coefficient counts as zero.
-const NEGLIGIBLE: f64 = 1e-290;
-/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
-/// typical size.
-const TANGENT: f64 = 1e-10;
-/// The same for `x^2 + c`, which such roots have led to.
-const GRAZING: f64 = 1e-6;
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// Steps for each root, at most.
-const MAX_STEPS: usize = 256;
-
-/// Real roots, ascending.
-struct Roots {
-    values: [f64; DEGREE],
-    count: usize,
-    /// Whether some are close to one another, or one is double.
-    close: bool,
-}
-
-impl Roots {
-    fn as_slice(&self) -> &[f64] {
-        &self.values[..self.count]
-    }
-
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
-    fn push(&mut self, x: f64) {
-        if x.is_finite() && self.count < DEGREE {
-            self.values[self.count] = x + 0.0;
-            self.count += 1;
-        }
-    }
-}
-
-/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
-fn square_roots(constant: f64, scale: f64) -> Roots {
-    let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > GRAZING * f64::max(constant, scale * scale) {
-        return roots;
-    }
-    if constant >= 0.0 {
-        roots.push(0.0);
-        roots.close = true;
-        return roots;
-    }
-    let root = (-constant).sqrt();
-    roots.close = root <= MEETING * scale;
-    roots.push(-root);
-    roots.push(root);
-    roots
-}
-
-/// A polynomial with coefficients of magnitude one and less, constant term first.
-struct Polynomial {
-    a: [f64; DEGREE + 1],
-    degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
-}
-
-fn largest(coefficients: &[f64]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
-}
-
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
-fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    if let Some(roots) = coefficients.try_into().ok().and_then(|quartic| ordinary_roots(quartic, scale)) {
-        return roots;
-    }
-    let mut roots = all_real_roots(coefficients, scale);
-    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= MEETING * scale);
-    roots
-}
-
-/// The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. None where the leading coefficient is small, where
-/// roots are next to each other or complex ones next to the axis, and where the steps do not settle.
-fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
-    let [e, d, c, b, lead] = *coefficients;
-    let largest = largest(coefficients);
-    if !(lead.abs() > 0.01 * largest && largest < f64::INFINITY) {
-        return None;
-    }
-    let inverse = 1.0 / lead; let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
-    let (mut x, count) = approximate_roots(&monic, scale)?;
-    for x in &mut x {
-        *x = settled(&monic, *x, scale);
-    }
-    if count == 4 {
-        let (low, high) = (f64::min(x[1], x[3]), f64::max(x[0], x[2]));
-        x = [f64::min(x[0], x[2]), f64::min(low, high), f64::max(low, high), f64::max(x[1], x[3])];
-    }
-    let mut roots = Roots::NONE;
-    for i in 0..count {
-        let size = f64::max(f64::max(scale, x[i].abs()), x[i.saturating_sub(1)].abs());
-        if i > 0 && !(x[i] - x[i - 1] > 0.002 * size) {
-            return None;
-        }
-        roots.push(x[i]);
-    }
-    Some(roots)
-}
-
-/// The roots of the two real quadratics whose product is x^4 + b x^3 + c x^2 + d x + e, and their number: two of either, ascending.
-fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<([f64; 4], usize)> {
-    // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
-    let (quarter, square) = (0.25 * b, b * b);
-    let p = c - 0.375 * square; let q = d - 0.5 * b * (c - 0.25 * square);
-    let r = e - quarter * (d - quarter * (c - 0.1875 * square));
-    // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
-    let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
-    let h = z.sqrt();
-    let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
-    let (f, g) = (mean - half, mean + half);
-    let size = f64::max(f64::max(z, f.abs()), g.abs());
-    if !((f * g - r).abs() <= 1e-8 * size * size) {
-        return None;
-    }
-    let (mut roots, mut count) = ([0.0; 4], 0);
-    for (other, discriminant, middle) in [(g, z - 4.0 * f, -0.5 * h), (f, z - 4.0 * g, 0.5 * h)] {
-        let apart = 0.5 * discriminant.abs().sqrt();
-        if discriminant > 0.0 {
-            roots[count] = middle - apart - quarter;
-            roots[count + 1] = middle + apart - quarter;
-            count += 2;
-        } else if !(apart > 0.002 * f64::max(scale, size.sqrt())
-            && (other + 0.75 * z).abs() > 0.002 * f64::max(size, scale * scale))
-        {
-            return None;
-        }
-    }
-    Some((roots, count))
-}
-
-/// The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it.
-fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
-    let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
-    let mut z = f64::max(typical, 0.5 * (falling + (falling * falling + 4.0 * (under + w / typical)).sqrt()));
-    for _ in 0..24 {
-        let value = ((z + u) * z + v) * z - w; let slope = (3.0 * z + 2.0 * u) * z + v;
-        let step = value / slope;
-        z -= step;
-        if step.abs() <= 1e-5 * z {
-            return if w > 0.0 { Some(z) } else { None };
-        }
-    }
-    None
-}
-
-/// Two Newton steps from a root's approximation; not a number where they do not settle.
-fn settled(&[e, d, c, b]: &[f64; 4], mut x: f64, scale: f64) -> f64 {
-    let mut step = 0.0;
-    for _ in 0..2 {
-        let value = (((x + b) * x + c) * x + d) * x + e;
-        let slope = ((4.0 * x + 3.0 * b) * x + 2.0 * c) * x + d;
-        step = value / slope;
-        x -= step;
-    }
-    if f64::abs(step) <= 1e-9 * f64::max(scale, x.abs()) { x } else { f64::NAN }
-}
-
-fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
-    if p.degree < 2 {
-        return p.linear_root();
-    }
-    let bound = p.root_bound();
-    let mut roots = p.derivative(p.degree - 2).quadratic_roots();
-    for order in (0..p.degree - 2).rev() {
-        roots = p.derivative(order).roots_between(&roots, bound);
-    }
-    roots
-}
-
-impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
-        let largest = largest(coefficients);
-        let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
-            length -= 1;
-        }
-        if length == 0 || !coefficients.iter().all(|c| c.is_finite()) {
-            return None;
-        }
-        let mut a = [0.0; DEGREE + 1];
-        a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1, scale }.scaled())
-    }
-
-    /// The polynomial divided by its largest coefficient.
-    fn scaled(mut self) -> Self {
-        let largest = largest(&self.a);
-        for c in &mut self.a {
-            *c /= largest;
-        }
-        self
-    }
-
-    fn linear_root(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        if self.degree == 1 {
-            roots.push(-self.a[0] / self.a[1]);
-        }
-        roots
-    }
-
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
-    fn quadratic_roots(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
-            return roots;
-        }
-        if discriminant <= ROUNDING * size {
-            roots.push(-b / (2.0 * a));
-            return roots;
-        }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-        let (first, second) = (q / a, c / q);
-        roots.push(f64::min(first, second));
-        roots.push(f64::max(first, second));
-        roots
-    }
-
-    /// A positive multiple of the derivative of `order`.
-    fn derivative(&self, order: usize) -> Polynomial {
-        let degree = self.degree - order;
-        let mut a = [0.0; DEGREE + 1];
-        let mut binomial = 1.0;
-        for i in 0..=degree {
-            a[i] = binomial * self.a[i + order];
-            binomial = binomial * (i + 1 + order) as f64 / (i + 1) as f64;
-        }
-        Polynomial { a, degree, scale: self.scale }.scaled()
-    }
-
-    /// Two to four times Cauchy's radius: every root, and every root of a derivative, is well inside.
-    fn root_bound(&self) -> f64 {
-        let mut radius = 1.0;
-        while !self.is_led(radius) {
-            radius *= 2.0;
-        }
-        while self.is_led(0.5 * radius) {
-            radius *= 0.5;
-        }
-        2.0 * radius
-    }
-
-    /// Whether `|a_n| r^n` is more than all other `|a_i| r^i` together: then no root is as large as `r`.
-    fn is_led(&self, radius: f64) -> bool {
-        let lead = self.a[self.degree].abs();
-        self.a[..self.degree].iter().rev().fold(lead, |value, c| value * radius - c.abs()) > 0.0
-    }
-
-    /// The roots, given the ascending critical points and a bound on all of them: one in each interval where the sign
-    /// changes, and the critical points where `p` touches the axis.
-    fn roots_between(&self, critical: &Roots, bound: f64) -> Roots {
-        let mut roots = Roots::NONE;
-        let (mut low, mut low_sign) = (-bound, self.sign(-bound));
-        let mut tangency = None;
-        for &high in critical.as_slice().iter().chain(&[bound]) {
-            let high_sign = self.sign(high);
-            let crosses = low_sign * high_sign < 0.0;
-            if crosses {
-                roots.push(self.root_between(low, high));
-            } else if let Some(x) = tangency {
-                roots.push(x);
-            }
-            tangency = if !crosses && self.touches(high) { Some(high) } else { None };
-            (low, low_sign) = (high, high_sign);
-        }
-        roots
-    }
-
-    /// `-1`, `0` or `1`: the sign of `p(x)`, zero when rounding decides it.
-    fn sign(&self, x: f64) -> f64 {
-        let (value, size) = self.value_and_size(x, 0.0);
-        let noise = ROUNDING * self.degree as f64 * size;
-        if value == 0.0 || (noise.is_finite() && value.abs() <= noise) { 0.0 } else { 1.0_f64.copysign(value) }
-    }
-
-    /// Whether `p(x)` is negligible.
-    fn touches(&self, x: f64) -> bool {
-        let (value, size) = self.value_and_size(x, self.scale);
-        size.is_finite() && value.abs() <= TANGENT * size
-    }
-
-    /// `p(x)` and `sum |a_i y^i|` for the larger `y` of `|x|` and `scale`.
-    fn value_and_size(&self, x: f64, scale: f64) -> (f64, f64) {
-        let (mut value, mut size) = (0.0, 0.0);
-        for a in self.a[..=self.degree].iter().rev() {
-            value = value * x + a;
-            size = size * f64::max(x.abs(), scale) + a.abs();
-        }
-        (value, size)
-    }
-
-    /// `p(x)` and `p'(x)`.
-    fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for a in self.a[..=self.degree].iter().rev() {
-            slope = slope * x + value;
-            value = value * x + a;
-        }
-        (value, slope)
-    }
-
-    /// The root between two points where `p` is monotone and changes its sign: Newton's method, which must cut its steps to
-    /// a quarter and stay inside, else bisection.
-    fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
-        let rising = self.sign(high) > 0.0;
-        let mut x = 0.5 * low + 0.5 * high;
-        let mut step = high - low;
-        let mut arithmetic = true;
-        for _ in 0..MAX_STEPS {
-            let (value, slope) = self.value_and_slope(x);
-            if value == 0.0 {
-                return x;
-            }
-            if (value > 0.0) == rising {
-                high = x;
-            } else {
-                low = x;
-            }
-            let newton = x - value / slope;
-            if (newton - x).abs() <= f64::EPSILON * x.abs() {
-                return f64::min(f64::max(newton, low), high);
-            }
-            let next = if low < newton && newton < high && 4.0 * (newton - x).abs() <= step {
-                newton
-            } else {
-                arithmetic = !arithmetic;
-                middle(low, high, arithmetic)
-            };
-            if next <= low || next >= high {
-                return x;
-            }
-            step = (next - x).abs();
-            x = next;
-        }
-        x
-    }
-}
-
-/// The arithmetic mean, or one that halves the exponents: bounds may be hundreds of decades apart.
-fn middle(low: f64, high: f64, arithmetic: bool) -> f64 {
-    if arithmetic {
-        return 0.5 * low + 0.5 * high;
-    }
-    if low < 0.0 && high > 0.0 {
-        return 0.0;
-    }
-    let magnitude = f64::max(low.abs(), f64::MIN_POSITIVE).sqrt() * f64::max(high.abs(), f64::MIN_POSITIVE).sqrt();
-    magnitude.copysign(low + high)
-}
-
-/// What `core` lacks, from the C library.
-#[cfg(feature = "libm")]
-#[allow(dead_code, unsafe_code)]
-mod libm {
-    unsafe extern "C" {
-        pub safe fn sqrt(x: f64) -> f64;
-        pub safe fn sin(x: f64) -> f64;
-        pub safe fn cos(x: f64) -> f64;
-        pub safe fn round(x: f64) -> f64;
-        pub safe fn floor(x: f64) -> f64;
-        pub safe fn ceil(x: f64) -> f64;
-    }
-}
-
-/// The methods that `std` adds to `f64`.
-#[cfg(feature = "libm")]
-#[allow(dead_code)]
-trait Math: Sized {
-    fn sqrt(self) -> Self;
-    fn sin(self) -> Self;
-    fn cos(self) -> Self;
-    fn round(self) -> Self;
-    fn floor(self) -> Self;
-    fn ceil(self) -> Self;
-}
-
-#[cfg(feature = "libm")]
-impl Math for f64 {
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    fn sin(self) -> Self {
-        libm::sin(self)
-    }
-    fn cos(self) -> Self {
-        libm::cos(self)
-    }
-    fn round(self) -> Self {
-        libm::round(self)
-    }
-    fn floor(self) -> Self {
-        libm::floor(self)
-    }
-    fn ceil(self) -> Self {
-        libm::ceil(self)
-    }
-}
-
-use core::ops::{Add, Div, Mul, Sub};
-
-/// How many candidates are measured together, and how many of them an operation takes at once.
-const ROOM: usize = 16;
-const LANES: usize = 2;
-/// By angle: where its cosine and its sine stand among the places.
-const ANGLES: usize = 14;
-const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11], [12, 13], [14, 15], [16, 17], [18, 19], [20, 21], [22, 23], [24, 25], [26, 27]];
-/// The same for the angles that tell candidates apart, those that are found last first.
-const TELLING: [[usize; 2]; 14] = [[20, 21], [18, 19], [24, 25], [26, 27], [22, 23], [10, 11], [8, 9], [14, 15], [16, 17], [12, 13], [6, 7], [0, 1], [4, 5], [2, 3]];
-/// Angles differ by more than `BLUR` where their difference has a cosine below this.
-const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
-
-/// How a candidate was found.
-#[derive(Clone, Copy)]
-struct Found {
-    branch: usize,
-    last: usize,
-    close: bool,
-    free: [bool; JOINTS],
-}
-
-const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
-
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
-struct Fits {
-    residual: [f64; ROOM],
-    relative: [f64; ROOM],
-    sound: [f64; ROOM],
-}
-
-impl Answers<'_> {
-    /// Takes in a candidate, which waits to be measured together with others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
-        if self.waiting >= ROOM {
-            self.flush(p);
-        }
-        let k = self.waiting % ROOM;
-        for i in 0..PLACES {
-            self.at[i][k] = at[i];
-        }
-        self.found[k] = Found { branch, last, close, free };
-        self.waiting = k + 1;
-        self.candidates += 1;
-    }
-
-    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
-    #[inline(never)]
-    fn flush(&mut self, p: &Parameters) {
-        if self.pairs.is_some() {
-            return self.flush_pairs(p);
-        }
-        let angles = angles(&self.at);
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let mut usual = self.count == 0;
-        for k in 0..waiting {
-            let Found { branch, last, close, free } = self.found[k];
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k], angles[6][k], angles[7][k], angles[8][k], angles[9][k], angles[10][k], angles[11][k], angles[12][k], angles[13][k]];
-            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
-            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
-                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-                self.relative[self.count] = fit.relative;
-                self.count += 1;
-                continue;
-            }
-            usual = false;
-            if holds {
-                self.keep(p, branch, last, (q, fit), free);
-            } else {
-                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
-            }
-        }
-    }
-
-    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self, p: &Parameters) {
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let Some(pairs) = &mut self.pairs else { return };
-        for k in 0..waiting {
-            let Found { branch, close, free, .. } = self.found[k];
-            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
-            let joints = [
-                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
-                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
-                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
-                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
-                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
-                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
-                [self.at[12][k] + 0.0, self.at[13][k] + 0.0],
-                [self.at[14][k] + 0.0, self.at[15][k] + 0.0],
-                [self.at[16][k] + 0.0, self.at[17][k] + 0.0],
-                [self.at[18][k] + 0.0, self.at[19][k] + 0.0],
-                [self.at[20][k] + 0.0, self.at[21][k] + 0.0],
-                [self.at[22][k] + 0.0, self.at[23][k] + 0.0],
-                [self.at[24][k] + 0.0, self.at[25][k] + 0.0],
-                [self.at[26][k] + 0.0, self.at[27][k] + 0.0],
-            ];
-            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
-            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
-                self.usual = false;
-                return;
-            }
-            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
-            self.count += 1;
-        }
-    }
-
-    /// Whether an angle tells two candidates apart.
-    #[inline(always)]
-    fn are_apart(&self, k: usize, other: usize) -> bool {
-        TELLING.iter().any(|&[c, s]| {
-            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
-        })
-    }
-}
-
-/// Whether an angle tells two answers apart.
-#[inline(always)]
-fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
-    [10, 9, 12, 13, 11, 5, 4, 7, 8, 6, 3, 0, 2, 1].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
-}
-
-/// Measures the first so many candidates.
-#[inline(never)]
-fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
-    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
-    for first in (0..waiting.min(ROOM)).step_by(LANES) {
-        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let [residual, relative] = fit(p, &at);
-        let mut sound = Lanes([1.0; LANES]);
-        for [c, s] in CIRCLES {
-            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
-        }
-        for lane in 0..LANES {
-            fits.residual[first + lane] = residual.0[lane];
-            fits.relative[first + lane] = relative.0[lane];
-            fits.sound[first + lane] = sound.0[lane];
-        }
-    }
-    fits
-}
-
-/// The largest magnitude of an equation's value, and its largest share of the equation's size.
-#[inline(always)]
-fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
-    let mut largest = [Lanes([0.0; W]); SIZES];
-    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
-        largest[size] = largest[size].greater(value.size());
-    }
-    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
-    for i in 0..SIZES {
-        residual = residual.greater(largest[i]);
-        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
-        relative = relative.greater(largest[i] / size);
-    }
-    [residual, relative]
-}
-
-/// At least as many as there are angles of candidates.
-const POOL: usize = (ANGLES * ROOM).next_power_of_two();
-
-/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
-#[inline(never)]
-fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
-    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
-    let mut which = [[0; ROOM]; ANGLES];
-    let mut last = POOL - 1;
-    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
-            last = (last + is_new as usize) % POOL;
-            across[last] = at[c][k].abs();
-            up[last] = at[s][k].abs();
-            which[k] = last;
-        }
-    }
-    let acutes = acutes(&across, &up, last + 1);
-    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
-    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            row[k] = unfold(row[k], at[c][k], at[s][k]);
-        }
-    }
-    angles
-}
-
-/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
-#[inline(never)]
-fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
-    let mut acutes = [0.0; POOL];
-    for i in 0..count.min(POOL) {
-        acutes[i] = acute(across[i], up[i]);
-    }
-    acutes
-}
-
-/// Numbers that operations take at once.
-#[derive(Clone, Copy)]
-struct Lanes<const W: usize>([f64; W]);
-
-impl<const W: usize> Lanes<W> {
-    #[inline(always)]
-    fn size(self) -> Self {
-        Lanes(self.0.map(f64::abs))
-    }
-
-    /// The greater of two numbers; the first where one is not a number.
-    #[inline(always)]
-    fn greater(self, other: Self) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
-    }
-
-    /// The numbers where others are below a limit, and zero elsewhere.
-    #[inline(always)]
-    fn where_below(self, other: Self, limit: f64) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
-    }
-}
-
-/// A number that operations take with several at once.
-trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-/// What equations are computed of: one number, or several at once.
-trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
-}
-
-impl Number for f64 {
-}
-impl Number for Lanes<LANES> {
-}
-
-macro_rules! by_lane {
-    ($($operation:ident $name:ident $sign:tt)*) => {
-        $(
-            impl<const W: usize> $operation for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
-                }
-            }
-            impl<const W: usize> $operation<f64> for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: f64) -> Lanes<W> {
-                    Lanes(self.0.map(|number| number $sign other))
-                }
-            }
-            impl<const W: usize> $operation<Lanes<W>> for f64 {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(other.0.map(|number| self $sign number))
-                }
-            }
-        )*
-    };
-}
-
-by_lane!(Add add + Sub sub - Mul mul * Div div /);

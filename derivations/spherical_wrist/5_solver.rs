@@ -8,23 +8,23 @@
 //! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
 //! `r31` (1), `r32` (1), `r33` (1).
 //!
-//! Joints, in order; angles lie in (-pi, pi]:
-//! - `Axis1` (rad)
-//! - `Axis2` (rad)
-//! - `Axis3` (rad)
-//! - `Wrist1` (rad)
-//! - `Wrist2` (rad)
-//! - `Wrist3` (rad)
+//! Joints, in order; angles lie in (-pi, pi]: `Axis1` (rad), `Axis2` (rad), `Axis3` (rad), `Wrist1` (rad), `Wrist2` (rad), `Wrist3` (rad).
 //!
-//! A target has 22 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
-//!
-//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
-//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
-//!
-//! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
-//! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
-#![allow(unexpected_cfgs, non_snake_case, clippy::all)]
+//! With `use spherical_wrist::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
+//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+#![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
+
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
+pub use groebot_runtime::{Error, Solve};
+
+/// Inverse kinematics of `spherical_wrist`: what is particular to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver;
+
+/// One answer.
+pub type Solution = groebot_runtime::Solution<Solver>;
+/// One answer by cosines and sines.
+pub type Pairs = groebot_runtime::Pairs<Solver>;
 
 /// Numbers of a target.
 pub const INPUTS: usize = 12;
@@ -32,430 +32,32 @@ pub const INPUTS: usize = 12;
 pub const JOINTS: usize = 6;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 22;
+/// No answer yet: what a buffer is filled with.
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-#[allow(dead_code)]
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 /// The names of the joints, in order.
-#[allow(dead_code)]
 pub const JOINT_NAMES: [&str; JOINTS] = ["Axis1", "Axis2", "Axis3", "Wrist1", "Wrist2", "Wrist3"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-#[allow(dead_code)]
 pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
 
-/// One answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
-    /// Joint values, in order and unit of the joints.
-    pub q: [f64; JOINTS],
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which cases and which roots gave it.
-    pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
-    pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a self-motion.
-    pub free: [bool; JOINTS],
-}
-
-impl Solution {
-    /// No answer yet: what a buffer is filled with before [`solve`].
-    #[allow(dead_code)]
-    pub const EMPTY: Solution =
-        Solution { q: [0.0; JOINTS], residual: 0.0, branch: 0, chosen: false, free: [false; JOINTS] };
-}
-
-/// Why a target has no answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// A number of the target is infinite or not a number.
-    NotFinite,
-    /// The rotation of the target is off by more than `CONSISTENT`.
-    NotRotation,
-    /// The direction of the target is not of length one within `CONSISTENT`.
-    NotUnit,
-    /// The target lies on this stratum, which could not be derived.
-    OpenStratum(&'static str),
-}
-
-/// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
-///
-/// # Errors
-/// As [`Error`] says; the content of `out` has no meaning then.
-pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    answers.unite();
-    answers.sort();
-    Ok(answers.count)
-}
-
-/// One answer by cosines and sines.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
-    pub joints: [[f64; 2]; JOINTS],
-    /// As in [`Solution`].
-    pub residual: f64,
-    /// As in [`Solution`].
-    pub branch: usize,
-    /// As in [`Solution`].
-    pub free: [bool; JOINTS],
-}
-
-impl Pairs {
-    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
-    #[allow(dead_code)]
-    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
-}
-
-/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
-/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    let count = answers.count;
-    if answers.usual && count <= 8 {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
-    }
-    let mut list = [Solution::EMPTY; CAPACITY];
-    let count = solve(target, &mut list)?;
-    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
-        *pairs = Pairs { joints, residual, branch, free };
-    }
-    Ok(count)
-}
-
-/// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
-/// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
-#[allow(dead_code)]
-pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    let Ok(target) = &conform(target) else { return f64::NAN };
-    let mut largest = 0.0;
-    for value in equations(&parameters(target), &place(q)).value {
-        if value.is_nan() {
-            return value;
-        }
-        largest = f64::max(largest, value.abs());
-    }
-    largest
-}
-
-/// The target that joint values `q` reach.
-#[allow(dead_code)]
-pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(&place(q));
-    [reached[0], reached[1], reached[2], reached[3], reached[6], reached[9], reached[4], reached[7], reached[10], reached[5], reached[8], reached[11]]
-}
-
-/// A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. The target, its first 12 numbers, with which the
-/// tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: `base^-1 pose tool^-1`.
-#[allow(dead_code)]
-pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
-    let mut target = [0.0; 12];
-    for i in 0..3 {
-        for j in 0..3 {
-            for k in 0..9 {
-                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
-            }
-        }
-    }
-    for i in 0..3 {
-        for k in 0..3 {
-            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
-        }
-    }
-    target
-}
-
-/// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-/// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-/// within `limits`; at most [`MOST_TURNS`].
-#[allow(dead_code)]
-pub fn count_turns(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> usize {
-    let mut count = 1.0;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return 0;
-        }
-        let (first, last) = finite_turns(first, last);
-        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
-    }
-    count as usize
-}
-
-/// The most turns that are counted.
-pub const MOST_TURNS: usize = 1_000_000;
-
-/// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
-#[allow(dead_code)]
-pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) -> [f64; JOINTS] {
-    let mut out = *q;
-    for i in (0..JOINTS).rev() {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        let (first, last) = finite_turns(first, last);
-        let count = (last - first) as usize + 1;
-        out[i] += TURNS[i] * (first + (index % count) as f64);
-        index /= count;
-    }
-    out
-}
-
-/// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let count = solve(target, out)?;
-    let target = &conform(target)?;
-    let p = &parameters(target);
-    let mut kept = 0;
-    for k in 0..count {
-        let answer = out[k];
-        if let Some(q) = turned_within(&answer.q, limits) {
-            out[kept] = Solution { q, ..answer };
-            kept += 1;
-        } else if let Some((q, residual)) = strides_within(p, &answer, limits) {
-            out[kept] = Solution { q, residual, ..answer };
-            kept += 1;
-        }
-    }
-    Ok(kept)
-}
-
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
-fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64; JOINTS]> {
-    let mut place = *q;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return None;
-        }
-        place[i] += TURNS[i] * nearest_turn(0.0, first, last);
-    }
-    Some(place)
-}
-
-/// How far, and how often, a free joint is moved in search of a place within limits: rad, or a share of a length; a whole turn in all.
-const STRIDE: f64 = 0.1;
-const STRIDES: usize = 63;
-
-/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
-/// when it meets no such place.
-fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
-    for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
-        let mut q = answer.q;
-        for _ in 0..STRIDES {
-            let (next, fit) = follow(p, moved(&q, i / 2, if i % 2 == 0 { STRIDE } else { -STRIDE }), &answer.free);
-            if !fit.accepted {
-                break;
-            }
-            if let Some(place) = turned_within(&next, limits) {
-                return Some((place, fit.residual));
-            }
-            q = next;
-        }
-    }
-    None
-}
-
-/// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-/// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-/// its weight, which is not negative.
-#[allow(dead_code)]
-pub fn nearest(list: &[Solution], reference: &[f64; JOINTS], weights: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<(usize, [f64; JOINTS])> {
-    let mut least = f64::INFINITY;
-    let mut best = None;
-    for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q, 0.0);
-        for i in 0..JOINTS {
-            let (first, last) = turns_within(i, answer.q[i], limits[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if TURNS[i] > 0.0 { ((reference[i] - answer.q[i]) / TURNS[i]).round() } else { 0.0 };
-            place[i] += TURNS[i] * nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
-        }
-    }
-    best
-}
-
-/// How far a joint may be beyond a limit.
-const SLACK: f64 = 1e-9;
-/// By joint: a turn of an angle, 0 for a length.
-const TURNS: [f64; JOINTS] = [TAU, TAU, TAU, TAU, TAU, TAU];
-
-/// The least and the greatest number of turns that bring joint `i` within its limits: the first is greater when none does.
-fn turns_within(i: usize, value: f64, limit: [f64; 2]) -> (f64, f64) {
-    let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
-    if TURNS[i] > 0.0 {
-        return ((low / TURNS[i]).ceil(), (high / TURNS[i]).floor());
-    }
-    (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
-}
-
-/// The number of turns between bounds that is nearest to another.
-fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
-    f64::min(f64::max(turn, first), last) + 0.0
-}
-
-/// The bounds, brought together where one is infinite, and not too far apart.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
-    if !first.is_finite() || !last.is_finite() {
-        first = nearest_turn(0.0, first, last);
-        last = first;
-    }
-    (first, f64::min(last, first + MOST_TURNS as f64))
-}
-
-const EQUATIONS: usize = 12;
-/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
-const ACCEPT: f64 = 1e-12;
-/// Answers whose joints all differ by no more than this are one.
-const MERGE: f64 = 1e-7;
-/// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.05;
-/// Half-way between two that are one the equations hold within this share.
-const ALIKE: f64 = 2.5e-15;
-/// Where no pivot is below this share of the largest, an answer is a root of its own.
-const DISTINCT: f64 = 0.0001;
-/// What rounding leaves of an equation that holds, as a share of its size.
-const RESOLUTION: f64 = 1e-14;
-/// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve a miss by more than rounding are the last.
-const PATIENCE: usize = 3;
-/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
-const OVERSHOT: f64 = 100.0;
-/// Shares of the squared Jacobian's size that are added where a plain step fails.
-const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 0.001, 1e-18];
-/// A candidate that misses the equations by this share of their size at most may be a double root.
-const APART: f64 = 0.7;
-const SPLIT: f64 = 0.001;
-/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
-const LEVER: f64 = 0.1;
-/// Points around a candidate are so much farther where no nearer one leads to an answer.
-const FARTHER: f64 = 16.0;
-const FARTHEST: f64 = 256.0;
-/// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
-/// is added to it in these.
-const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-const RETURNS: usize = 4;
-const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
-const POLISHED: f64 = 1e-15;
-const SHORT: f64 = 1e-9;
-/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
-const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
-const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a self-motion.
-const ASIDE: f64 = 0.1;
-const NARROWS: usize = 5;
-const SINGULAR: f64 = 1e-13;
-const REGULAR: f64 = 1e-6;
-/// In how many stages, each twice as far as the one before.
-const DOUBLINGS: i32 = 8;
-/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
-const ARRIVED: f64 = 0.001;
-/// In how many stages a self-motion is followed from one member to another.
-const STAGES: usize = 4;
-/// A rotation or a unit vector may be this far from one.
-const CONSISTENT: f64 = 1e-9;
-/// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
-const NEAR: f64 = 0.001;
-const BESIDE: f64 = 1e-7;
-/// A factor is not zero above this share of its scale.
-const TINY: f64 = 1e-30;
-const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some case frees: that joint alone.
-const FREED: [[bool; JOINTS]; 4] = [[true, false, false, false, false, false], [false, true, false, false, false, false], [false, false, true, false, false, false], [false, false, false, true, false, false]];
-
-/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
-fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
-    if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::NotFinite);
-    }
-    let mut target = *target;
-    if !make_rotation(&mut target[3..12]) {
-        return Err(Error::NotRotation);
-    }
-    Ok(target)
-}
-
-/// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
-fn make_rotation(r: &mut [f64]) -> bool {
-    let mut excess = [[0.0; 3]; 3];
-    let mut deviation = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
-            deviation = f64::max(excess[i][j].abs(), deviation);
-        }
-    }
-    let determinant =
-        r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
-    for i in 0..9 {
-        let (row, column) = (excess[i / 3], i % 3);
-        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
-    }
-    determinant >= 0.0 && deviation <= CONSISTENT
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Parameters of the equations.
-struct Parameters {
-    px: f64, py: f64, pz: f64, r11_: f64, r12_: f64, r13_: f64, r21_: f64, r22_: f64, r23_: f64,
-    r31_: f64, r32_: f64, r33_: f64,
-    /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
-    magnitude: f64,
-}
-
-fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
-    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
-    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
-    let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.339110366322714, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
-    Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
-}
-
-/// What the blocks so far have found, and the choices made.
-#[derive(Clone, Copy)]
-struct Known {
-    /// The branch number so far.
-    branch: usize,
-    /// The end of the branch numbers of the first block's case.
-    last: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
-    close: bool,
-    free: [bool; JOINTS],
-    c3: f64, s3: f64, f3: f64, c1: f64, s1: f64, f1: f64, c2: f64, s2: f64, f2: f64, c4: f64,
-    s4: f64, c5: f64, s5: f64,
-}
-
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c3: 0.0, s3: 0.0, f3: 0.0, c1: 0.0, s1: 0.0, f1: 0.0, c2: 0.0, s2: 0.0, f2: 0.0, c4: 0.0, s4: 0.0, c5: 0.0, s5: 0.0 };
+const FACTS: Facts<'static> = Facts {
+    inputs: INPUTS,
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3]), Joint::Angle([4, 5]), Joint::Angle([6, 7]), Joint::Angle([8, 9]), Joint::Angle([10, 11])],
+    last_first: &[5, 4, 3, 1, 0, 2],
+    places: 12,
+    size_of: &[0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1],
+    sizes: 2,
+    compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
+    candidates: 8,
+    scale: 1.339110366322714,
+    capacity: CAPACITY,
+    isolated: Some(8),
+    freed: &[0, 1, 2, 3],
+    conditions: &[Condition::Rotation(3)],
+    reached: &[Reached::Value(0), Reached::Value(1), Reached::Value(2), Reached::Value(3), Reached::Value(6), Reached::Value(9), Reached::Value(4), Reached::Value(7), Reached::Value(10), Reached::Value(5), Reached::Value(8), Reached::Value(11)],
+    ..Facts::NONE
+};
 
 /// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 16] = [
@@ -469,587 +71,411 @@ const SAMPLES_1: [[f64; 2]; 16] = [
     [-0.9266488253107329, 0.3759281241809912], [-0.9999733484143644, -0.007300853440810631],
 ];
 
-/// Block 1: Axis3.
-fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
-    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
-    let r19 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_; let r24 = 0.5922902494331066 - r19;
-    let r29 = 2.0 * (p.px * r5) + 2.0 * (p.py * r12) + 2.0 * (p.pz * r19);
-    let r32 = r29 - p.px * p.px - p.py * p.py - p.pz * p.pz; let r33 = 0.597217006802721 - r32;
-    let r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24; let r37 = r36 - 0.0019437631439575074;
-    let r40 = 0.5047619047619047 * r24 - 0.8888888888888888 * r33; let r41 = r40 + 0.011783284742468416;
-    let r48 = 11.11111111111111 * (r33 * r33) + 0.5792669978044128;
-    let r49 = r24 * (5.0 * r24 - 13.333333333333334 * r33) + r48; let r53 = p.magnitude + 5.268934240362812;
-    let r56 = 6.0 * (p.magnitude * (p.magnitude + 3.6)) + 3.0 * (p.magnitude * p.magnitude);
-    let r57 = r56 + 13.01344739229025; let r62 = 2.7560090702947844 * r53 + 5.174603174603175 * r57;
-    let r66 = 0.5047619047619047 * r53 + 0.8888888888888888 * r57;
-    let r71 = f64::abs(r24) * (10.0 * r53 + 13.333333333333334 * r57);
-    let r74 = 13.333333333333334 * r53 + 22.22222222222222 * r57;
-    let r77 = r71 + (f64::abs(r33) * r74 + 0.5792669978044128);
-    let r78 = f64::abs(r62 + 0.0019437631439575074); let r79 = f64::abs(r66 + 0.011783284742468416);
-    let r80 = f64::abs(r77);
-    let shared = &Shared1 { r36, r37, r41, r49, r78, r79, r80 };
-    match greatest(&[claim_1_1(shared), claim_1_2(shared), claim_1_3(shared), claim_1_4(shared), claim_1_5(shared)]) {
-        0 => case_1_1(p, shared, answers),
-        1 => case_1_2(p, shared, answers),
-        2 => case_1_3(p, shared, answers),
-        3 => case_1_4(p, shared, answers),
-        4 => case_1_5(p, shared, answers),
-        _ => {}
-    }
-    case_1_6(p, shared, before, answers);
-}
+impl Mechanism for Solver {
+    type Storage = Fixed<12, 13, 6, 12, 12, 2, 0, 8, 22, 126>;
+    const IS_SINGLE: bool = true;
 
-/// What the cases of block 1 share.
-struct Shared1 { r36: f64, r37: f64, r41: f64, r49: f64, r78: f64, r79: f64, r80: f64 }
-
-/// Case 1 of block 1: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = 0.0019437631439575074 - shared.r36 - shared.r49; let r83 = 2.0 * shared.r41;
-    let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if !is_away(r88, 1000000000000.0 * (shared.r80 + r90)) {
-        return;
+    #[inline(always)]
+    fn facts(&self) -> Facts<'_> {
+        FACTS
     }
-    let f3 = 1.0;
-    let roots0 = real_roots(&[
-        r82, 0.43638807904114024 - r83, 2.610602989495118 - 2.0 * shared.r49, -0.43638807904114024 - r83,
-        r88,
-    ], 1.0);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r93 = 0.5 * shared.r37; let r94 = 0.5 * shared.r49;
-        let r98 = w3 * (r93 - r94) + (-0.21819403952057012 - shared.r41);
-        let r103 = 0.6526507473737795 * (w3 * r98 - (r94 + (r93 - 1.305301494747559)));
-        let r108 = w3 * (r94 - r93) + (shared.r41 + 0.21819403952057012);
-        let r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
-        let r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
-        let r117 = 1.0 - w3 * r115; let r121 = f64::max(r117 * r117 + r115 * r115, 0.0).sqrt();
-        let r122 = 1.0 / r121; let c3 = r117 * r122; let s3 = r115 * r122;
-        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
+
+    fn parameters<N: Number>(&self, target: &[N; 12]) -> [N; 13] where f64: With<N> {
+        let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_] = *target;
+        let magnitude = N::largest(1.339110366322714, &[
+            px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_,
+        ]);
+        [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude]
+    }
+
+    #[inline(always)]
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 13], c: &mut C) where f64: With<N> {
+        block_1(p, c);
+    }
+
+    #[inline(always)]
+    fn tip<N: Number>(&self, at: &[N; 12]) -> [N; 12] where f64: With<N> {
+        tip(at)
+    }
+
+    #[inline(always)]
+    fn sizes<N: Number>(&self, p: &[N; 13], at: &[N; 12]) -> [N; 2] where f64: With<N> {
+
+        [N::of(1.339110366322714), N::of(1.0)]
+    }
+
+    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
+        jacobian(p, at)
     }
 }
 
-/// The pivot of case 1 of block 1; -1 where it does not run.
-fn claim_1_1(shared: &Shared1) -> f64 {
-    let r88 = shared.r37 - shared.r49; let r90 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if is_away(r88, 1000000000000.0 * (shared.r80 + r90)) { f64::abs(r88) } else { -1.0 }
-}
-
-/// Case 2 of block 1: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_1_2(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = shared.r49 + (shared.r41 - 0.6526507473737795); let r83 = 2.0 * shared.r37;
-    let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
-    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
-        return;
-    }
-    let f3 = 1.0;
-    let roots0 = real_roots(&[
-        r82, 0.43638807904114024 - r83, 2.0 * shared.r49 + 1.305301494747559, -0.43638807904114024 - r83,
-        r89,
-    ], 1.0);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r94 = 0.5 * shared.r41; let r96 = 0.5 * shared.r49; let r97 = -0.32632537368688974 - r94 + r96;
-        let r100 = w3 * r97 + (-0.21819403952057012 - shared.r37);
-        let r104 = 0.0 - 0.21819403952057012 * r100 - 0.6526507473737795 * r97;
-        let r107 = r96 + (r94 + 0.32632537368688974);
-        let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
-        let r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
-        let r117 = (w3 * (w3 * r104 + r110) + r115) / 0.47356163692985703; let r119 = w3 * (1.0 - r117);
-        let r123 = f64::max(r119 * r119 + r117 * r117, 0.0).sqrt(); let r124 = 1.0 / r123;
-        let c3 = 0.0 - r119 * r124; let s3 = 0.0 - r117 * r124;
-        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
-    }
-}
-
-/// The pivot of case 2 of block 1; -1 where it does not run.
-fn claim_1_2(shared: &Shared1) -> f64 {
-    let r89 = shared.r49 + (-0.6526507473737795 - shared.r41);
-    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
-}
-
-/// Case 3 of block 1: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_1_3(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = 2.0 * shared.r41; let r87 = shared.r37 + shared.r49;
-    let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if !is_away(r87, 1000000000000.0 * (shared.r80 + r89)) {
-        return;
-    }
-    let f3 = 1.0;
-    let roots0 = real_roots(&[
-        shared.r49 - shared.r37, -0.43638807904114024 - r82, 2.0 * shared.r49 - 2.610602989495118,
-        0.43638807904114024 - r82, r87,
-    ], 1.0);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r92 = 0.5 * shared.r37; let r93 = 0.5 * shared.r49; let r96 = shared.r41 - 0.21819403952057012;
-        let r101 = w3 * (w3 * (r92 + r93) - r96) + (r93 + (-1.305301494747559 - r92));
-        let r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
-        let r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
-        let r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
-        let r116 = w3 * r114 + 1.0; let r120 = f64::max(r116 * r116 + r114 * r114, 0.0).sqrt();
-        let r121 = 1.0 / r120; let c3 = 0.0 - r116 * r121; let s3 = r114 * r121;
-        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
-    }
-}
-
-/// The pivot of case 3 of block 1; -1 where it does not run.
-fn claim_1_3(shared: &Shared1) -> f64 {
-    let r87 = shared.r37 + shared.r49; let r89 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if is_away(r87, 1000000000000.0 * (shared.r80 + r89)) { f64::abs(r87) } else { -1.0 }
-}
-
-/// Case 4 of block 1: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_1_4(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r82 = shared.r49 + (-0.6526507473737795 - shared.r41); let r83 = 2.0 * shared.r37;
-    let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
-    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if !is_away(r89, 1000000000000.0 * (shared.r80 + r91)) {
-        return;
-    }
-    let f3 = 1.0;
-    let roots0 = real_roots(&[
-        r82, r83 + 0.43638807904114024, 2.0 * shared.r49 + 1.305301494747559, r83 - 0.43638807904114024,
-        r89,
-    ], 1.0);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r94 = 0.5 * shared.r41; let r96 = 0.5 * shared.r49;
-        let r100 = w3 * (0.32632537368688974 - r94 - r96) - (shared.r37 - 0.21819403952057012);
-        let r102 = r94 - 0.32632537368688974;
-        let r105 = 0.6526507473737795 * (r96 + r102) - 0.21819403952057012 * r100; let r107 = r102 - r96;
-        let r110 = 0.6526507473737795 * shared.r37 - 0.21819403952057012 * r107;
-        let r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
-        let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703; let r119 = w3 * (0.0 - r116 - 1.0);
-        let r123 = f64::max(r119 * r119 + r116 * r116, 0.0).sqrt(); let r124 = 1.0 / r123;
-        let c3 = 0.0 - r119 * r124; let s3 = 0.0 - r116 * r124;
-        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
-    }
-}
-
-/// The pivot of case 4 of block 1; -1 where it does not run.
-fn claim_1_4(shared: &Shared1) -> f64 {
-    let r89 = shared.r49 + (shared.r41 - 0.6526507473737795);
-    let r91 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if is_away(r89, 1000000000000.0 * (shared.r80 + r91)) { f64::abs(r89) } else { -1.0 }
-}
-
-/// Case 5 of block 1: half angle.
-/// It runs where leading coefficient is not zero.
-fn case_1_5(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r81 = 1.25 * shared.r37; let r83 = 1.6666666666666667 * shared.r41;
-    let r85 = 2.0833333333333335 * shared.r49; let r87 = 3.3333333333333335 * shared.r37;
-    let r89 = 2.5 * shared.r41; let r92 = 4.166666666666667 * shared.r49 + 1.0916139879988276;
-    let r97 = r85 + (-1.0883950360189427 - r81 - r83);
-    let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if !is_away(r97, 1000000000000.0 * (shared.r80 + r99)) {
-        return;
-    }
-    let f3 = 1.0;
-    let roots0 = real_roots(&[
-        r81 - 1.0883950360189427 + r83 + r85, -2.3560432767211195 - r87 + r89, r92,
-        r89 + (2.3560432767211195 - r87), r97,
-    ], 1.0);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r102 = 0.24 * shared.r37; let r104 = 0.32 * shared.r41; let r106 = 0.4 * shared.r49;
-        let r108 = w3 * (-0.11499013929381277 - r102 - r104 + r106); let r109 = 0.82 * shared.r37;
-        let r111 = 0.24 * shared.r41; let r113 = 0.3 * shared.r49;
-        let r115 = r108 + (0.27996780600675647 - r109 + r111 + r113); let r118 = 0.18 * shared.r37;
-        let r122 = w3 * (r111 + (r118 + 0.12530894349576566) - r113); let r124 = 0.68 * shared.r41;
-        let r127 = r122 + (r106 + (r102 - 0.5430054218149845 - r124));
-        let r129 = 0.0 - 0.21819403952057012 * r115 - 0.6526507473737795 * r127;
-        let r133 = r106 + (r124 + (-0.04623375630524329 - r102));
-        let r139 = 0.6526507473737795 * (r111 + 0.4072540663612384 - r109 - r113);
-        let r141 = w3 * r129 + (0.0 - 0.21819403952057012 * r133 - r139);
-        let r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
-        let r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
-        let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703; let r157 = 0.6 - w3 * (0.8 - r154);
-        let r161 = f64::max(r157 * r157 + r154 * r154, 0.0).sqrt(); let r162 = 1.0 / r161;
-        let c3 = r157 * r162; let s3 = 0.0 - r154 * r162;
-        let next = Known { branch: i0, last: 4, close: roots0.close, c3, s3, f3, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
-    }
-}
-
-/// The pivot of case 5 of block 1; -1 where it does not run.
-fn claim_1_5(shared: &Shared1) -> f64 {
-    let r96 = -1.0883950360189427 - 1.25 * shared.r37 - 1.6666666666666667 * shared.r41;
-    let r97 = 2.0833333333333335 * shared.r49 + r96; let r99 = shared.r79 + (shared.r78 + 0.8708447868943496);
-    if is_away(r97, 1000000000000.0 * (shared.r80 + r99)) { f64::abs(r97) } else { -1.0 }
-}
-
-/// Case 6 of block 1: A = B = C = D = E = 0.
-/// It runs where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero.
-/// Free: Axis3.
-fn case_1_6(p: &Parameters, shared: &Shared1, before: usize, answers: &mut Answers<'_>) {
-    if !(is_near(-0.21819403952057012, 0.0021819403952057013, NEAR) && is_near(-0.6526507473737795, 0.006526507473737795, NEAR) && is_near(shared.r37, 0.01 * shared.r78, NEAR) && is_near(shared.r41, 0.01 * shared.r79, NEAR) && is_near(shared.r49, 0.01 * shared.r80, NEAR)) || (answers.suffice_since(p, before) && !(is_near(-0.21819403952057012, 0.0021819403952057013, BESIDE) && is_near(-0.6526507473737795, 0.006526507473737795, BESIDE) && is_near(shared.r37, 0.01 * shared.r78, BESIDE) && is_near(shared.r41, 0.01 * shared.r79, BESIDE) && is_near(shared.r49, 0.01 * shared.r80, BESIDE))) {
-        return;
-    }
-    let f3 = 1000000.0;
-    for [c3, s3] in SAMPLES_1 {
-        let next = Known { branch: 4, last: 5, close: false, free: [false, false, true, false, false, false], c3, s3, f3, ..NOTHING_KNOWN };
-        again_2(p, &next, answers);
-    }
-}
-
-/// Block 2: Axis1.
-fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
-    let r11 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_;
-    let r17 = p.pz - 0.12 * p.r31_ - 0.03 * p.r32_ - 0.15 * p.r33_;
-    let r28 = 2.0 * (p.px * r5) + 2.0 * (p.py * r11) + 2.0 * (p.pz * r17);
-    let r31 = r28 - p.px * p.px - p.py * p.py - p.pz * p.pz;
-    let r34 = 0.23285714285714285 * known.c3 - 0.04 * known.s3;
-    let r41 = 0.3333333333333333 * r5 + 0.6666666666666666 * r11;
-    let r44 = 0.3333333333333333 * r11 - 0.6666666666666666 * r5;
-    let r47 = 0.2615646258503401 * known.c3 - 0.02142857142857143 * known.s3;
-    let r50 = r47 - 0.6666666666666666 * r17 + 0.6384353741496599; let r51 = 0.0 - r50;
-    let r52 = 3.3333333333333335 * (r34 - r31 + 0.6 * r17 + 0.21684285714285714); let r53 = p.magnitude + 3.6;
-    let r59 = 0.6666666666666666 * p.magnitude + 8.418707482993197;
-    let r62 = 20.0 * (p.magnitude * r53) + 10.0 * (p.magnitude * p.magnitude);
-    let r66 = f64::abs(2.3333333333333335 * p.magnitude + 8.4); let r67 = f64::abs(r53);
-    let r68 = f64::abs(r59); let r69 = f64::abs(r62 + 2.0 * p.magnitude + 72.77766666666668);
-    let shared = &Shared2 { r41, r44, r50, r51, r52, r66, r67, r68, r69 };
-    case_2_1(p, known, shared, answers);
-    case_2_2(p, known, shared, before, answers);
-}
-
-/// Block 2 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_2(p, known, answers);
-}
-
-/// What the cases of block 2 share.
-struct Shared2 { r41: f64, r44: f64, r50: f64, r51: f64, r52: f64, r66: f64, r67: f64, r68: f64, r69: f64 }
-
-/// Case 1 of block 2: generic.
-/// It runs where A^2 + B^2 is not zero.
+/// Block 5: Wrist2.
 #[inline(always)]
-fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r72 = shared.r41 * shared.r41 + shared.r44 * shared.r44;
-    let r75 = shared.r66 * shared.r66 + shared.r67 * shared.r67;
-    if !is_away(r72, 16.0 * r75) {
-        return;
-    }
-    let f1 = 1.0; let r79 = shared.r44 * shared.r50 - shared.r41 * shared.r52;
-    let r83 = shared.r44 * shared.r52 - (0.0 - shared.r41 * shared.r50);
-    let r88 = 1.0 / f64::max(r83 * r83 + r79 * r79, 0.0).sqrt(); let c1 = r83 * r88; let s1 = r79 * r88;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c1, s1, f1, ..*known };
-    block_3(p, &next, answers);
-}
-
-/// Case 2 of block 2: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: Axis1.
-fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
-    let r72 = shared.r41 * shared.r41 + shared.r44 * shared.r44;
-    let r75 = shared.r66 * shared.r66 + shared.r67 * shared.r67;
-    if !(is_near(r72, 1.0000000000000001e-7 * r75, NEAR) && is_near(shared.r52, 0.01 * shared.r69, NEAR) && is_near(shared.r51, 0.01 * shared.r68, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r72, 1.0000000000000001e-7 * r75, BESIDE) && is_near(shared.r52, 0.01 * shared.r69, BESIDE) && is_near(shared.r51, 0.01 * shared.r68, BESIDE))) {
-        return;
-    }
-    let f1 = 1000000.0;
-    for [c1, s1] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [true, known.free[1], known.free[2], known.free[3], known.free[4], known.free[5]], c1, s1, f1, ..*known };
-        again_3(p, &next, answers);
-    }
-}
-
-/// Block 3: Axis2.
-#[inline(always)]
-fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r5 = p.px - 0.12 * p.r11_ - 0.03 * p.r12_ - 0.15 * p.r13_;
-    let r12 = p.py - 0.12 * p.r21_ - 0.03 * p.r22_ - 0.15 * p.r23_; let r14 = known.c1 * r12;
-    let r15 = known.s1 * r5; let r18 = 0.16224489795918368 * known.c3 - 0.5214285714285715 * known.s3;
-    let r19 = r18 + 0.03775510204081633;
-    let r22 = 0.4064625850340136 * known.c3 + 0.2357142857142857 * known.s3;
-    let r23 = 0.006462585034013605 - r22; let r29 = r14 - r15 - p.pz + 0.12 * p.r31_ + 0.03 * p.r32_;
-    let r32 = r29 + 0.15 * p.r33_ + 0.35;
-    let r35 = 1.3333333333333333 * (known.c1 * r5) + 1.3333333333333333 * (known.s1 * r12);
-    let r39 = r35 - 0.3333333333333333 * r14 + 0.3333333333333333 * r15;
-    let r43 = r39 - 0.3333333333333333 * p.pz + 0.04 * p.r31_;
-    let r48 = 0.05 - (r43 + 0.01 * p.r32_ + 0.05 * p.r33_);
-    let r52 = 4.333333333333333 * p.magnitude + 21.4369992441421;
-    let r53 = f64::abs(5.0 * p.magnitude + 26.730498866213154); let r54 = f64::abs(r52);
-    let shared = &Shared3 { r19, r23, r32, r48, r53, r54 };
-    case_3_1(p, known, shared, answers);
-    case_3_2(p, known, shared, before, answers);
-}
-
-/// Block 3 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_3(p, known, answers);
-}
-
-/// What the cases of block 3 share.
-struct Shared3 { r19: f64, r23: f64, r32: f64, r48: f64, r53: f64, r54: f64 }
-
-/// Case 1 of block 3: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
-    if !is_away(r57, 4959.93558445298) {
-        return;
-    }
-    let f2 = 1.0; let r60 = shared.r23 * shared.r32 + shared.r19 * shared.r48;
-    let r63 = shared.r23 * shared.r48 - shared.r19 * shared.r32;
-    let r68 = 1.0 / f64::max(r63 * r63 + r60 * r60, 0.0).sqrt(); let c2 = r63 * r68; let s2 = 0.0 - r60 * r68;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, f2, ..*known };
-    block_4(p, &next, answers);
-}
-
-/// Case 2 of block 3: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: Axis2.
-fn case_3_2(p: &Parameters, known: &Known, shared: &Shared3, before: usize, answers: &mut Answers<'_>) {
-    let r57 = shared.r19 * shared.r19 + shared.r23 * shared.r23;
-    if !(is_near(r57, 3.099959740283113e-5, NEAR) && is_near(shared.r48, 0.01 * shared.r54, NEAR) && is_near(shared.r32, 0.01 * shared.r53, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r57, 3.099959740283113e-5, BESIDE) && is_near(shared.r48, 0.01 * shared.r54, BESIDE) && is_near(shared.r32, 0.01 * shared.r53, BESIDE))) {
-        return;
-    }
-    let f2 = 1000000.0;
-    for [c2, s2] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, f2, ..*known };
-        again_4(p, &next, answers);
-    }
+fn block_5<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found4: Found<N>, [c1, s1, c2, s2, c3, s3, c4, s4]: [N; 8], c: &mut C) where f64: With<N> {
+    let [_, _, _, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, _] = *p;
+    let r2 = 0.6666666666666666 * r12_ - 0.3333333333333333 * r11_; let r4 = r2 + 0.6666666666666666 * r13_;
+    let r7 = 0.6666666666666666 * r22_ - 0.3333333333333333 * r21_; let r9 = r7 + 0.6666666666666666 * r23_;
+    let r12 = 0.6666666666666666 * r32_ - 0.3333333333333333 * r31_; let r14 = r12 + 0.6666666666666666 * r33_;
+    let r17 = c1 * r4 + s1 * r9; let r20 = c1 * r9 - s1 * r4;
+    let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20; let r25 = r23 + 0.6666666666666666 * r14;
+    let r26 = 0.3333333333333333 * r25; let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
+    let r40 = c2 * (r17 - r26) - s2 * (0.6666666666666666 * (r14 - r20));
+    let r43 = c2 * (r20 - r28) - s2 * (r33 - 0.3333333333333333 * r14);
+    let r46 = c2 * (r14 - r28) - s2 * (0.3333333333333333 * r20 - r33); let r47 = r26 + r40;
+    let r48 = r28 + r43; let r49 = r28 + r46; let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47;
+    let r54 = r52 + 0.42857142857142855 * r49; let r55 = 0.2857142857142857 * r54;
+    let r57 = 0.8571428571428571 * r54; let r59 = 0.42857142857142855 * r54;
+    let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
+    let r66 = 0.42857142857142855 * r47 + 0.2857142857142857 * r49;
+    let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47; let r79 = c3 * (r47 + r55) - s3 * r63 - r55;
+    let r80 = r57 + (c3 * (r48 - r57) - s3 * r66); let r81 = r59 + (c3 * (r49 - r59) + s3 * r69);
+    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80; let r86 = r84 + 0.6666666666666666 * r81;
+    let r87 = 0.6666666666666666 * r86; let r89 = 0.3333333333333333 * r86; let r93 = 0.6666666666666666 * r80;
+    let r101 = c4 * (r79 - r87) + s4 * (0.3333333333333333 * r81 + r93);
+    let r104 = c4 * (r80 + r89) - s4 * (0.6666666666666666 * (r79 - r81));
+    let r107 = c4 * (r81 - r87) - s4 * (r93 + 0.3333333333333333 * r79); let r108 = r87 + r101;
+    let r109 = r104 - r89; let r111 = r108 - r109; let r114 = 0.0 - 0.3333333333333333 * (r108 + r109);
+    let r115 = 1.3333333333333333 * (r87 + r107); let r117 = r115 - r114; let r118 = r117 - (r109 - r108);
+    let r119 = r117 - r111; let r124 = 1.0 / N::root(r119 * r119 + r118 * r118); let c5 = r119 * r124;
+    let s5 = r118 * r124; let r127 = r12_ - r13_; let r128 = r22_ - r23_; let r129 = r32_ - r33_;
+    let r132 = c1 * r127 + s1 * r128; let r135 = c1 * r128 - s1 * r127;
+    let r138 = 0.3333333333333333 * r132 + 0.6666666666666666 * r135;
+    let r140 = r138 + 0.6666666666666666 * r129; let r141 = 0.3333333333333333 * r140;
+    let r143 = 0.6666666666666666 * r140; let r148 = 0.6666666666666666 * r132;
+    let r155 = c2 * (r132 - r141) - s2 * (0.6666666666666666 * (r129 - r135));
+    let r158 = c2 * (r135 - r143) - s2 * (r148 - 0.3333333333333333 * r129);
+    let r161 = c2 * (r129 - r143) - s2 * (0.3333333333333333 * r135 - r148); let r162 = r141 + r155;
+    let r163 = r143 + r158; let r164 = r143 + r161;
+    let r167 = 0.8571428571428571 * r163 - 0.2857142857142857 * r162;
+    let r169 = r167 + 0.42857142857142855 * r164; let r170 = 0.2857142857142857 * r169;
+    let r172 = 0.8571428571428571 * r169; let r174 = 0.42857142857142855 * r169;
+    let r178 = 0.8571428571428571 * r164 - 0.42857142857142855 * r163;
+    let r181 = 0.42857142857142855 * r162 + 0.2857142857142857 * r164;
+    let r184 = 0.2857142857142857 * r163 + 0.8571428571428571 * r162;
+    let r194 = c3 * (r162 + r170) - s3 * r178 - r170; let r195 = r172 + (c3 * (r163 - r172) - s3 * r181);
+    let r196 = r174 + (c3 * (r164 - r174) + s3 * r184);
+    let r199 = 0.6666666666666666 * r194 - 0.3333333333333333 * r195;
+    let r201 = r199 + 0.6666666666666666 * r196; let r202 = 0.6666666666666666 * r201;
+    let r204 = 0.3333333333333333 * r201; let r208 = 0.6666666666666666 * r195;
+    let r216 = c4 * (r194 - r202) + s4 * (0.3333333333333333 * r196 + r208);
+    let r219 = c4 * (r195 + r204) - s4 * (0.6666666666666666 * (r194 - r196));
+    let r222 = c4 * (r196 - r202) - s4 * (r208 + 0.3333333333333333 * r194);
+    let r227 = 0.6666666666666666 * (r202 + r216 + (r219 - r204));
+    let r228 = 0.3333333333333333 * (r202 + r222); let r229 = r227 - r228;
+    let r232 = 1.3333333333333333 * r11_ + 0.3333333333333333 * r12_;
+    let r235 = 0.0 - r232 - 0.3333333333333333 * r13_;
+    let r238 = 1.3333333333333333 * r21_ + 0.3333333333333333 * r22_;
+    let r241 = 0.0 - r238 - 0.3333333333333333 * r23_;
+    let r244 = 1.3333333333333333 * r31_ + 0.3333333333333333 * r32_;
+    let r247 = 0.0 - r244 - 0.3333333333333333 * r33_; let r250 = c1 * r235 + s1 * r241;
+    let r253 = c1 * r241 - s1 * r235; let r256 = 0.3333333333333333 * r250 + 0.6666666666666666 * r253;
+    let r258 = r256 + 0.6666666666666666 * r247; let r259 = 0.3333333333333333 * r258;
+    let r261 = 0.6666666666666666 * r258; let r266 = 0.6666666666666666 * r250;
+    let r273 = c2 * (r250 - r259) - s2 * (0.6666666666666666 * (r247 - r253));
+    let r276 = c2 * (r253 - r261) - s2 * (r266 - 0.3333333333333333 * r247);
+    let r279 = c2 * (r247 - r261) - s2 * (0.3333333333333333 * r253 - r266); let r280 = r259 + r273;
+    let r281 = r261 + r276; let r282 = r261 + r279;
+    let r285 = 0.8571428571428571 * r281 - 0.2857142857142857 * r280;
+    let r287 = r285 + 0.42857142857142855 * r282; let r288 = 0.2857142857142857 * r287;
+    let r290 = 0.8571428571428571 * r287; let r292 = 0.42857142857142855 * r287;
+    let r296 = 0.8571428571428571 * r282 - 0.42857142857142855 * r281;
+    let r299 = 0.42857142857142855 * r280 + 0.2857142857142857 * r282;
+    let r302 = 0.2857142857142857 * r281 + 0.8571428571428571 * r280;
+    let r312 = c3 * (r280 + r288) - s3 * r296 - r288; let r313 = r290 + (c3 * (r281 - r290) - s3 * r299);
+    let r314 = r292 + (c3 * (r282 - r292) + s3 * r302);
+    let r317 = 0.6666666666666666 * r312 - 0.3333333333333333 * r313;
+    let r319 = r317 + 0.6666666666666666 * r314; let r320 = 0.6666666666666666 * r319;
+    let r322 = 0.3333333333333333 * r319; let r326 = 0.6666666666666666 * r313;
+    let r334 = c4 * (r312 - r320) + s4 * (0.3333333333333333 * r314 + r326);
+    let r337 = c4 * (r313 + r322) - s4 * (0.6666666666666666 * (r312 - r314));
+    let r340 = c4 * (r314 - r320) - s4 * (r326 + 0.3333333333333333 * r312);
+    let r345 = 0.6666666666666666 * (r320 + r334 + (r337 - r322));
+    let r347 = 0.3333333333333333 * (r320 + r340) - r345; let r348 = r347 - r229;
+    let r350 = r347 - (r228 - r227); let r355 = 1.0 / N::root(r350 * r350 + r348 * r348); let c6 = r350 * r355;
+    let s6 = r348 * r355;
+    c.finish(&Solver, found4, &[c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6]);
 }
 
 /// Block 4: Wrist1.
 #[inline(always)]
-fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r2 = 0.6666666666666666 * p.r12_ - 0.3333333333333333 * p.r11_;
-    let r4 = r2 + 0.6666666666666666 * p.r13_;
-    let r7 = 0.6666666666666666 * p.r22_ - 0.3333333333333333 * p.r21_;
-    let r9 = r7 + 0.6666666666666666 * p.r23_;
-    let r12 = 0.6666666666666666 * p.r32_ - 0.3333333333333333 * p.r31_;
-    let r14 = r12 + 0.6666666666666666 * p.r33_; let r17 = known.c1 * r4 + known.s1 * r9;
-    let r20 = known.c1 * r9 - known.s1 * r4; let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
-    let r25 = r23 + 0.6666666666666666 * r14; let r26 = 0.3333333333333333 * r25;
-    let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
-    let r39 = known.s2 * (0.6666666666666666 * (r14 - r20));
-    let r43 = known.c2 * (r20 - r28) - known.s2 * (r33 - 0.3333333333333333 * r14);
-    let r46 = known.c2 * (r14 - r28) - known.s2 * (0.3333333333333333 * r20 - r33);
-    let r47 = r26 + (known.c2 * (r17 - r26) - r39); let r48 = r28 + r43; let r49 = r28 + r46;
-    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47; let r54 = r52 + 0.42857142857142855 * r49;
-    let r55 = 0.2857142857142857 * r54; let r57 = 0.8571428571428571 * r54;
-    let r59 = 0.42857142857142855 * r54; let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
+fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found3: Found<N>, [c1, s1, c2, s2, c3, s3, f3, f1, f2]: [N; 9], c: &mut C) where f64: With<N> {
+    let [_, _, _, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, _] = *p;
+    let before4 = c.count(); let r2 = 0.6666666666666666 * r12_ - 0.3333333333333333 * r11_;
+    let r4 = r2 + 0.6666666666666666 * r13_; let r7 = 0.6666666666666666 * r22_ - 0.3333333333333333 * r21_;
+    let r9 = r7 + 0.6666666666666666 * r23_; let r12 = 0.6666666666666666 * r32_ - 0.3333333333333333 * r31_;
+    let r14 = r12 + 0.6666666666666666 * r33_; let r17 = c1 * r4 + s1 * r9; let r20 = c1 * r9 - s1 * r4;
+    let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20; let r25 = r23 + 0.6666666666666666 * r14;
+    let r26 = 0.3333333333333333 * r25; let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
+    let r40 = c2 * (r17 - r26) - s2 * (0.6666666666666666 * (r14 - r20));
+    let r43 = c2 * (r20 - r28) - s2 * (r33 - 0.3333333333333333 * r14);
+    let r46 = c2 * (r14 - r28) - s2 * (0.3333333333333333 * r20 - r33); let r47 = r26 + r40;
+    let r48 = r28 + r43; let r49 = r28 + r46; let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47;
+    let r54 = r52 + 0.42857142857142855 * r49; let r55 = 0.2857142857142857 * r54;
+    let r57 = 0.8571428571428571 * r54; let r59 = 0.42857142857142855 * r54;
+    let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
     let r66 = 0.42857142857142855 * r47 + 0.2857142857142857 * r49;
-    let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47;
-    let r79 = known.c3 * (r47 + r55) - known.s3 * r63 - r55;
-    let r80 = r57 + (known.c3 * (r48 - r57) - known.s3 * r66);
-    let r81 = r59 + (known.c3 * (r49 - r59) + known.s3 * r69);
+    let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47; let r79 = c3 * (r47 + r55) - s3 * r63 - r55;
+    let r80 = r57 + (c3 * (r48 - r57) - s3 * r66); let r81 = r59 + (c3 * (r49 - r59) + s3 * r69);
     let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80; let r86 = r84 + 0.6666666666666666 * r81;
     let r87 = 0.6666666666666666 * r86; let r93 = 0.6666666666666666 * r80;
     let r100 = 0.6666666666666666 * (r79 - r87 + (r80 + 0.3333333333333333 * r86));
     let r101 = 0.6666666666666666 * (r79 - r81) - (0.3333333333333333 * r81 + r93);
     let r104 = 0.3333333333333333 * (r93 + 0.3333333333333333 * r79);
     let r105 = 0.3333333333333333 * (r81 - r87) - r100; let r106 = 0.6666666666666666 * r101 - r104;
-    let shared = &Shared4 { r105, r106 };
-    case_4_1(p, known, shared, answers);
-    case_4_2(p, known, shared, before, answers);
-}
-
-/// Block 4 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_4(p, known, answers);
-}
-
-/// What the cases of block 4 share.
-struct Shared4 { r105: f64, r106: f64 }
-
-/// Case 1 of block 4: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let r107 = shared.r105 * shared.r105; let r108 = shared.r106 * shared.r106; let r109 = r107 + r108;
-    if !is_away(r109, 711231.7843257814) {
-        return;
-    }
-    let r114 = known.f2 * (known.f1 * (210.83639752272694 * known.f3));
-    let roots0 = square_roots(0.0 - r107 - r108, r114);
-    for (i0, &w4) in roots0.as_slice().iter().enumerate() {
-        let r117 = 1.0 / r109; let c4 = 0.0 - w4 * shared.r106 * r117; let s4 = w4 * shared.r105 * r117;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c4, s4, ..*known };
-        block_5(p, &next, answers);
-    }
-}
-
-/// Case 2 of block 4: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: Wrist1.
-fn case_4_2(p: &Parameters, known: &Known, shared: &Shared4, before: usize, answers: &mut Answers<'_>) {
-    let r109 = shared.r105 * shared.r105 + shared.r106 * shared.r106;
-    if !is_near(r109, 0.004445198652036134, NEAR) || (answers.suffice_since(p, before) && !is_near(r109, 0.004445198652036134, BESIDE)) {
-        return;
-    }
-    for [c4, s4] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], true, known.free[4], known.free[5]], c4, s4, ..*known };
-        again_5(p, &next, answers);
-    }
-}
-
-/// Block 5: Wrist2.
-#[inline(always)]
-fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r2 = 0.6666666666666666 * p.r12_ - 0.3333333333333333 * p.r11_;
-    let r4 = r2 + 0.6666666666666666 * p.r13_;
-    let r7 = 0.6666666666666666 * p.r22_ - 0.3333333333333333 * p.r21_;
-    let r9 = r7 + 0.6666666666666666 * p.r23_;
-    let r12 = 0.6666666666666666 * p.r32_ - 0.3333333333333333 * p.r31_;
-    let r14 = r12 + 0.6666666666666666 * p.r33_; let r17 = known.c1 * r4 + known.s1 * r9;
-    let r20 = known.c1 * r9 - known.s1 * r4; let r23 = 0.3333333333333333 * r17 + 0.6666666666666666 * r20;
-    let r25 = r23 + 0.6666666666666666 * r14; let r26 = 0.3333333333333333 * r25;
-    let r28 = 0.6666666666666666 * r25; let r33 = 0.6666666666666666 * r17;
-    let r39 = known.s2 * (0.6666666666666666 * (r14 - r20));
-    let r43 = known.c2 * (r20 - r28) - known.s2 * (r33 - 0.3333333333333333 * r14);
-    let r46 = known.c2 * (r14 - r28) - known.s2 * (0.3333333333333333 * r20 - r33);
-    let r47 = r26 + (known.c2 * (r17 - r26) - r39); let r48 = r28 + r43; let r49 = r28 + r46;
-    let r52 = 0.8571428571428571 * r48 - 0.2857142857142857 * r47; let r54 = r52 + 0.42857142857142855 * r49;
-    let r55 = 0.2857142857142857 * r54; let r57 = 0.8571428571428571 * r54;
-    let r59 = 0.42857142857142855 * r54; let r63 = 0.8571428571428571 * r49 - 0.42857142857142855 * r48;
-    let r66 = 0.42857142857142855 * r47 + 0.2857142857142857 * r49;
-    let r69 = 0.2857142857142857 * r48 + 0.8571428571428571 * r47;
-    let r79 = known.c3 * (r47 + r55) - known.s3 * r63 - r55;
-    let r80 = r57 + (known.c3 * (r48 - r57) - known.s3 * r66);
-    let r81 = r59 + (known.c3 * (r49 - r59) + known.s3 * r69);
-    let r84 = 0.6666666666666666 * r79 - 0.3333333333333333 * r80; let r86 = r84 + 0.6666666666666666 * r81;
-    let r87 = 0.6666666666666666 * r86; let r89 = 0.3333333333333333 * r86; let r93 = 0.6666666666666666 * r80;
-    let r101 = known.c4 * (r79 - r87) + known.s4 * (0.3333333333333333 * r81 + r93);
-    let r103 = known.s4 * (0.6666666666666666 * (r79 - r81));
-    let r107 = known.c4 * (r81 - r87) - known.s4 * (r93 + 0.3333333333333333 * r79); let r108 = r87 + r101;
-    let r109 = known.c4 * (r80 + r89) - r103 - r89; let r111 = r108 - r109;
-    let r114 = 0.0 - 0.3333333333333333 * (r108 + r109); let r115 = 1.3333333333333333 * (r87 + r107);
-    let shared = &Shared5 { r108, r109, r111, r114, r115 };
-    case_5_1(p, known, shared, answers);
-}
-
-/// Block 5 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_5(p, known, answers);
-}
-
-/// What the cases of block 5 share.
-struct Shared5 { r108: f64, r109: f64, r111: f64, r114: f64, r115: f64 }
-
-/// Case 1 of block 5: generic.
-#[inline(always)]
-fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r117 = shared.r115 - shared.r114; let r118 = r117 - (shared.r109 - shared.r108);
-    let r119 = r117 - shared.r111; let r123 = f64::max(r119 * r119 + r118 * r118, 0.0).sqrt();
-    let r124 = 1.0 / r123; let c5 = r119 * r124; let s5 = r118 * r124;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
-    block_6(p, &next, answers);
-}
-
-/// Block 6: Wrist3.
-#[inline(always)]
-fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r0 = p.r12_ - p.r13_; let r1 = p.r22_ - p.r23_; let r2 = p.r32_ - p.r33_;
-    let r5 = known.c1 * r0 + known.s1 * r1; let r8 = known.c1 * r1 - known.s1 * r0;
-    let r11 = 0.3333333333333333 * r5 + 0.6666666666666666 * r8; let r13 = r11 + 0.6666666666666666 * r2;
-    let r14 = 0.3333333333333333 * r13; let r16 = 0.6666666666666666 * r13; let r21 = 0.6666666666666666 * r5;
-    let r28 = known.c2 * (r5 - r14) - known.s2 * (0.6666666666666666 * (r2 - r8));
-    let r31 = known.c2 * (r8 - r16) - known.s2 * (r21 - 0.3333333333333333 * r2);
-    let r34 = known.c2 * (r2 - r16) - known.s2 * (0.3333333333333333 * r8 - r21); let r35 = r14 + r28;
-    let r36 = r16 + r31; let r37 = r16 + r34; let r40 = 0.8571428571428571 * r36 - 0.2857142857142857 * r35;
-    let r42 = r40 + 0.42857142857142855 * r37; let r43 = 0.2857142857142857 * r42;
-    let r45 = 0.8571428571428571 * r42; let r47 = 0.42857142857142855 * r42;
-    let r51 = 0.8571428571428571 * r37 - 0.42857142857142855 * r36;
-    let r54 = 0.42857142857142855 * r35 + 0.2857142857142857 * r37;
-    let r57 = 0.2857142857142857 * r36 + 0.8571428571428571 * r35;
-    let r67 = known.c3 * (r35 + r43) - known.s3 * r51 - r43;
-    let r68 = r45 + (known.c3 * (r36 - r45) - known.s3 * r54);
-    let r69 = r47 + (known.c3 * (r37 - r47) + known.s3 * r57);
-    let r72 = 0.6666666666666666 * r67 - 0.3333333333333333 * r68; let r74 = r72 + 0.6666666666666666 * r69;
-    let r75 = 0.6666666666666666 * r74; let r77 = 0.3333333333333333 * r74; let r81 = 0.6666666666666666 * r68;
-    let r89 = known.c4 * (r67 - r75) + known.s4 * (0.3333333333333333 * r69 + r81);
-    let r91 = known.s4 * (0.6666666666666666 * (r67 - r69));
-    let r95 = known.c4 * (r69 - r75) - known.s4 * (r81 + 0.3333333333333333 * r67);
-    let r99 = r75 + r89 + (known.c4 * (r68 + r77) - r91 - r77); let r100 = 0.6666666666666666 * r99;
-    let r101 = 0.3333333333333333 * (r75 + r95); let r102 = r100 - r101;
-    let r105 = 1.3333333333333333 * p.r11_ + 0.3333333333333333 * p.r12_;
-    let r108 = 0.0 - r105 - 0.3333333333333333 * p.r13_;
-    let r111 = 1.3333333333333333 * p.r21_ + 0.3333333333333333 * p.r22_;
-    let r114 = 0.0 - r111 - 0.3333333333333333 * p.r23_;
-    let r117 = 1.3333333333333333 * p.r31_ + 0.3333333333333333 * p.r32_;
-    let r120 = 0.0 - r117 - 0.3333333333333333 * p.r33_; let r123 = known.c1 * r108 + known.s1 * r114;
-    let r126 = known.c1 * r114 - known.s1 * r108;
-    let r129 = 0.3333333333333333 * r123 + 0.6666666666666666 * r126;
-    let r131 = r129 + 0.6666666666666666 * r120; let r132 = 0.3333333333333333 * r131;
-    let r134 = 0.6666666666666666 * r131; let r139 = 0.6666666666666666 * r123;
-    let r145 = known.s2 * (0.6666666666666666 * (r120 - r126));
-    let r148 = known.s2 * (r139 - 0.3333333333333333 * r120);
-    let r151 = known.s2 * (0.3333333333333333 * r126 - r139);
-    let r153 = r132 + (known.c2 * (r123 - r132) - r145); let r154 = r134 + (known.c2 * (r126 - r134) - r148);
-    let r155 = r134 + (known.c2 * (r120 - r134) - r151);
-    let r158 = 0.8571428571428571 * r154 - 0.2857142857142857 * r153;
-    let r160 = r158 + 0.42857142857142855 * r155; let r161 = 0.2857142857142857 * r160;
-    let r163 = 0.8571428571428571 * r160; let r165 = 0.42857142857142855 * r160;
-    let r169 = 0.8571428571428571 * r155 - 0.42857142857142855 * r154;
-    let r172 = 0.42857142857142855 * r153 + 0.2857142857142857 * r155;
-    let r175 = 0.2857142857142857 * r154 + 0.8571428571428571 * r153;
-    let r185 = known.c3 * (r153 + r161) - known.s3 * r169 - r161;
-    let r186 = r163 + (known.c3 * (r154 - r163) - known.s3 * r172);
-    let r187 = r165 + (known.c3 * (r155 - r165) + known.s3 * r175);
-    let r190 = 0.6666666666666666 * r185 - 0.3333333333333333 * r186;
-    let r192 = r190 + 0.6666666666666666 * r187; let r193 = 0.6666666666666666 * r192;
-    let r195 = 0.3333333333333333 * r192; let r199 = 0.6666666666666666 * r186;
-    let r206 = known.s4 * (0.3333333333333333 * r187 + r199);
-    let r209 = known.s4 * (0.6666666666666666 * (r185 - r187));
-    let r212 = known.s4 * (r199 + 0.3333333333333333 * r185);
-    let r217 = r193 + (known.c4 * (r185 - r193) + r206) + (known.c4 * (r186 + r195) - r209 - r195);
-    let r219 = 0.3333333333333333 * (r193 + (known.c4 * (r187 - r193) - r212));
-    let r220 = r219 - 0.6666666666666666 * r217;
-    let shared = &Shared6 { r100, r101, r102, r220 };
-    case_6_1(p, known, shared, answers);
-}
-
-/// What the cases of block 6 share.
-struct Shared6 { r100: f64, r101: f64, r102: f64, r220: f64 }
-
-/// Case 1 of block 6: generic.
-#[inline(always)]
-fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r221 = shared.r220 - shared.r102; let r223 = shared.r220 - (shared.r101 - shared.r100);
-    let r227 = f64::max(r223 * r223 + r221 * r221, 0.0).sqrt(); let r228 = 1.0 / r227; let c6 = r223 * r228;
-    let s6 = r221 * r228;
-    let at = [
-        known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, known.c4, known.s4, known.c5,
-        known.s5, c6, s6,
-    ];
-    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
-}
-
-/// The place of the greatest number that is not negative, the first of equals; the length without one.
-fn greatest(claims: &[f64]) -> usize {
-    let (mut most, mut place) = (-1.0, claims.len());
-    for (i, &claim) in claims.iter().enumerate() {
-        if claim > most {
-            (most, place) = (claim, i);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    let r107 = r105 * r105; let r108 = r106 * r106; let r109 = r107 + r108;
+    if c.is_usual(N::away(r109, N::of(711231.7843257814))) {
+        let roots1 = N::grazing_roots(0.0 - r107 - r108, f2 * (f1 * (210.83639752272694 * f3)));
+        for (i1, &w4) in roots1.as_slice().iter().enumerate() {
+            let r117 = 1.0 / r109; let c4 = 0.0 - w4 * r106 * r117; let s4 = w4 * r105 * r117;
+            let found4 = found3.next(3, i1).by_root(&roots1, i1);
+            block_5(p, found4, [c1, s1, c2, s2, c3, s3, c4, s4], c);
         }
     }
-    place
+    // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: Wrist1.
+    if c.is_due(before4, N::near(r105 * r105 + r106 * r106, N::of(0.004445198652036134))) {
+        for [c4, s4] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found4 = found3.next(3, 2).freeing(0b1000);
+            rarely(|| block_5(p, found4, [c1, s1, c2, s2, c3, s3, c4, s4], c));
+        }
+    }
 }
 
-/// What the equations compare with the target.
-const TIP: usize = 12;
-
-/// The tip, as the equations compare it.
+/// Block 3: Axis2.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
+fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found2: Found<N>, [c1, s1, c3, s3, f3, f1]: [N; 6], c: &mut C) where f64: With<N> {
+    let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude] = *p;
+    let before3 = c.count(); let r5 = px - 0.12 * r11_ - 0.03 * r12_ - 0.15 * r13_;
+    let r12 = py - 0.12 * r21_ - 0.03 * r22_ - 0.15 * r23_; let r14 = c1 * r12; let r15 = s1 * r5;
+    let r18 = 0.16224489795918368 * c3 - 0.5214285714285715 * s3; let r19 = r18 + 0.03775510204081633;
+    let r22 = 0.4064625850340136 * c3 + 0.2357142857142857 * s3; let r23 = 0.006462585034013605 - r22;
+    let r31 = r14 - r15 - pz + 0.12 * r31_ + 0.03 * r32_ + 0.15 * r33_; let r32 = r31 + 0.35;
+    let r35 = 1.3333333333333333 * (c1 * r5) + 1.3333333333333333 * (s1 * r12);
+    let r39 = r35 - 0.3333333333333333 * r14 + 0.3333333333333333 * r15;
+    let r45 = r39 - 0.3333333333333333 * pz + 0.04 * r31_ + 0.01 * r32_; let r48 = 0.05 - (r45 + 0.05 * r33_);
+    let r52 = 4.333333333333333 * magnitude + 21.4369992441421;
+    let r53 = N::abs(5.0 * magnitude + 26.730498866213154); let r54 = N::abs(r52);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    if c.is_usual(N::away(r19 * r19 + r23 * r23, N::of(4959.93558445298))) {
+        let f2 = N::of(1.0); let r60 = r23 * r32 + r19 * r48; let r63 = r23 * r48 - r19 * r32;
+        let r68 = 1.0 / N::root(r63 * r63 + r60 * r60); let c2 = r63 * r68; let s2 = 0.0 - r60 * r68;
+        let found3 = found2.next(2, 0);
+        block_4(p, found3, [c1, s1, c2, s2, c3, s3, f3, f1, f2], c);
+    }
+    // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: Axis2.
+    if c.is_due(before3, N::near(r19 * r19 + r23 * r23, N::of(3.099959740283113e-5)) & N::near(r48, 0.01 * r54) & N::near(r32, 0.01 * r53)) {
+        let f2 = N::of(1000000.0);
+        for [c2, s2] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found3 = found2.next(2, 1).freeing(0b10);
+            rarely(|| block_4(p, found3, [c1, s1, c2, s2, c3, s3, f3, f1, f2], c));
+        }
+    }
+}
+
+/// Block 2: Axis1.
+fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [c3, s3, f3]: [N; 3], c: &mut C) where f64: With<N> {
+    let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude] = *p;
+    let before2 = c.count(); let r5 = px - 0.12 * r11_ - 0.03 * r12_ - 0.15 * r13_;
+    let r11 = py - 0.12 * r21_ - 0.03 * r22_ - 0.15 * r23_;
+    let r17 = pz - 0.12 * r31_ - 0.03 * r32_ - 0.15 * r33_;
+    let r28 = 2.0 * (px * r5) + 2.0 * (py * r11) + 2.0 * (pz * r17);
+    let r35 = 0.23285714285714285 * c3 - 0.04 * s3 - (r28 - px * px - py * py - pz * pz);
+    let r41 = 0.3333333333333333 * r5 + 0.6666666666666666 * r11;
+    let r44 = 0.3333333333333333 * r11 - 0.6666666666666666 * r5;
+    let r47 = 0.2615646258503401 * c3 - 0.02142857142857143 * s3;
+    let r50 = r47 - 0.6666666666666666 * r17 + 0.6384353741496599; let r51 = 0.0 - r50;
+    let r52 = 3.3333333333333335 * (r35 + 0.6 * r17 + 0.21684285714285714); let r53 = magnitude + 3.6;
+    let r59 = 0.6666666666666666 * magnitude + 8.418707482993197;
+    let r62 = 20.0 * (magnitude * r53) + 10.0 * (magnitude * magnitude);
+    let r66 = N::abs(2.3333333333333335 * magnitude + 8.4); let r67 = N::abs(r53); let r68 = N::abs(r59);
+    let r69 = N::abs(r62 + 2.0 * magnitude + 72.77766666666668);
+    // Case 1: generic, where A^2 + B^2 is not zero.
+    if c.is_usual(N::away(r41 * r41 + r44 * r44, 16.0 * (r66 * r66 + r67 * r67))) {
+        let f1 = N::of(1.0); let r79 = r44 * r50 - r41 * r52; let r83 = r44 * r52 - (0.0 - r41 * r50);
+        let r88 = 1.0 / N::root(r83 * r83 + r79 * r79); let c1 = r83 * r88; let s1 = r79 * r88;
+        let found2 = found1.next(2, 0);
+        block_3(p, found2, [c1, s1, c3, s3, f3, f1], c);
+    }
+    // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: Axis1.
+    let r76 = 1.0000000000000001e-7 * (r66 * r66 + r67 * r67);
+    if c.is_due(before2, N::near(r41 * r41 + r44 * r44, r76) & N::near(r52, 0.01 * r69) & N::near(r51, 0.01 * r68)) {
+        let f1 = N::of(1000000.0);
+        for [c1, s1] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found2 = found1.next(2, 1).freeing(0b1);
+            rarely(|| block_3(p, found2, [c1, s1, c3, s3, f3, f1], c));
+        }
+    }
+}
+
+/// Block 1: Axis3.
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
+    let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude] = *p;
+    let before1 = c.count(); let r6 = px * (px - 0.12 * r11_ - 0.03 * r12_ - 0.15 * r13_);
+    let r13 = py * (py - 0.12 * r21_ - 0.03 * r22_ - 0.15 * r23_);
+    let r19 = pz - 0.12 * r31_ - 0.03 * r32_ - 0.15 * r33_; let r24 = 0.5922902494331066 - r19;
+    let r30 = 2.0 * r6 + 2.0 * r13 + 2.0 * (pz * r19) - px * px;
+    let r33 = 0.597217006802721 - (r30 - py * py - pz * pz);
+    let r36 = 5.174603174603175 * r33 - 2.7560090702947844 * r24; let r37 = r36 - 0.0019437631439575074;
+    let r40 = 0.5047619047619047 * r24 - 0.8888888888888888 * r33; let r41 = r40 + 0.011783284742468416;
+    let r48 = 11.11111111111111 * (r33 * r33) + 0.5792669978044128;
+    let r49 = r24 * (5.0 * r24 - 13.333333333333334 * r33) + r48; let r53 = magnitude + 5.268934240362812;
+    let r56 = 6.0 * (magnitude * (magnitude + 3.6)) + 3.0 * (magnitude * magnitude);
+    let r57 = r56 + 13.01344739229025; let r62 = 2.7560090702947844 * r53 + 5.174603174603175 * r57;
+    let r66 = 0.5047619047619047 * r53 + 0.8888888888888888 * r57;
+    let r71 = N::abs(r24) * (10.0 * r53 + 13.333333333333334 * r57);
+    let r74 = 13.333333333333334 * r53 + 22.22222222222222 * r57;
+    let r77 = r71 + (N::abs(r33) * r74 + 0.5792669978044128); let r78 = N::abs(r62 + 0.0019437631439575074);
+    let r79 = N::abs(r66 + 0.011783284742468416); let r80 = N::abs(r77);
+    let claim0 = {
+        let r88 = r37 - r49; let r92 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496)));
+        (N::away(r88, r92)).claim(r88)
+    };
+    let claim1 = {
+        let r89 = r49 + (-0.6526507473737795 - r41);
+        let r93 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496)));
+        (N::away(r89, r93)).claim(r89)
+    };
+    let claim2 = {
+        let r87 = r37 + r49; let r91 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496)));
+        (N::away(r87, r91)).claim(r87)
+    };
+    let claim3 = {
+        let r89 = r49 + (r41 - 0.6526507473737795);
+        let r93 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496)));
+        (N::away(r89, r93)).claim(r89)
+    };
+    let claim4 = {
+        let r96 = -1.0883950360189427 - 1.25 * r37 - 1.6666666666666667 * r41;
+        let r97 = 2.0833333333333335 * r49 + r96;
+        let r101 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496)));
+        (N::away(r97, r101)).claim(r97)
+    };
+    match c.elect(&[claim0, claim1, claim2, claim3, claim4]) {
+        0 => {
+            // Case 1: half angle, where leading coefficient is not zero.
+            let r83 = 2.0 * r41; let r88 = r37 - r49;
+            let r92 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496))); let f3 = N::of(1.0);
+            let roots1 = N::real_roots::<4>(&[
+                &[0.0019437631439575074 - r36 - r49, 0.43638807904114024 - r83, 2.610602989495118 - 2.0 * r49, -0.43638807904114024 - r83, r88],
+            ], N::of(1.0));
+            for (i1, &w3) in roots1.as_slice().iter().enumerate() {
+                let r93 = 0.5 * r37; let r94 = 0.5 * r49;
+                let r98 = w3 * (r93 - r94) + (-0.21819403952057012 - r41);
+                let r103 = 0.6526507473737795 * (w3 * r98 - (r94 + (r93 - 1.305301494747559)));
+                let r108 = w3 * (r94 - r93) + (r41 + 0.21819403952057012);
+                let r111 = w3 * (0.0 - r103 - 0.21819403952057012 * r108);
+                let r115 = (0.21819403952057012 * (r93 + r94) - r111) / 0.47356163692985703;
+                let r117 = 1.0 - w3 * r115; let r122 = 1.0 / N::root(r117 * r117 + r115 * r115);
+                let c3 = r117 * r122; let s3 = r115 * r122;
+                let found1 = Found::first(i1, 4).by_root(&roots1, i1);
+                block_2(p, found1, [c3, s3, f3], c);
+            }
+        }
+        1 => {
+            // Case 2: half angle, where leading coefficient is not zero.
+            let r83 = 2.0 * r37; let r89 = r49 + (-0.6526507473737795 - r41);
+            let r93 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496))); let f3 = N::of(1.0);
+            let roots2 = N::real_roots::<4>(&[
+                &[r49 + (r41 - 0.6526507473737795), 0.43638807904114024 - r83, 2.0 * r49 + 1.305301494747559, -0.43638807904114024 - r83, r89],
+            ], N::of(1.0));
+            for (i2, &w3) in roots2.as_slice().iter().enumerate() {
+                let r94 = 0.5 * r41; let r96 = 0.5 * r49; let r97 = -0.32632537368688974 - r94 + r96;
+                let r101 = 0.21819403952057012 * (w3 * r97 + (-0.21819403952057012 - r37));
+                let r107 = r96 + (r94 + 0.32632537368688974);
+                let r110 = 0.6526507473737795 * r37 - 0.21819403952057012 * r107;
+                let r111 = w3 * (0.0 - r101 - 0.6526507473737795 * r97) + r110;
+                let r115 = 0.0 - 0.6526507473737795 * r107 - 0.04760863888230411;
+                let r117 = (w3 * r111 + r115) / 0.47356163692985703; let r119 = w3 * (1.0 - r117);
+                let r124 = 1.0 / N::root(r119 * r119 + r117 * r117); let c3 = 0.0 - r119 * r124;
+                let s3 = 0.0 - r117 * r124;
+                let found1 = Found::first(i2, 4).by_root(&roots2, i2);
+                block_2(p, found1, [c3, s3, f3], c);
+            }
+        }
+        2 => {
+            // Case 3: half angle, where leading coefficient is not zero.
+            let r82 = 2.0 * r41; let r87 = r37 + r49;
+            let r91 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496))); let f3 = N::of(1.0);
+            let roots3 = N::real_roots::<4>(&[
+                &[r49 - r37, -0.43638807904114024 - r82, 2.0 * r49 - 2.610602989495118, 0.43638807904114024 - r82, r87],
+            ], N::of(1.0));
+            for (i3, &w3) in roots3.as_slice().iter().enumerate() {
+                let r92 = 0.5 * r37; let r93 = 0.5 * r49; let r96 = r41 - 0.21819403952057012;
+                let r101 = w3 * (w3 * (r92 + r93) - r96) + (r93 + (-1.305301494747559 - r92));
+                let r108 = 0.21819403952057012 * (r96 + w3 * (0.0 - r92 - r93));
+                let r110 = w3 * (0.0 - 0.6526507473737795 * r101 - r108);
+                let r114 = (0.21819403952057012 * (r92 - r93) - r110) / 0.47356163692985703;
+                let r116 = w3 * r114 + 1.0; let r121 = 1.0 / N::root(r116 * r116 + r114 * r114);
+                let c3 = 0.0 - r116 * r121; let s3 = r114 * r121;
+                let found1 = Found::first(i3, 4).by_root(&roots3, i3);
+                block_2(p, found1, [c3, s3, f3], c);
+            }
+        }
+        3 => {
+            // Case 4: half angle, where leading coefficient is not zero.
+            let r83 = 2.0 * r37; let r89 = r49 + (r41 - 0.6526507473737795);
+            let r93 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496))); let f3 = N::of(1.0);
+            let roots4 = N::real_roots::<4>(&[
+                &[r49 + (-0.6526507473737795 - r41), r83 + 0.43638807904114024, 2.0 * r49 + 1.305301494747559, r83 - 0.43638807904114024, r89],
+            ], N::of(1.0));
+            for (i4, &w3) in roots4.as_slice().iter().enumerate() {
+                let r94 = 0.5 * r41; let r96 = 0.5 * r49;
+                let r100 = w3 * (0.32632537368688974 - r94 - r96) - (r37 - 0.21819403952057012);
+                let r102 = r94 - 0.32632537368688974;
+                let r105 = 0.6526507473737795 * (r96 + r102) - 0.21819403952057012 * r100;
+                let r107 = r102 - r96; let r110 = 0.6526507473737795 * r37 - 0.21819403952057012 * r107;
+                let r114 = 0.04760863888230411 - 0.6526507473737795 * r107;
+                let r116 = (w3 * (w3 * r105 + r110) + r114) / 0.47356163692985703;
+                let r119 = w3 * (0.0 - r116 - 1.0); let r124 = 1.0 / N::root(r119 * r119 + r116 * r116);
+                let c3 = 0.0 - r119 * r124; let s3 = 0.0 - r116 * r124;
+                let found1 = Found::first(i4, 4).by_root(&roots4, i4);
+                block_2(p, found1, [c3, s3, f3], c);
+            }
+        }
+        4 => {
+            // Case 5: half angle, where leading coefficient is not zero.
+            let r81 = 1.25 * r37; let r83 = 1.6666666666666667 * r41; let r85 = 2.0833333333333335 * r49;
+            let r87 = 3.3333333333333335 * r37; let r89 = 2.5 * r41;
+            let r97 = r85 + (-1.0883950360189427 - r81 - r83);
+            let r101 = 1000000000000.0 * (r80 + (r79 + (r78 + 0.8708447868943496))); let f3 = N::of(1.0);
+            let roots5 = N::real_roots::<4>(&[
+                &[r81 - 1.0883950360189427 + r83 + r85, -2.3560432767211195 - r87 + r89, 4.166666666666667 * r49 + 1.0916139879988276, r89 + (2.3560432767211195 - r87), r97],
+            ], N::of(1.0));
+            for (i5, &w3) in roots5.as_slice().iter().enumerate() {
+                let r102 = 0.24 * r37; let r104 = 0.32 * r41; let r106 = 0.4 * r49;
+                let r108 = w3 * (-0.11499013929381277 - r102 - r104 + r106); let r109 = 0.82 * r37;
+                let r111 = 0.24 * r41; let r113 = 0.3 * r49;
+                let r115 = r108 + (0.27996780600675647 - r109 + r111 + r113); let r118 = 0.18 * r37;
+                let r122 = w3 * (r111 + (r118 + 0.12530894349576566) - r113); let r124 = 0.68 * r41;
+                let r127 = r122 + (r106 + (r102 - 0.5430054218149845 - r124));
+                let r129 = 0.0 - 0.21819403952057012 * r115 - 0.6526507473737795 * r127;
+                let r133 = r106 + (r124 + (-0.04623375630524329 - r102));
+                let r139 = 0.6526507473737795 * (r111 + 0.4072540663612384 - r109 - r113);
+                let r141 = w3 * r129 + (0.0 - 0.21819403952057012 * r133 - r139);
+                let r146 = 0.21819403952057012 * (r113 + (r111 + (r118 - 0.1074825970660373)));
+                let r151 = 0.6526507473737795 * (r106 + (r104 + (r102 + 0.35504200657133606)));
+                let r154 = (w3 * r141 + (0.0 - r146 - r151)) / 0.47356163692985703;
+                let r157 = 0.6 - w3 * (0.8 - r154); let r162 = 1.0 / N::root(r157 * r157 + r154 * r154);
+                let c3 = r157 * r162; let s3 = 0.0 - r154 * r162;
+                let found1 = Found::first(i5, 4).by_root(&roots5, i5);
+                block_2(p, found1, [c3, s3, f3], c);
+            }
+        }
+        _ => {}
+    }
+    // Case 6: A = B = C = D = E = 0, where A is near zero and B is near zero and C is near zero and D is near zero and E is near zero; free: Axis3.
+    if c.is_due(before1, N::near(N::of(-0.21819403952057012), N::of(0.0021819403952057013)) & N::near(N::of(-0.6526507473737795), N::of(0.006526507473737795)) & N::near(r37, 0.01 * r78) & N::near(r41, 0.01 * r79) & N::near(r49, 0.01 * r80)) {
+        let f3 = N::of(1000000.0);
+        for [c3, s3] in SAMPLES_1.map(|row| row.map(N::of)) {
+            let found1 = Found::first(4, 5).freeing(0b100);
+            rarely(|| block_2(p, found1, [c3, s3, f3], c));
+        }
+    }
+}
+
+/// What the equations compare with parameters.
+#[inline(always)]
+fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r6 = 0.6666666666666666 * s2; let r7 = 0.2222222222222222 * c2; let r9 = r6 - r7 + 0.2222222222222222;
     let r11 = 0.2222222222222222 - (r6 + r7); let r12 = 0.3333333333333333 * s2;
@@ -1137,50 +563,8 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     ]
 }
 
-/// What the equations read of joints: 12 numbers.
-const PLACES: usize = 12;
-
-/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
-fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
-    [
-        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
-        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(),
-    ]
-}
-
-/// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
-struct Equations {
-    value: [f64; EQUATIONS],
-    size: [f64; SIZES],
-}
-
-const SIZES: usize = 2;
-/// Which of the sizes is that of each equation.
-const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
-
-/// The equations' values.
-#[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
-    let reached = tip(at);
-    [
-        reached[0] - p.px, reached[1] - p.py, reached[2] - p.pz, reached[3] - p.r11_,
-        reached[4] - p.r21_, reached[5] - p.r31_, reached[6] - p.r12_, reached[7] - p.r22_,
-        reached[8] - p.r32_, reached[9] - p.r13_, reached[10] - p.r23_, reached[11] - p.r33_,
-    ]
-}
-
-/// The sizes of equations.
-#[inline(always)]
-fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
-    [1.339110366322714, 1.0]
-}
-
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    Equations { value: values(p, at), size: sizes(p, at) }
-}
-
-/// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+/// The derivative of each equation by each joint.
+fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r2 = 0.1 * c1 + 0.05 * s1; let r5 = 0.1 * s1 - 0.05 * c1; let r6 = 0.6666666666666666 * s2;
     let r7 = 0.2222222222222222 * c2; let r9 = r6 - r7 + 0.2222222222222222;
@@ -1297,1407 +681,3 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         [0.0, r456 * r400 - r459 * r395, r464 * r400 - r469 * r395, r480 * r400 - r485 * r395, r494 * r400 - r498 * r395, r507 * r400 - r512 * r395],
     ]
 }
-
-/// Answers so far, and the largest share of an equation's value in its size for each.
-struct Answers<'a> {
-    out: &'a mut [Solution],
-    /// Where pairs are written instead, and whether all candidates so far can be.
-    pairs: Option<&'a mut [Pairs; CAPACITY]>,
-    usual: bool,
-    relative: [f64; CAPACITY],
-    count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold where it was found.
-    candidates: usize,
-    unsound: usize,
-    /// By place: the numbers of candidates that wait to be measured.
-    at: [[f64; ROOM]; PLACES],
-    /// How each was found.
-    found: [Found; ROOM],
-    waiting: usize,
-}
-
-impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
-    #[cold]
-    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
-        self.flush(p);
-        self.candidates > candidates && self.unsound <= candidates
-    }
-
-    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
-    #[cold]
-    #[inline(never)]
-    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let mut end = (q, measure(p, &q));
-        if free != NONE_FREE {
-            self.unsound = number;
-            if self.has_member(branch, &free) {
-                return;
-            }
-            let missed = end.1.relative;
-            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
-                end = polish(p, end, &free);
-            }
-            if !self.keep_member(p, branch, last, end, free) {
-                end = polish(p, end, &NONE_FREE);
-                let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another self-motion, of one joint.
-                let is_member = is_member
-                    || (end.1.relative <= ALONE
-                        && !self.is_listed(&end.0)
-                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
-                if !is_member && end.1.relative <= ALONE {
-                    let known = self.count;
-                    self.keep(p, branch, last, end, NONE_FREE);
-                    if self.count > known && RESOLUTION <= missed && missed <= SPLIT {
-                        self.around(p, branch, last, &end, missed, NONE_FREE);
-                    }
-                }
-            }
-            return;
-        }
-        let missed = end.1.relative;
-        end = polish(p, end, &NONE_FREE);
-        let miss = end.1.relative;
-        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
-            self.unsound = number;
-        }
-        if RESOLUTION <= miss && miss <= SPLIT {
-            self.around(p, branch, last, &end, miss, free);
-        } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
-            self.around(p, branch, last, &end, missed, free);
-            // Such a candidate stands between two answers: starts from the other side too.
-            let way = differences(&q, &end.0);
-            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start, &NONE_FREE);
-            self.keep(p, branch, last, start, free);
-        }
-        self.keep(p, branch, last, end, free);
-    }
-
-    /// Whether an isolated answer is listed that has these joints.
-    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
-        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
-    }
-
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
-        let weights = weights(p, &end.0);
-        let mut is_found = end.1.accepted;
-        let mut farther = 1.0;
-        while farther <= FARTHEST {
-            for i in 0..JOINTS {
-                for sign in [-1.0, 1.0] {
-                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
-                    let start = moved(&end.0, i, 2.0 * sign * way);
-                    let start = (start, measure(p, &start));
-                    let start = polish(p, start, &NONE_FREE);
-                    is_found |= start.1.accepted;
-                    self.keep(p, branch, last, start, free);
-                }
-            }
-            if is_found {
-                return;
-            }
-            farther *= FARTHER;
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
-        if is_member {
-            self.keep(p, branch, last, end, free);
-        }
-        is_member
-    }
-
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        if !fit.accepted {
-            return;
-        }
-        if self.is_apart(branch, &q, &free) {
-            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-            self.relative[self.count] = fit.relative;
-            self.count += 1;
-            return;
-        }
-        self.keep_one(p, branch, last, (q, fit), free);
-    }
-
-    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
-    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
-        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
-        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
-    }
-
-    /// As [`Answers::keep`], where others are near.
-    #[cold]
-    #[inline(never)]
-    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        let next = if free == NONE_FREE { last } else { branch };
-        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        let mut answer = Rated { answer, relative: fit.relative };
-        let mut doubles = [false; CAPACITY];
-        let mut first = None;
-        for i in 0..self.count {
-            let other = Rated { answer: self.out[i], relative: self.relative[i] };
-            doubles[i] = is_one(p, &other, &answer);
-            if doubles[i] && holds_against(&other, &answer) {
-                return;
-            }
-            if doubles[i] && first.is_none() {
-                first = Some(other.answer.branch);
-            }
-        }
-        if free == NONE_FREE {
-            answer.answer.branch = first.unwrap_or(branch);
-        }
-        self.drop_doubles(&doubles);
-        self.push(answer);
-    }
-
-    fn has(&self, branch: usize) -> bool {
-        self.out[..self.count].iter().any(|answer| answer.branch == branch)
-    }
-
-    /// Whether a member of this branch holds within rounding.
-    fn has_member(&self, branch: usize, free: &[bool; JOINTS]) -> bool {
-        let listed = self.out[..self.count].iter().zip(&self.relative);
-        listed.into_iter().any(|(a, relative)| *relative <= RESOLUTION && a.branch == branch && a.free == *free)
-    }
-
-    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            if !doubles[i] {
-                self.out[kept] = self.out[i];
-                self.relative[kept] = self.relative[i];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-    }
-
-    /// Adds an answer; where there are too many, the worst is left out.
-    fn push(&mut self, answer: Rated) {
-        if self.count == CAPACITY {
-            let mut worst = 0;
-            for i in 0..CAPACITY {
-                if self.relative[i] >= self.relative[worst] {
-                    worst = i;
-                }
-            }
-            if answer.relative >= self.relative[worst] {
-                return;
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worst] = true;
-            self.drop_doubles(&doubles);
-        }
-        self.out[self.count] = answer.answer;
-        self.relative[self.count] = answer.relative;
-        self.count += 1;
-    }
-
-    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
-    /// nearest two are one, and the better of them stays.
-    fn unite(&mut self) {
-        while self.out[..self.count].iter().filter(|answer| is_isolated(answer)).count() > 8 {
-            let (mut least, mut worse) = (f64::INFINITY, 0);
-            for second in 0..self.count {
-                for first in 0..second {
-                    let (a, b) = (&self.out[first], &self.out[second]);
-                    if is_isolated(a) && is_isolated(b) && farthest(&a.q, &b.q) < least {
-                        least = farthest(&a.q, &b.q);
-                        worse = if self.relative[first] > self.relative[second] { first } else { second };
-                    }
-                }
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worse] = true;
-            self.drop_doubles(&doubles);
-        }
-    }
-
-    /// Insertion sort by branch.
-    fn sort(&mut self) {
-        for end in 1..self.count {
-            for place in (1..=end).rev() {
-                if self.out[place - 1].branch <= self.out[place].branch {
-                    break;
-                }
-                self.out.swap(place - 1, place);
-            }
-        }
-    }
-}
-
-/// An answer with the largest share of an equation's value in its size.
-struct Rated {
-    answer: Solution,
-    relative: f64,
-}
-
-/// Whether two answers are one.
-fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if close(&a.answer, &b.answer, MERGE) {
-        return true;
-    }
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, true) => blurred(p, a, b),
-        (false, false) => {
-            a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
-        }
-        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
-    }
-}
-
-/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
-/// its first member against the others.
-fn holds_against(a: &Rated, b: &Rated) -> bool {
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, false) if b.relative <= RESOLUTION => return false,
-        (false, _) if a.relative <= RESOLUTION => return true,
-        _ => {}
-    }
-    a.relative <= b.relative
-}
-
-/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
-/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
-    let regularity = regularity(p, q);
-    if regularity > REGULAR {
-        return false;
-    }
-    for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
-            return false;
-        }
-        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
-            return true;
-        }
-        way /= 8.0;
-    }
-    false
-}
-
-/// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a self-motion next to it, but not back.
-fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
-    let (mut before, mut at) = (*q, *q);
-    let mut share = 1.0;
-    for _ in 1..DOUBLINGS {
-        share *= 0.5;
-    }
-    for stage in 0..DOUBLINGS {
-        let mut next = beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
-        for i in (0..JOINTS).filter(|&i| free[i]) {
-            next[i] = moved(q, i, share * way)[i];
-        }
-        let (next, fit) = follow(p, next, free);
-        if fit.relative > bound || (stage == 1 && !leads_back(p, q, free, &at, &next, bound)) {
-            return false;
-        }
-        (before, at) = (at, next);
-        share *= 2.0;
-    }
-    true
-}
-
-/// Whether the joints come back to `q` on along the line from `far` through `close_by`.
-fn leads_back(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], close_by: &[f64; JOINTS], far: &[f64; JOINTS], bound: f64) -> bool {
-    let mut back = beyond(far, close_by, 1.0);
-    for i in (0..JOINTS).filter(|&i| free[i]) {
-        back[i] = q[i];
-    }
-    let (back, fit) = follow(p, back, free);
-    fit.accepted && are_joined(p, &back, q, bound, free)
-}
-
-/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
-fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
-    let (mut beyond, way) = (*b, differences(b, a));
-    for i in 0..JOINTS {
-        beyond[i] += ahead * way[i];
-    }
-    beyond
-}
-
-/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
-fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
-    let mut q = a.q;
-    let mut accepted = false;
-    for stages in (1..=STAGES).rev() {
-        let way = differences(&b.q, &q);
-        for i in (0..JOINTS).filter(|&i| b.free[i]) {
-            q[i] += way[i] / stages as f64;
-        }
-        let end = follow(p, q, &b.free);
-        (q, accepted) = (end.0, end.1.accepted);
-    }
-    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
-}
-
-/// Polishes joints of which `free` ones stay where they are.
-fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    polish(p, (q, measure(p, &q)), free)
-}
-
-/// `a - b` joint by joint, angles by the shorter way round.
-fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| shorter(a[i] - b[i]))
-}
-
-fn shorter(difference: f64) -> f64 {
-    if difference > PI {
-        difference - TAU
-    } else if difference < -PI {
-        difference + TAU
-    } else {
-        difference
-    }
-}
-
-/// Whether joint values differ by `tolerance` at most.
-fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    shorter(a[5] - b[5]).abs() <= tolerance
-    && shorter(a[4] - b[4]).abs() <= tolerance
-    && shorter(a[3] - b[3]).abs() <= tolerance
-    && shorter(a[1] - b[1]).abs() <= tolerance
-    && shorter(a[0] - b[0]).abs() <= tolerance
-    && shorter(a[2] - b[2]).abs() <= tolerance
-}
-
-fn is_isolated(answer: &Solution) -> bool {
-    !answer.free.contains(&true)
-}
-
-/// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
-fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [tolerance; JOINTS]
-}
-
-/// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
-fn farthest(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
-    let (difference, size) = (differences(a, b), spans(a, 1.0));
-    (0..JOINTS).fold(0.0, |farthest, i| f64::max(farthest, difference[i].abs() / size[i]))
-}
-
-/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
-fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
-    let (difference, limit) = (differences(&a.q, &b.q), spans(&a.q, tolerance));
-    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
-/// they hold half-way too, as well as at the worse of the two.
-fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let (a, b) = (&a.answer.q, &b.answer.q);
-    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
-        return false;
-    }
-    are_joined(p, a, b, bound, &NONE_FREE)
-}
-
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
-    if farthest(a, b) > BLUR {
-        return false;
-    }
-    let way = differences(a, b);
-    let mut middle = *b;
-    for i in 0..JOINTS {
-        middle[i] += 0.5 * way[i];
-    }
-    let mut fit = measure(p, &middle);
-    for _ in 0..RETURNS {
-        if fit.relative <= bound {
-            return true;
-        }
-        let Some(back) = newton_step(p, &middle, STIFF, held) else { return false };
-        middle = stepped(&middle, &back);
-        fit = measure(p, &middle);
-    }
-    fit.relative <= bound
-}
-
-/// How well joint values solve the equations.
-#[derive(Clone, Copy)]
-struct Fit {
-    /// The largest magnitude of an equation's value.
-    residual: f64,
-    /// The largest share of an equation's value in its size.
-    relative: f64,
-    /// Whether every equation holds.
-    accepted: bool,
-}
-
-fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    measure_at(p, &place(q), q)
-}
-
-/// As [`measure`], where the cosines and sines of `q` are known.
-#[inline(always)]
-fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, at);
-    let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    let mut largest = [0.0; SIZES];
-    for i in 0..EQUATIONS {
-        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
-        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
-    }
-    for (largest, size) in largest.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, *largest);
-        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
-    }
-    fit.accepted &= fit.residual.is_finite();
-    fit
-}
-
-/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-/// after a leap.
-/// Joints that are `held` stay.
-fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let (mut end, mut slow) = (start, 0);
-    for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED || slow == PATIENCE {
-            return end;
-        }
-        let Some(next) = improved(p, &end, held) else { return end };
-        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
-        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
-        end = next;
-        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
-            return end;
-        }
-    }
-    end
-}
-
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-/// it is rounding and a plain step is short, that is the last.
-fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
-    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-    let mut fallen = None;
-    for damping in DAMPINGS {
-        let Some(step) = newton_step(p, q, damping, held) else { continue };
-        let next = stepped(q, &step);
-        let next = (next, measure(p, &next));
-        if next.1.relative < enough {
-            return Some(next);
-        }
-        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
-            return None;
-        }
-        if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
-            let end = returned(p, next.0, fit.relative, held);
-            if end.is_some() {
-                return end;
-            }
-        }
-        if next.1.relative < fit.relative && fallen.is_none() {
-            fallen = Some(next);
-        }
-    }
-    let leap = if leaps { leap(p, q, enough, held) } else { None };
-    leap.or(fallen)
-}
-
-/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-/// beyond one of them, and from there on each quarters the miss.
-fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    for _ in 0..RETURNS {
-        let step = newton_step(p, &q, 0.0, held)?;
-        q = stepped(&q, &step);
-        let fit = measure(p, &q);
-        if fit.relative < relative {
-            return Some((q, fit));
-        }
-    }
-    None
-}
-
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-/// hardly changes along a bent way, and rises on each straight one.
-fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let step = newton_step(p, q, 0.0, held)?;
-    let longest = longest(&step);
-    if !longest.is_finite() {
-        return None;
-    }
-    for most in LEAPS {
-        let share = f64::min(most / longest, 1.0);
-        let mut next = stepped(q, &step.map(|way| share * way));
-        for _ in 0..RETURNS {
-            let Some(back) = newton_step(p, &next, STIFF, held) else { break };
-            next = stepped(&next, &back);
-            let fit = measure(p, &next);
-            if fit.relative < enough {
-                return Some((next, fit));
-            }
-        }
-    }
-    None
-}
-
-/// The longest way of a joint in a step: an angle, or a share of the length scale.
-fn longest(step: &[f64; JOINTS]) -> f64 {
-    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
-}
-
-/// `q - step`, angles in (-pi, pi].
-fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| wrap(q[i] - step[i]))
-}
-
-/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
-fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let sizes = equations(p, &at).size;
-    let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(SIZE_OF) {
-        let size = sizes[size];
-        for i in 0..JOINTS {
-            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
-        }
-    }
-    core::array::from_fn(|i| f64::min(weights[i], 1.0))
-}
-
-/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
-fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let mut next = *q;
-    next[i] = wrap(q[i] + way);
-    next
-}
-
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    substituted(&triangle(p, q, damping, held))
-}
-
-/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-/// hold, or a root is double.
-fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
-    let columns = triangle(p, q, 0.0, &NONE_FREE);
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for i in 0..JOINTS {
-        let pivot = columns[i][i].abs();
-        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
-    }
-    least / most
-}
-
-/// The triangle of a step's equations, the right side in the last column.
-fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
-    let mut columns = [[0.0; ROWS]; JOINTS + 1];
-    let mut size = 0.0;
-    for i in 0..JOINTS {
-        let mut square = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let entry = if held[i] { 0.0 } else { row[i] };
-            columns[i][k] = entry;
-            square += entry * entry;
-        }
-        size = f64::max(size, square);
-    }
-    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
-    for i in 0..JOINTS {
-        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-    }
-    reflect(&mut columns);
-    columns
-}
-
-/// Rows of the equations and of the damping.
-const ROWS: usize = EQUATIONS + JOINTS;
-
-/// Turns columns into a triangle by reflections.
-fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
-    for pivot in 0..JOINTS {
-        let mut mirror = columns[pivot];
-        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
-        if square == 0.0 {
-            continue;
-        }
-        let length = square.sqrt().copysign(mirror[pivot]);
-        mirror[pivot] += length;
-        let half = length * mirror[pivot];
-        columns[pivot][pivot] = -length;
-        for column in &mut columns[pivot + 1..] {
-            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
-            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
-                *x -= along * y;
-            }
-        }
-    }
-}
-
-/// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
-    let mut solution = [0.0; JOINTS];
-    for row in (0..JOINTS).rev() {
-        let pivot = columns[row][row];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
-        }
-        let mut sum = columns[JOINTS][row];
-        for k in row + 1..JOINTS {
-            sum -= columns[k][row] * solution[k];
-        }
-        solution[row] = sum / pivot;
-    }
-    Some(solution)
-}
-
-const PI: f64 = core::f64::consts::PI;
-const TAU: f64 = core::f64::consts::TAU;
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
-#[inline(always)]
-fn acute(across: f64, up: f64) -> f64 {
-    let steep = up > across;
-    let (low, high) = if steep { (across, up) } else { (up, across) };
-    let far = low > 0.41421356237309503 * high;
-    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
-    let z = top / bottom;
-    let mut angle = z + z * (z * z) * series(z * z);
-    if far {
-        angle = 0.25 * PI + (angle + REST);
-    }
-    if steep {
-        angle = 0.5 * PI - (angle - 2.0 * REST);
-    }
-    angle
-}
-
-/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
-#[inline(always)]
-fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
-    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
-    half_open(angle.copysign(sine)) + 0.0
-}
-
-/// What the double nearest to pi/4 lacks.
-const REST: f64 = 3.061616997868383e-17;
-
-fn series(u: f64) -> f64 {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
-    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
-    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
-    first + (second + third * fourth) * fourth
-}
-
-/// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
-fn half_open(angle: f64) -> f64 {
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
-    half_open(angle - TAU * (angle / TAU).round())
-}
-
-/// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64, share: f64) -> bool {
-    value.abs() <= share * scale
-}
-
-/// Whether a factor is not zero.
-fn is_away(value: f64, scale: f64) -> bool {
-    value.abs() > TINY * scale
-}
-
-/// The highest degree of a polynomial.
-const DEGREE: usize = 4;
-/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
-const MEETING: f64 = 1e-5;
-/// A leading coefficient below this share of the largest coefficient counts as zero.
-const NEGLIGIBLE: f64 = 1e-290;
-/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
-/// typical size.
-const TANGENT: f64 = 1e-10;
-/// The same for `x^2 + c`, which such roots have led to.
-const GRAZING: f64 = 1e-6;
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// Steps for each root, at most.
-const MAX_STEPS: usize = 256;
-
-/// Real roots, ascending.
-struct Roots {
-    values: [f64; DEGREE],
-    count: usize,
-    /// Whether some are close to one another, or one is double.
-    close: bool,
-}
-
-impl Roots {
-    fn as_slice(&self) -> &[f64] {
-        &self.values[..self.count]
-    }
-
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
-    fn push(&mut self, x: f64) {
-        if x.is_finite() && self.count < DEGREE {
-            self.values[self.count] = x + 0.0;
-            self.count += 1;
-        }
-    }
-}
-
-/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
-fn square_roots(constant: f64, scale: f64) -> Roots {
-    let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > GRAZING * f64::max(constant, scale * scale) {
-        return roots;
-    }
-    if constant >= 0.0 {
-        roots.push(0.0);
-        roots.close = true;
-        return roots;
-    }
-    let root = (-constant).sqrt();
-    roots.close = root <= MEETING * scale;
-    roots.push(-root);
-    roots.push(root);
-    roots
-}
-
-/// A polynomial with coefficients of magnitude one and less, constant term first.
-struct Polynomial {
-    a: [f64; DEGREE + 1],
-    degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
-}
-
-fn largest(coefficients: &[f64]) -> f64 {
-    coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
-}
-
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
-fn real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    if let Some(roots) = coefficients.try_into().ok().and_then(|quartic| ordinary_roots(quartic, scale)) {
-        return roots;
-    }
-    let mut roots = all_real_roots(coefficients, scale);
-    let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    roots.close = is_double || roots.as_slice().windows(2).any(|pair| pair[1] - pair[0] <= MEETING * scale);
-    roots
-}
-
-/// The real roots of an ordinary quartic: Ferrari's two quadratics, then two Newton steps. None where the leading coefficient is small, where
-/// roots are next to each other or complex ones next to the axis, and where the steps do not settle.
-fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Roots> {
-    let [e, d, c, b, lead] = *coefficients;
-    let largest = largest(coefficients);
-    if !(lead.abs() > 0.01 * largest && largest < f64::INFINITY) {
-        return None;
-    }
-    let inverse = 1.0 / lead; let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
-    let (mut x, count) = approximate_roots(&monic, scale)?;
-    for x in &mut x {
-        *x = settled(&monic, *x, scale);
-    }
-    if count == 4 {
-        let (low, high) = (f64::min(x[1], x[3]), f64::max(x[0], x[2]));
-        x = [f64::min(x[0], x[2]), f64::min(low, high), f64::max(low, high), f64::max(x[1], x[3])];
-    }
-    let mut roots = Roots::NONE;
-    for i in 0..count {
-        let size = f64::max(f64::max(scale, x[i].abs()), x[i.saturating_sub(1)].abs());
-        if i > 0 && !(x[i] - x[i - 1] > 0.002 * size) {
-            return None;
-        }
-        roots.push(x[i]);
-    }
-    Some(roots)
-}
-
-/// The roots of the two real quadratics whose product is x^4 + b x^3 + c x^2 + d x + e, and their number: two of either, ascending.
-fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<([f64; 4], usize)> {
-    // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
-    let (quarter, square) = (0.25 * b, b * b);
-    let p = c - 0.375 * square; let q = d - 0.5 * b * (c - 0.25 * square);
-    let r = e - quarter * (d - quarter * (c - 0.1875 * square));
-    // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
-    let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
-    let h = z.sqrt();
-    let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
-    let (f, g) = (mean - half, mean + half);
-    let size = f64::max(f64::max(z, f.abs()), g.abs());
-    if !((f * g - r).abs() <= 1e-8 * size * size) {
-        return None;
-    }
-    let (mut roots, mut count) = ([0.0; 4], 0);
-    for (other, discriminant, middle) in [(g, z - 4.0 * f, -0.5 * h), (f, z - 4.0 * g, 0.5 * h)] {
-        let apart = 0.5 * discriminant.abs().sqrt();
-        if discriminant > 0.0 {
-            roots[count] = middle - apart - quarter;
-            roots[count + 1] = middle + apart - quarter;
-            count += 2;
-        } else if !(apart > 0.002 * f64::max(scale, size.sqrt())
-            && (other + 0.75 * z).abs() > 0.002 * f64::max(size, scale * scale))
-        {
-            return None;
-        }
-    }
-    Some((roots, count))
-}
-
-/// The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it.
-fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
-    let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
-    let mut z = f64::max(typical, 0.5 * (falling + (falling * falling + 4.0 * (under + w / typical)).sqrt()));
-    for _ in 0..24 {
-        let value = ((z + u) * z + v) * z - w; let slope = (3.0 * z + 2.0 * u) * z + v;
-        let step = value / slope;
-        z -= step;
-        if step.abs() <= 1e-5 * z {
-            return if w > 0.0 { Some(z) } else { None };
-        }
-    }
-    None
-}
-
-/// Two Newton steps from a root's approximation; not a number where they do not settle.
-fn settled(&[e, d, c, b]: &[f64; 4], mut x: f64, scale: f64) -> f64 {
-    let mut step = 0.0;
-    for _ in 0..2 {
-        let value = (((x + b) * x + c) * x + d) * x + e;
-        let slope = ((4.0 * x + 3.0 * b) * x + 2.0 * c) * x + d;
-        step = value / slope;
-        x -= step;
-    }
-    if f64::abs(step) <= 1e-9 * f64::max(scale, x.abs()) { x } else { f64::NAN }
-}
-
-fn all_real_roots(coefficients: &[f64], scale: f64) -> Roots {
-    let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
-    if p.degree < 2 {
-        return p.linear_root();
-    }
-    let bound = p.root_bound();
-    let mut roots = p.derivative(p.degree - 2).quadratic_roots();
-    for order in (0..p.degree - 2).rev() {
-        roots = p.derivative(order).roots_between(&roots, bound);
-    }
-    roots
-}
-
-impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
-        let largest = largest(coefficients);
-        let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
-            length -= 1;
-        }
-        if length == 0 || !coefficients.iter().all(|c| c.is_finite()) {
-            return None;
-        }
-        let mut a = [0.0; DEGREE + 1];
-        a[..length].copy_from_slice(&coefficients[..length]);
-        Some(Polynomial { a, degree: length - 1, scale }.scaled())
-    }
-
-    /// The polynomial divided by its largest coefficient.
-    fn scaled(mut self) -> Self {
-        let largest = largest(&self.a);
-        for c in &mut self.a {
-            *c /= largest;
-        }
-        self
-    }
-
-    fn linear_root(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        if self.degree == 1 {
-            roots.push(-self.a[0] / self.a[1]);
-        }
-        roots
-    }
-
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
-    fn quadratic_roots(&self) -> Roots {
-        let mut roots = Roots::NONE;
-        let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
-        let discriminant = b * b - 4.0 * a * c; let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
-            return roots;
-        }
-        if discriminant <= ROUNDING * size {
-            roots.push(-b / (2.0 * a));
-            return roots;
-        }
-        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-        let (first, second) = (q / a, c / q);
-        roots.push(f64::min(first, second));
-        roots.push(f64::max(first, second));
-        roots
-    }
-
-    /// A positive multiple of the derivative of `order`.
-    fn derivative(&self, order: usize) -> Polynomial {
-        let degree = self.degree - order;
-        let mut a = [0.0; DEGREE + 1];
-        let mut binomial = 1.0;
-        for i in 0..=degree {
-            a[i] = binomial * self.a[i + order];
-            binomial = binomial * (i + 1 + order) as f64 / (i + 1) as f64;
-        }
-        Polynomial { a, degree, scale: self.scale }.scaled()
-    }
-
-    /// Two to four times Cauchy's radius: every root, and every root of a derivative, is well inside.
-    fn root_bound(&self) -> f64 {
-        let mut radius = 1.0;
-        while !self.is_led(radius) {
-            radius *= 2.0;
-        }
-        while self.is_led(0.5 * radius) {
-            radius *= 0.5;
-        }
-        2.0 * radius
-    }
-
-    /// Whether `|a_n| r^n` is more than all other `|a_i| r^i` together: then no root is as large as `r`.
-    fn is_led(&self, radius: f64) -> bool {
-        let lead = self.a[self.degree].abs();
-        self.a[..self.degree].iter().rev().fold(lead, |value, c| value * radius - c.abs()) > 0.0
-    }
-
-    /// The roots, given the ascending critical points and a bound on all of them: one in each interval where the sign
-    /// changes, and the critical points where `p` touches the axis.
-    fn roots_between(&self, critical: &Roots, bound: f64) -> Roots {
-        let mut roots = Roots::NONE;
-        let (mut low, mut low_sign) = (-bound, self.sign(-bound));
-        let mut tangency = None;
-        for &high in critical.as_slice().iter().chain(&[bound]) {
-            let high_sign = self.sign(high);
-            let crosses = low_sign * high_sign < 0.0;
-            if crosses {
-                roots.push(self.root_between(low, high));
-            } else if let Some(x) = tangency {
-                roots.push(x);
-            }
-            tangency = if !crosses && self.touches(high) { Some(high) } else { None };
-            (low, low_sign) = (high, high_sign);
-        }
-        roots
-    }
-
-    /// `-1`, `0` or `1`: the sign of `p(x)`, zero when rounding decides it.
-    fn sign(&self, x: f64) -> f64 {
-        let (value, size) = self.value_and_size(x, 0.0);
-        let noise = ROUNDING * self.degree as f64 * size;
-        if value == 0.0 || (noise.is_finite() && value.abs() <= noise) { 0.0 } else { 1.0_f64.copysign(value) }
-    }
-
-    /// Whether `p(x)` is negligible.
-    fn touches(&self, x: f64) -> bool {
-        let (value, size) = self.value_and_size(x, self.scale);
-        size.is_finite() && value.abs() <= TANGENT * size
-    }
-
-    /// `p(x)` and `sum |a_i y^i|` for the larger `y` of `|x|` and `scale`.
-    fn value_and_size(&self, x: f64, scale: f64) -> (f64, f64) {
-        let (mut value, mut size) = (0.0, 0.0);
-        for a in self.a[..=self.degree].iter().rev() {
-            value = value * x + a;
-            size = size * f64::max(x.abs(), scale) + a.abs();
-        }
-        (value, size)
-    }
-
-    /// `p(x)` and `p'(x)`.
-    fn value_and_slope(&self, x: f64) -> (f64, f64) {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for a in self.a[..=self.degree].iter().rev() {
-            slope = slope * x + value;
-            value = value * x + a;
-        }
-        (value, slope)
-    }
-
-    /// The root between two points where `p` is monotone and changes its sign: Newton's method, which must cut its steps to
-    /// a quarter and stay inside, else bisection.
-    fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
-        let rising = self.sign(high) > 0.0;
-        let mut x = 0.5 * low + 0.5 * high;
-        let mut step = high - low;
-        let mut arithmetic = true;
-        for _ in 0..MAX_STEPS {
-            let (value, slope) = self.value_and_slope(x);
-            if value == 0.0 {
-                return x;
-            }
-            if (value > 0.0) == rising {
-                high = x;
-            } else {
-                low = x;
-            }
-            let newton = x - value / slope;
-            if (newton - x).abs() <= f64::EPSILON * x.abs() {
-                return f64::min(f64::max(newton, low), high);
-            }
-            let next = if low < newton && newton < high && 4.0 * (newton - x).abs() <= step {
-                newton
-            } else {
-                arithmetic = !arithmetic;
-                middle(low, high, arithmetic)
-            };
-            if next <= low || next >= high {
-                return x;
-            }
-            step = (next - x).abs();
-            x = next;
-        }
-        x
-    }
-}
-
-/// The arithmetic mean, or one that halves the exponents: bounds may be hundreds of decades apart.
-fn middle(low: f64, high: f64, arithmetic: bool) -> f64 {
-    if arithmetic {
-        return 0.5 * low + 0.5 * high;
-    }
-    if low < 0.0 && high > 0.0 {
-        return 0.0;
-    }
-    let magnitude = f64::max(low.abs(), f64::MIN_POSITIVE).sqrt() * f64::max(high.abs(), f64::MIN_POSITIVE).sqrt();
-    magnitude.copysign(low + high)
-}
-
-/// What `core` lacks, from the C library.
-#[cfg(feature = "libm")]
-#[allow(dead_code, unsafe_code)]
-mod libm {
-    unsafe extern "C" {
-        pub safe fn sqrt(x: f64) -> f64;
-        pub safe fn sin(x: f64) -> f64;
-        pub safe fn cos(x: f64) -> f64;
-        pub safe fn round(x: f64) -> f64;
-        pub safe fn floor(x: f64) -> f64;
-        pub safe fn ceil(x: f64) -> f64;
-    }
-}
-
-/// The methods that `std` adds to `f64`.
-#[cfg(feature = "libm")]
-#[allow(dead_code)]
-trait Math: Sized {
-    fn sqrt(self) -> Self;
-    fn sin(self) -> Self;
-    fn cos(self) -> Self;
-    fn round(self) -> Self;
-    fn floor(self) -> Self;
-    fn ceil(self) -> Self;
-}
-
-#[cfg(feature = "libm")]
-impl Math for f64 {
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    fn sin(self) -> Self {
-        libm::sin(self)
-    }
-    fn cos(self) -> Self {
-        libm::cos(self)
-    }
-    fn round(self) -> Self {
-        libm::round(self)
-    }
-    fn floor(self) -> Self {
-        libm::floor(self)
-    }
-    fn ceil(self) -> Self {
-        libm::ceil(self)
-    }
-}
-
-use core::ops::{Add, Div, Mul, Sub};
-
-/// How many candidates are measured together, and how many of them an operation takes at once.
-const ROOM: usize = 8;
-const LANES: usize = 2;
-/// By angle: where its cosine and its sine stand among the places.
-const ANGLES: usize = 6;
-const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11]];
-/// The same for the angles that tell candidates apart, those that are found last first.
-const TELLING: [[usize; 2]; 6] = [[10, 11], [8, 9], [6, 7], [2, 3], [0, 1], [4, 5]];
-/// Angles differ by more than `BLUR` where their difference has a cosine below this.
-const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
-
-/// How a candidate was found.
-#[derive(Clone, Copy)]
-struct Found {
-    branch: usize,
-    last: usize,
-    close: bool,
-    free: [bool; JOINTS],
-}
-
-const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
-
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
-struct Fits {
-    residual: [f64; ROOM],
-    relative: [f64; ROOM],
-    sound: [f64; ROOM],
-}
-
-impl Answers<'_> {
-    /// Takes in a candidate, which waits to be measured together with others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
-        if self.waiting >= ROOM {
-            self.flush(p);
-        }
-        let k = self.waiting % ROOM;
-        for i in 0..PLACES {
-            self.at[i][k] = at[i];
-        }
-        self.found[k] = Found { branch, last, close, free };
-        self.waiting = k + 1;
-        self.candidates += 1;
-    }
-
-    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
-    #[inline(never)]
-    fn flush(&mut self, p: &Parameters) {
-        if self.pairs.is_some() {
-            return self.flush_pairs(p);
-        }
-        let angles = angles(&self.at);
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let mut usual = self.count == 0;
-        for k in 0..waiting {
-            let Found { branch, last, close, free } = self.found[k];
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
-            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
-            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
-                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-                self.relative[self.count] = fit.relative;
-                self.count += 1;
-                continue;
-            }
-            usual = false;
-            if holds {
-                self.keep(p, branch, last, (q, fit), free);
-            } else {
-                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
-            }
-        }
-    }
-
-    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self, p: &Parameters) {
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let Some(pairs) = &mut self.pairs else { return };
-        for k in 0..waiting {
-            let Found { branch, close, free, .. } = self.found[k];
-            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
-            let joints = [
-                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
-                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
-                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
-                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
-                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
-                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
-            ];
-            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
-            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
-                self.usual = false;
-                return;
-            }
-            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
-            self.count += 1;
-        }
-    }
-
-    /// Whether an angle tells two candidates apart.
-    #[inline(always)]
-    fn are_apart(&self, k: usize, other: usize) -> bool {
-        TELLING.iter().any(|&[c, s]| {
-            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
-        })
-    }
-}
-
-/// Whether an angle tells two answers apart.
-#[inline(always)]
-fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
-    [5, 4, 3, 1, 0, 2].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
-}
-
-/// Measures the first so many candidates.
-#[inline(never)]
-fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
-    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
-    for first in (0..waiting.min(ROOM)).step_by(LANES) {
-        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let [residual, relative] = fit(p, &at);
-        let mut sound = Lanes([1.0; LANES]);
-        for [c, s] in CIRCLES {
-            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
-        }
-        for lane in 0..LANES {
-            fits.residual[first + lane] = residual.0[lane];
-            fits.relative[first + lane] = relative.0[lane];
-            fits.sound[first + lane] = sound.0[lane];
-        }
-    }
-    fits
-}
-
-/// The largest magnitude of an equation's value, and its largest share of the equation's size.
-#[inline(always)]
-fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
-    let mut largest = [Lanes([0.0; W]); SIZES];
-    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
-        largest[size] = largest[size].greater(value.size());
-    }
-    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
-    for i in 0..SIZES {
-        residual = residual.greater(largest[i]);
-        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
-        relative = relative.greater(largest[i] / size);
-    }
-    [residual, relative]
-}
-
-/// At least as many as there are angles of candidates.
-const POOL: usize = (ANGLES * ROOM).next_power_of_two();
-
-/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
-#[inline(never)]
-fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
-    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
-    let mut which = [[0; ROOM]; ANGLES];
-    let mut last = POOL - 1;
-    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
-            last = (last + is_new as usize) % POOL;
-            across[last] = at[c][k].abs();
-            up[last] = at[s][k].abs();
-            which[k] = last;
-        }
-    }
-    let acutes = acutes(&across, &up, last + 1);
-    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
-    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            row[k] = unfold(row[k], at[c][k], at[s][k]);
-        }
-    }
-    angles
-}
-
-/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
-#[inline(never)]
-fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
-    let mut acutes = [0.0; POOL];
-    for i in 0..count.min(POOL) {
-        acutes[i] = acute(across[i], up[i]);
-    }
-    acutes
-}
-
-/// Numbers that operations take at once.
-#[derive(Clone, Copy)]
-struct Lanes<const W: usize>([f64; W]);
-
-impl<const W: usize> Lanes<W> {
-    #[inline(always)]
-    fn size(self) -> Self {
-        Lanes(self.0.map(f64::abs))
-    }
-
-    /// The greater of two numbers; the first where one is not a number.
-    #[inline(always)]
-    fn greater(self, other: Self) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
-    }
-
-    /// The numbers where others are below a limit, and zero elsewhere.
-    #[inline(always)]
-    fn where_below(self, other: Self, limit: f64) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
-    }
-}
-
-/// A number that operations take with several at once.
-trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-/// What equations are computed of: one number, or several at once.
-trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
-}
-
-impl Number for f64 {
-}
-impl Number for Lanes<LANES> {
-}
-
-macro_rules! by_lane {
-    ($($operation:ident $name:ident $sign:tt)*) => {
-        $(
-            impl<const W: usize> $operation for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
-                }
-            }
-            impl<const W: usize> $operation<f64> for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: f64) -> Lanes<W> {
-                    Lanes(self.0.map(|number| number $sign other))
-                }
-            }
-            impl<const W: usize> $operation<Lanes<W>> for f64 {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(other.0.map(|number| self $sign number))
-                }
-            }
-        )*
-    };
-}
-
-by_lane!(Add add + Sub sub - Mul mul * Div div /);

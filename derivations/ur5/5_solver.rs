@@ -8,23 +8,23 @@
 //! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
 //! `r31` (1), `r32` (1), `r33` (1).
 //!
-//! Joints, in order; angles lie in (-pi, pi]:
-//! - `ShoulderPan` (rad)
-//! - `ShoulderLift` (rad)
-//! - `Elbow` (rad)
-//! - `Wrist1` (rad)
-//! - `Wrist2` (rad)
-//! - `Wrist3` (rad)
+//! Joints, in order; angles lie in (-pi, pi]: `ShoulderPan` (rad), `ShoulderLift` (rad), `Elbow` (rad), `Wrist1` (rad), `Wrist2` (rad), `Wrist3` (rad).
 //!
-//! A target has 22 solutions at most; they come by ascending branch, and a branch keeps its number from target to target.
-//!
-//! Tolerances: an equation holds within 1e-12 of the sum of its terms' magnitudes; answers within 1e-7 (rad, or of the
-//! length scale) are one; a factor is near zero up to 0.001 of its scale, and not zero above 1e-30 of it.
-//!
-//! The file is a module (`mod`, not `include!`) or the root of a crate, needs no other crate and allocates nothing. `sqrt`,
-//! `sin`, `cos`, `round`, `floor` and `ceil` are those of `std`. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) they
-//! are those of the C library, and the file needs `core` only: then it may be a module of a `#![no_std]` crate.
-#![allow(unexpected_cfgs, non_snake_case, clippy::all)]
+//! With `use ur5::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
+//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+#![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
+
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
+pub use groebot_runtime::{Error, Solve};
+
+/// Inverse kinematics of `ur5`: what is particular to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver;
+
+/// One answer.
+pub type Solution = groebot_runtime::Solution<Solver>;
+/// One answer by cosines and sines.
+pub type Pairs = groebot_runtime::Pairs<Solver>;
 
 /// Numbers of a target.
 pub const INPUTS: usize = 12;
@@ -32,430 +32,34 @@ pub const INPUTS: usize = 12;
 pub const JOINTS: usize = 6;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 22;
+/// No answer yet: what a buffer is filled with.
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-#[allow(dead_code)]
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 /// The names of the joints, in order.
-#[allow(dead_code)]
 pub const JOINT_NAMES: [&str; JOINTS] = ["ShoulderPan", "ShoulderLift", "Elbow", "Wrist1", "Wrist2", "Wrist3"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-#[allow(dead_code)]
 pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
 
-/// One answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solution {
-    /// Joint values, in order and unit of the joints.
-    pub q: [f64; JOINTS],
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
-    pub residual: f64,
-    /// Which cases and which roots gave it.
-    pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
-    pub chosen: bool,
-    /// Joints that may take any value here: this is one member of a self-motion.
-    pub free: [bool; JOINTS],
-}
-
-impl Solution {
-    /// No answer yet: what a buffer is filled with before [`solve`].
-    #[allow(dead_code)]
-    pub const EMPTY: Solution =
-        Solution { q: [0.0; JOINTS], residual: 0.0, branch: 0, chosen: false, free: [false; JOINTS] };
-}
-
-/// Why a target has no answer.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// A number of the target is infinite or not a number.
-    NotFinite,
-    /// The rotation of the target is off by more than `CONSISTENT`.
-    NotRotation,
-    /// The direction of the target is not of length one within `CONSISTENT`.
-    NotUnit,
-    /// The target lies on this stratum, which could not be derived.
-    OpenStratum(&'static str),
-}
-
-/// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach.
-///
-/// # Errors
-/// As [`Error`] says; the content of `out` has no meaning then.
-pub fn solve(target: &[f64; INPUTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: None, usual: true, out, relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    answers.unite();
-    answers.sort();
-    Ok(answers.count)
-}
-
-/// One answer by cosines and sines.
-#[allow(dead_code)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
-    pub joints: [[f64; 2]; JOINTS],
-    /// As in [`Solution`].
-    pub residual: f64,
-    /// As in [`Solution`].
-    pub branch: usize,
-    /// As in [`Solution`].
-    pub free: [bool; JOINTS],
-}
-
-impl Pairs {
-    /// No answer yet: what a buffer is filled with before [`solve_pairs`].
-    #[allow(dead_code)]
-    pub const EMPTY: Pairs = Pairs { joints: [[0.0; 2]; JOINTS], residual: 0.0, branch: 0, free: [false; JOINTS] };
-}
-
-/// As [`solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
-/// two are next to each other, the cosines and sines are those of the angles that [`solve`] finds.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_pairs(target: &[f64; INPUTS], out: &mut [Pairs; CAPACITY]) -> Result<usize, Error> {
-    let p = &parameters(&conform(target)?);
-    let mut answers = Answers { pairs: Some(&mut *out), usual: true, out: &mut [], relative: [0.0; CAPACITY], count: 0, candidates: 0, unsound: 0, at: [[0.0; ROOM]; PLACES], found: [NOT_FOUND; ROOM], waiting: 0 };
-    block_1(p, &mut answers);
-    answers.flush(p);
-    let count = answers.count;
-    if answers.usual && count <= 8 {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
-    }
-    let mut list = [Solution::EMPTY; CAPACITY];
-    let count = solve(target, &mut list)?;
-    for (pairs, Solution { q, residual, branch, free, .. }) in out.iter_mut().zip(list).take(count) {
-        let joints = core::array::from_fn(|i| [q[i].cos() + 0.0, q[i].sin() + 0.0]);
-        *pairs = Pairs { joints, residual, branch, free };
-    }
-    Ok(count)
-}
-
-/// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`.
-/// Not a number when a number of the target is not finite, a condition does not hold or an equation's value is not a number.
-#[allow(dead_code)]
-pub fn residual(target: &[f64; INPUTS], q: &[f64; JOINTS]) -> f64 {
-    let Ok(target) = &conform(target) else { return f64::NAN };
-    let mut largest = 0.0;
-    for value in equations(&parameters(target), &place(q)).value {
-        if value.is_nan() {
-            return value;
-        }
-        largest = f64::max(largest, value.abs());
-    }
-    largest
-}
-
-/// The target that joint values `q` reach.
-#[allow(dead_code)]
-pub fn forward(q: &[f64; JOINTS]) -> [f64; INPUTS] {
-    let reached = tip(&place(q));
-    [reached[0], reached[1], reached[2], reached[3], reached[6], reached[9], reached[4], reached[7], reached[10], reached[5], reached[8], reached[11]]
-}
-
-/// A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. The target, its first 12 numbers, with which the
-/// tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: `base^-1 pose tool^-1`.
-#[allow(dead_code)]
-pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
-    let mut target = [0.0; 12];
-    for i in 0..3 {
-        for j in 0..3 {
-            for k in 0..9 {
-                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
-            }
-        }
-    }
-    for i in 0..3 {
-        for k in 0..3 {
-            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
-        }
-    }
-    target
-}
-
-/// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-/// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-/// within `limits`; at most [`MOST_TURNS`].
-#[allow(dead_code)]
-pub fn count_turns(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> usize {
-    let mut count = 1.0;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return 0;
-        }
-        let (first, last) = finite_turns(first, last);
-        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
-    }
-    count as usize
-}
-
-/// The most turns that are counted.
-pub const MOST_TURNS: usize = 1_000_000;
-
-/// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
-#[allow(dead_code)]
-pub fn turn(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS], mut index: usize) -> [f64; JOINTS] {
-    let mut out = *q;
-    for i in (0..JOINTS).rev() {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        let (first, last) = finite_turns(first, last);
-        let count = (last - first) as usize + 1;
-        out[i] += TURNS[i] * (first + (index % count) as f64);
-        index /= count;
-    }
-    out
-}
-
-/// As [`solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-/// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
-///
-/// # Errors
-/// As [`solve`].
-#[allow(dead_code)]
-pub fn solve_within(target: &[f64; INPUTS], limits: &[[f64; 2]; JOINTS], out: &mut [Solution; CAPACITY]) -> Result<usize, Error> {
-    let count = solve(target, out)?;
-    let target = &conform(target)?;
-    let p = &parameters(target);
-    let mut kept = 0;
-    for k in 0..count {
-        let answer = out[k];
-        if let Some(q) = turned_within(&answer.q, limits) {
-            out[kept] = Solution { q, ..answer };
-            kept += 1;
-        } else if let Some((q, residual)) = strides_within(p, &answer, limits) {
-            out[kept] = Solution { q, residual, ..answer };
-            kept += 1;
-        }
-    }
-    Ok(kept)
-}
-
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
-fn turned_within(q: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<[f64; JOINTS]> {
-    let mut place = *q;
-    for i in 0..JOINTS {
-        let (first, last) = turns_within(i, q[i], limits[i]);
-        if !(first <= last) {
-            return None;
-        }
-        place[i] += TURNS[i] * nearest_turn(0.0, first, last);
-    }
-    Some(place)
-}
-
-/// How far, and how often, a free joint is moved in search of a place within limits: rad, or a share of a length; a whole turn in all.
-const STRIDE: f64 = 0.1;
-const STRIDES: usize = 63;
-
-/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
-/// when it meets no such place.
-fn strides_within(p: &Parameters, answer: &Solution, limits: &[[f64; 2]; JOINTS]) -> Option<([f64; JOINTS], f64)> {
-    for i in (0..2 * JOINTS).filter(|i| answer.free[i / 2]) {
-        let mut q = answer.q;
-        for _ in 0..STRIDES {
-            let (next, fit) = follow(p, moved(&q, i / 2, if i % 2 == 0 { STRIDE } else { -STRIDE }), &answer.free);
-            if !fit.accepted {
-                break;
-            }
-            if let Some(place) = turned_within(&next, limits) {
-                return Some((place, fit.residual));
-            }
-            q = next;
-        }
-    }
-    None
-}
-
-/// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-/// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-/// its weight, which is not negative.
-#[allow(dead_code)]
-pub fn nearest(list: &[Solution], reference: &[f64; JOINTS], weights: &[f64; JOINTS], limits: &[[f64; 2]; JOINTS]) -> Option<(usize, [f64; JOINTS])> {
-    let mut least = f64::INFINITY;
-    let mut best = None;
-    for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q, 0.0);
-        for i in 0..JOINTS {
-            let (first, last) = turns_within(i, answer.q[i], limits[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if TURNS[i] > 0.0 { ((reference[i] - answer.q[i]) / TURNS[i]).round() } else { 0.0 };
-            place[i] += TURNS[i] * nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
-        }
-    }
-    best
-}
-
-/// How far a joint may be beyond a limit.
-const SLACK: f64 = 1e-9;
-/// By joint: a turn of an angle, 0 for a length.
-const TURNS: [f64; JOINTS] = [TAU, TAU, TAU, TAU, TAU, TAU];
-
-/// The least and the greatest number of turns that bring joint `i` within its limits: the first is greater when none does.
-fn turns_within(i: usize, value: f64, limit: [f64; 2]) -> (f64, f64) {
-    let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
-    if TURNS[i] > 0.0 {
-        return ((low / TURNS[i]).ceil(), (high / TURNS[i]).floor());
-    }
-    (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
-}
-
-/// The number of turns between bounds that is nearest to another.
-fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
-    f64::min(f64::max(turn, first), last) + 0.0
-}
-
-/// The bounds, brought together where one is infinite, and not too far apart.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
-    if !first.is_finite() || !last.is_finite() {
-        first = nearest_turn(0.0, first, last);
-        last = first;
-    }
-    (first, f64::min(last, first + MOST_TURNS as f64))
-}
-
-const EQUATIONS: usize = 12;
-/// An equation holds when its value is at most this share of the sum of its terms' magnitudes.
-const ACCEPT: f64 = 1e-12;
-/// Answers whose joints all differ by no more than this are one.
-const MERGE: f64 = 1e-7;
-/// At a singular configuration, answers within this distance may be one.
-const BLUR: f64 = 0.05;
-/// Half-way between two that are one the equations hold within this share.
-const ALIKE: f64 = 2.5e-15;
-/// Where no pivot is below this share of the largest, an answer is a root of its own.
-const DISTINCT: f64 = 0.0001;
-/// What rounding leaves of an equation that holds, as a share of its size.
-const RESOLUTION: f64 = 1e-14;
-/// Newton steps for each answer, at most.
-const POLISH_STEPS: usize = 32;
-/// So many steps in a row that do not halve a miss by more than rounding are the last.
-const PATIENCE: usize = 3;
-/// A step that raises the miss by no more than this may have led beyond one of two roots next to each other.
-const OVERSHOT: f64 = 100.0;
-/// Shares of the squared Jacobian's size that are added where a plain step fails.
-const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 0.001, 1e-18];
-/// A candidate that misses the equations by this share of their size at most may be a double root.
-const APART: f64 = 0.7;
-const SPLIT: f64 = 0.001;
-/// Where polishing moves a candidate by more than this share of the square root of its miss, another answer may be next to it.
-const LEVER: f64 = 0.1;
-/// Points around a candidate are so much farther where no nearer one leads to an answer.
-const FARTHER: f64 = 16.0;
-const FARTHEST: f64 = 256.0;
-/// The farthest that joints leap where no step halves the miss, the most steps back, and the share of the squared Jacobian's size that
-/// is added to it in these.
-const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
-const RETURNS: usize = 4;
-const STIFF: f64 = 1e-6;
-/// An answer that misses the equations by no more than this share of their size is not polished, nor behind a step as `SHORT` as this.
-const POLISHED: f64 = 1e-15;
-const SHORT: f64 = 1e-9;
-/// A member of a self-motion that misses the equations by no more than this is polished with its free joints held.
-const ADRIFT: f64 = 1e-7;
-/// An isolated answer that a candidate for a member of a self-motion has led to holds within this share.
-const ALONE: f64 = 1e-13;
-/// How far a free joint is moved to see whether an answer lies on a self-motion.
-const ASIDE: f64 = 0.1;
-const NARROWS: usize = 5;
-const SINGULAR: f64 = 1e-13;
-const REGULAR: f64 = 1e-6;
-/// In how many stages, each twice as far as the one before.
-const DOUBLINGS: i32 = 8;
-/// A self-motion that is followed to another's member is that self-motion when the joints come this near.
-const ARRIVED: f64 = 0.001;
-/// In how many stages a self-motion is followed from one member to another.
-const STAGES: usize = 4;
-/// A rotation or a unit vector may be this far from one.
-const CONSISTENT: f64 = 1e-9;
-/// A factor is near zero up to this share of its scale, and beside zero where the candidates so far suffice.
-const NEAR: f64 = 0.001;
-const BESIDE: f64 = 1e-7;
-/// A factor is not zero above this share of its scale.
-const TINY: f64 = 1e-30;
-const NONE_FREE: [bool; JOINTS] = [false; JOINTS];
-/// By joint that some case frees: that joint alone.
-const FREED: [[bool; JOINTS]; 2] = [[false, true, false, false, false, false], [false, false, false, false, false, true]];
-
-/// The target moved onto its conditions, which it may miss by a little; an error when a number is not finite or it misses them by more.
-fn conform(target: &[f64; INPUTS]) -> Result<[f64; INPUTS], Error> {
-    if !target.iter().all(|value| value.is_finite()) {
-        return Err(Error::NotFinite);
-    }
-    let mut target = *target;
-    if !make_rotation(&mut target[3..12]) {
-        return Err(Error::NotRotation);
-    }
-    Ok(target)
-}
-
-/// One Newton step towards the nearest rotation of a matrix by rows; false when that is far, or it is a reflection.
-fn make_rotation(r: &mut [f64]) -> bool {
-    let mut excess = [[0.0; 3]; 3];
-    let mut deviation = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
-            deviation = f64::max(excess[i][j].abs(), deviation);
-        }
-    }
-    let determinant =
-        r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-    let given: [f64; 9] = core::array::from_fn(|i| r[i]);
-    for i in 0..9 {
-        let (row, column) = (excess[i / 3], i % 3);
-        r[i] = r[i] - 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
-    }
-    determinant >= 0.0 && deviation <= CONSISTENT
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Parameters of the equations.
-struct Parameters {
-    px: f64, py: f64, pz: f64, r11_: f64, r12_: f64, r13_: f64, r21_: f64, r22_: f64, r23_: f64,
-    r31_: f64, r32_: f64, r33_: f64,
-    /// The length scale of the problem: the largest magnitude among the parameters and the mechanism's own scale.
-    magnitude: f64,
-}
-
-fn parameters(target: &[f64; INPUTS]) -> Parameters {
-    let px = target[0]; let py = target[1]; let pz = target[2]; let r11_ = target[3]; let r12_ = target[4];
-    let r13_ = target[5]; let r21_ = target[6]; let r22_ = target[7]; let r23_ = target[8];
-    let r31_ = target[9]; let r32_ = target[10]; let r33_ = target[11];
-    let magnitude = f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(f64::max(1.192509, f64::abs(px)), f64::abs(py)), f64::abs(pz)), f64::abs(r11_)), f64::abs(r12_)), f64::abs(r13_)), f64::abs(r21_)), f64::abs(r22_)), f64::abs(r23_)), f64::abs(r31_)), f64::abs(r32_)), f64::abs(r33_));
-    Parameters { px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude }
-}
-
-/// What the blocks so far have found, and the choices made.
-#[derive(Clone, Copy)]
-struct Known {
-    /// The branch number so far.
-    branch: usize,
-    /// The end of the branch numbers of the first block's case.
-    last: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
-    close: bool,
-    free: [bool; JOINTS],
-    c1: f64, s1: f64, c6: f64, s6: f64, f6: f64, c5: f64, s5: f64, c3: f64, s3: f64, c2: f64,
-    s2: f64,
-}
-
-const NOTHING_KNOWN: Known = Known { branch: 0, last: 0, close: false, free: NONE_FREE, c1: 0.0, s1: 0.0, c6: 0.0, s6: 0.0, f6: 0.0, c5: 0.0, s5: 0.0, c3: 0.0, s3: 0.0, c2: 0.0, s2: 0.0 };
+const FACTS: Facts<'static> = Facts {
+    inputs: INPUTS,
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3]), Joint::Angle([4, 5]), Joint::Angle([6, 7]), Joint::Angle([8, 9]), Joint::Angle([10, 11])],
+    last_first: &[3, 1, 2, 4, 5, 0],
+    places: 12,
+    size_of: &[0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1],
+    sizes: 2,
+    compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
+    candidates: 8,
+    twins: 1,
+    first: &[0, 0, 0, 0, 4, 4, 4, 4, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4],
+    scale: 1.192509,
+    capacity: CAPACITY,
+    isolated: Some(8),
+    freed: &[1, 5],
+    conditions: &[Condition::Rotation(3)],
+    reached: &[Reached::Value(0), Reached::Value(1), Reached::Value(2), Reached::Value(3), Reached::Value(6), Reached::Value(9), Reached::Value(4), Reached::Value(7), Reached::Value(10), Reached::Value(5), Reached::Value(8), Reached::Value(11)],
+    ..Facts::NONE
+};
 
 /// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
@@ -465,225 +69,133 @@ const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.38941834230865036, 0.9210609940028851], [-0.9266488253107329, 0.3759281241809912],
 ];
 
-/// Block 1: ShoulderPan.
-fn block_1(p: &Parameters, answers: &mut Answers<'_>) {
-    let r1 = p.py - 0.0823 * p.r23_; let r3 = 0.0823 * p.r13_ - p.px;
-    let r5 = f64::abs(p.magnitude + 1.946082);
-    let shared = &Shared1 { r1, r3, r5 };
-    case_1_1(p, shared, answers);
-}
+impl Mechanism for Solver {
+    type Storage = Fixed<12, 13, 6, 12, 12, 2, 0, 8, 22, 126>;
 
-/// What the cases of block 1 share.
-struct Shared1 { r1: f64, r3: f64, r5: f64 }
-
-/// Case 1 of block 1: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_1_1(p: &Parameters, shared: &Shared1, answers: &mut Answers<'_>) {
-    let r6 = shared.r1 * shared.r1; let r7 = shared.r3 * shared.r3; let r8 = r6 + r7;
-    let r9 = shared.r5 * shared.r5; let r10 = r9 + r9;
-    if !is_away(r8, 16.0 * r10) {
-        return;
+    #[inline(always)]
+    fn facts(&self) -> Facts<'_> {
+        FACTS
     }
-    let roots0 = square_roots(0.0119137225 - r6 - r7, f64::max(r10, 0.0).sqrt());
-    for (i0, &w1) in roots0.as_slice().iter().enumerate() {
-        let r21 = 1.0 / r8; let r23 = 0.0 - (w1 * shared.r3 + 0.10915 * shared.r1) * r21; let c1 = r23;
-        let s1 = (w1 * shared.r1 - 0.10915 * shared.r3) * r21;
-        let next = Known { branch: i0, last: 2, close: roots0.close, c1, s1, ..NOTHING_KNOWN };
-        block_2(p, &next, answers);
+
+    fn parameters<N: Number>(&self, target: &[N; 12]) -> [N; 13] where f64: With<N> {
+        let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_] = *target;
+        let magnitude = N::largest(1.192509, &[
+            px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_,
+        ]);
+        [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude]
     }
-}
 
-/// Block 2: Wrist3.
-#[inline(always)]
-fn block_2(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates; let r4 = p.r12_ * known.s1 - p.r22_ * known.c1;
-    let r5 = p.r11_ * known.s1 - p.r21_ * known.c1;
-    let shared = &Shared2 { r4, r5 };
-    case_2_1(p, known, shared, answers);
-    case_2_2(p, known, shared, before, answers);
-}
-
-/// What the cases of block 2 share.
-struct Shared2 { r4: f64, r5: f64 }
-
-/// Case 1 of block 2: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_2_1(p: &Parameters, known: &Known, shared: &Shared2, answers: &mut Answers<'_>) {
-    let r6 = shared.r4 * shared.r4; let r7 = shared.r5 * shared.r5; let r8 = r6 + r7;
-    if !is_away(r8, 128.0) {
-        return;
+    #[inline(always)]
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 13], c: &mut C) where f64: With<N> {
+        block_1(p, c);
     }
-    let f6 = 1.0; let roots0 = square_roots(0.0 - r6 - r7, 2.8284271247461903);
-    for (i0, &w6) in roots0.as_slice().iter().enumerate() {
-        let r13 = 1.0 / r8; let c6 = 0.0 - w6 * shared.r5 * r13; let s6 = w6 * shared.r4 * r13;
-        let next = Known { branch: 3 * known.branch + i0, last: 3 * known.last, close: known.close || roots0.close, c6, s6, f6, ..*known };
-        block_3(p, &next, answers);
+
+    #[inline(always)]
+    fn tip<N: Number>(&self, at: &[N; 12]) -> [N; 12] where f64: With<N> {
+        tip(at)
     }
-}
 
-/// Case 2 of block 2: A = 0, B = 0, C = 0.
-/// It runs where A^2 + B^2 is near zero.
-/// Free: Wrist3.
-fn case_2_2(p: &Parameters, known: &Known, shared: &Shared2, before: usize, answers: &mut Answers<'_>) {
-    let r8 = shared.r4 * shared.r4 + shared.r5 * shared.r5;
-    if !is_near(r8, 8.000000000000001e-7, NEAR) || (answers.suffice_since(p, before) && !is_near(r8, 8.000000000000001e-7, BESIDE)) {
-        return;
+    #[inline(always)]
+    fn sizes<N: Number>(&self, p: &[N; 13], at: &[N; 12]) -> [N; 2] where f64: With<N> {
+
+        [N::of(1.192509), N::of(1.0)]
     }
-    let f6 = 1000000.0;
-    for [c6, s6] in SAMPLES_1 {
-        let next = Known { branch: 3 * known.branch + 2, last: 3 * known.last, close: known.close, free: [known.free[0], known.free[1], known.free[2], known.free[3], known.free[4], true], c6, s6, f6, ..*known };
-        again_3(p, &next, answers);
-    }
-}
 
-/// Block 3: Wrist2.
-#[inline(always)]
-fn block_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r8 = known.c1 * (p.r21_ * known.c6 - p.r22_ * known.s6);
-    let r9 = known.s1 * (p.r11_ * known.c6 - p.r12_ * known.s6);
-    let r10 = p.r13_ * known.s1 - p.r23_ * known.c1; let r11 = r9 - r8;
-    let shared = &Shared3 { r10, r11 };
-    case_3_1(p, known, shared, answers);
-}
-
-/// Block 3 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_3(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_3(p, known, answers);
-}
-
-/// What the cases of block 3 share.
-struct Shared3 { r10: f64, r11: f64 }
-
-/// Case 1 of block 3: generic.
-#[inline(always)]
-fn case_3_1(p: &Parameters, known: &Known, shared: &Shared3, answers: &mut Answers<'_>) {
-    let r14 = shared.r10 * shared.r10 + shared.r11 * shared.r11; let r16 = 1.0 / f64::max(r14, 0.0).sqrt();
-    let c5 = shared.r10 * r16; let s5 = shared.r11 * r16;
-    let next = Known { branch: known.branch, last: known.last, close: known.close, c5, s5, ..*known };
-    block_4(p, &next, answers);
-}
-
-/// Block 4: Elbow.
-#[inline(always)]
-fn block_4(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r4 = p.r31_ * known.s6; let r5 = p.r32_ * known.c6;
-    let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
-    let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
-    let r25 = p.pz + 0.09465 * r4 + 0.09465 * r5 - 0.0823 * p.r33_;
-    let r32 = 2.0 * (p.px * (r9 - 0.0823 * p.r13_)) + 2.0 * (p.py * (r16 - 0.0823 * p.r23_));
-    let r36 = r32 + 2.0 * (p.pz * r25) - p.px * p.px - p.py * p.py;
-    let r41 = r36 - p.pz * p.pz - 0.178318 * p.pz - 0.0168777987 * r4;
-    let r45 = r41 - 0.0168777987 * r5 + 0.0146755714 * p.r33_; let r46 = 0.322717545219 - r45;
-    let shared = &Shared4 { r46 };
-    case_4_1(p, known, shared, answers);
-}
-
-/// What the cases of block 4 share.
-struct Shared4 { r46: f64 }
-
-/// Case 1 of block 4: generic.
-#[inline(always)]
-fn case_4_1(p: &Parameters, known: &Known, shared: &Shared4, answers: &mut Answers<'_>) {
-    let roots0 = square_roots(shared.r46 * shared.r46 - 0.11116389515625, 1.4142135623730951 * known.f6);
-    for (i0, &w3) in roots0.as_slice().iter().enumerate() {
-        let r53 = 0.0 - 8.99572652248662 * (0.3334125 * shared.r46); let c3 = r53;
-        let s3 = 8.99572652248662 * (0.3334125 * w3);
-        let next = Known { branch: 2 * known.branch + i0, last: 2 * known.last, close: known.close || roots0.close, c3, s3, ..*known };
-        block_5(p, &next, answers);
-    }
-}
-
-/// Block 5: ShoulderLift.
-#[inline(always)]
-fn block_5(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let before = answers.candidates;
-    let r9 = p.px + 0.09465 * (p.r11_ * known.s6) + 0.09465 * (p.r12_ * known.c6);
-    let r16 = p.py + 0.09465 * (p.r21_ * known.s6) + 0.09465 * (p.r22_ * known.c6);
-    let r20 = 0.39225 * known.s3; let r22 = 0.39225 * known.c3 + 0.425;
-    let r26 = p.pz + 0.09465 * (p.r31_ * known.s6) + 0.09465 * (p.r32_ * known.c6);
-    let r29 = r26 - 0.0823 * p.r33_ - 0.089159;
-    let r30 = known.c1 * (r9 - 0.0823 * p.r13_) + known.s1 * (r16 - 0.0823 * p.r23_); let r31 = 0.0 - r30;
-    let r35 = f64::abs(p.magnitude + 6.148441); let r36 = f64::abs(2.0 * p.magnitude + 12.118564);
-    let shared = &Shared5 { r20, r22, r29, r30, r31, r35, r36 };
-    case_5_1(p, known, shared, answers);
-    case_5_2(p, known, shared, before, answers);
-}
-
-/// What the cases of block 5 share.
-struct Shared5 { r20: f64, r22: f64, r29: f64, r30: f64, r31: f64, r35: f64, r36: f64 }
-
-/// Case 1 of block 5: generic.
-/// It runs where A^2 + B^2 is not zero.
-#[inline(always)]
-fn case_5_1(p: &Parameters, known: &Known, shared: &Shared5, answers: &mut Answers<'_>) {
-    let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
-    if !is_away(r39, 95.40092293792) {
-        return;
-    }
-    let r42 = shared.r20 * shared.r30 - shared.r22 * shared.r29;
-    let r45 = shared.r20 * shared.r29 + shared.r22 * shared.r30;
-    let r50 = 1.0 / f64::max(r45 * r45 + r42 * r42, 0.0).sqrt(); let c2 = 0.0 - r45 * r50; let s2 = r42 * r50;
-    let next = Known { branch: 2 * known.branch, last: 2 * known.last, close: known.close, c2, s2, ..*known };
-    block_6(p, &next, answers);
-}
-
-/// Case 2 of block 5: A = 0, B = 0, Y = 0, X = 0.
-/// It runs where A^2 + B^2 is near zero and Y is near zero and X is near zero.
-/// Free: ShoulderLift.
-fn case_5_2(p: &Parameters, known: &Known, shared: &Shared5, before: usize, answers: &mut Answers<'_>) {
-    let r39 = shared.r20 * shared.r20 + shared.r22 * shared.r22;
-    if !(is_near(r39, 5.96255768362e-7, NEAR) && is_near(shared.r31, 0.01 * shared.r36, NEAR) && is_near(shared.r29, 0.01 * shared.r35, NEAR)) || (answers.suffice_since(p, before) && !(is_near(r39, 5.96255768362e-7, BESIDE) && is_near(shared.r31, 0.01 * shared.r36, BESIDE) && is_near(shared.r29, 0.01 * shared.r35, BESIDE))) {
-        return;
-    }
-    for [c2, s2] in SAMPLES_1 {
-        let next = Known { branch: 2 * known.branch + 1, last: 2 * known.last, close: known.close, free: [known.free[0], true, known.free[2], known.free[3], known.free[4], known.free[5]], c2, s2, ..*known };
-        again_6(p, &next, answers);
+    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
+        jacobian(p, at)
     }
 }
 
 /// Block 6: Wrist1.
 #[inline(always)]
-fn block_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    let r6 = known.c1 * (p.px - 0.0823 * p.r13_) + known.s1 * (p.py - 0.0823 * p.r23_);
-    let r10 = p.pz - 0.0823 * p.r33_ - 0.089159; let r15 = known.c2 * r6 + known.s2 * r10 + 0.425;
-    let r17 = known.c2 * r10 - known.s2 * r6; let r21 = known.c3 * r17 - known.s3 * r15;
-    let r23 = known.c3 * r15 + known.s3 * r17 + 0.39225;
-    let shared = &Shared6 { r21, r23 };
-    case_6_1(p, known, shared, answers);
+fn block_6<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found5: Found<N>, [c1, s1, c2, s2, c3, s3, c5, s5, c6, s6]: [N; 10], c: &mut C) where f64: With<N> {
+    let [px, py, pz, _, _, r13_, _, _, r23_, _, _, r33_, _] = *p;
+    let r6 = c1 * (px - 0.0823 * r13_) + s1 * (py - 0.0823 * r23_); let r10 = pz - 0.0823 * r33_ - 0.089159;
+    let r15 = c2 * r6 + s2 * r10 + 0.425; let r17 = c2 * r10 - s2 * r6; let r21 = c3 * r17 - s3 * r15;
+    let r23 = c3 * r15 + s3 * r17 + 0.39225; let r24 = 0.09465 * r23; let r25 = 0.09465 * r21;
+    let r30 = 1.0 / N::root(r25 * r25 + r24 * r24); let c4 = 0.0 - r25 * r30; let s4 = r24 * r30;
+    c.finish(&Solver, found5, &[c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6]);
 }
 
-/// Block 6 behind a case that hardly ever runs.
-#[cold]
-#[inline(never)]
-fn again_6(p: &Parameters, known: &Known, answers: &mut Answers<'_>) {
-    block_6(p, known, answers);
-}
-
-/// What the cases of block 6 share.
-struct Shared6 { r21: f64, r23: f64 }
-
-/// Case 1 of block 6: generic.
+/// Block 3: Wrist2.
 #[inline(always)]
-fn case_6_1(p: &Parameters, known: &Known, shared: &Shared6, answers: &mut Answers<'_>) {
-    let r24 = 0.09465 * shared.r23; let r25 = 0.09465 * shared.r21;
-    let r30 = 1.0 / f64::max(r25 * r25 + r24 * r24, 0.0).sqrt(); let c4 = 0.0 - r25 * r30; let s4 = r24 * r30;
-    let at = [
-        known.c1, known.s1, known.c2, known.s2, known.c3, known.s3, c4, s4, known.c5, known.s5, known.c6,
-        known.s6,
-    ];
-    answers.finish(p, known.branch, known.last, known.close, &at, known.free);
+fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found2: Found<N>, [c1, s1, c6, s6, f6]: [N; 5], c: &mut C) where f64: With<N> {
+    let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude] = *p;
+    let r10 = r13_ * s1 - r23_ * c1; let r11 = s1 * (r11_ * c6 - r12_ * s6) - c1 * (r21_ * c6 - r22_ * s6);
+    let r16 = 1.0 / N::root(r10 * r10 + r11 * r11); let c5 = r10 * r16; let s5 = r11 * r16;
+    let r23 = r31_ * s6; let r24 = r32_ * c6; let r28 = px + 0.09465 * (r11_ * s6) + 0.09465 * (r12_ * c6);
+    let r35 = py + 0.09465 * (r21_ * s6) + 0.09465 * (r22_ * c6);
+    let r44 = pz + 0.09465 * r23 + 0.09465 * r24 - 0.0823 * r33_;
+    let r51 = 2.0 * (px * (r28 - 0.0823 * r13_)) + 2.0 * (py * (r35 - 0.0823 * r23_));
+    let r56 = r51 + 2.0 * (pz * r44) - px * px - py * py - pz * pz;
+    let r62 = r56 - 0.178318 * pz - 0.0168777987 * r23 - 0.0168777987 * r24;
+    let r65 = 0.322717545219 - (r62 + 0.0146755714 * r33_);
+    let roots1 = N::square_roots(r65 * r65 - 0.11116389515625, 1.4142135623730951 * f6);
+    for (i1, &w3) in roots1.as_slice().iter().enumerate() {
+        let c3 = 0.0 - 8.99572652248662 * (0.3334125 * r65); let s3 = 8.99572652248662 * (0.3334125 * w3);
+        let found4 = found2.next(2, i1).by_root(&roots1, i1);
+        // Block 5: ShoulderLift.
+        let before5 = c.count(); let r83 = px + 0.09465 * (r11_ * s6) + 0.09465 * (r12_ * c6);
+        let r90 = py + 0.09465 * (r21_ * s6) + 0.09465 * (r22_ * c6); let r94 = 0.39225 * s3;
+        let r96 = 0.39225 * c3 + 0.425; let r100 = pz + 0.09465 * (r31_ * s6) + 0.09465 * (r32_ * c6);
+        let r103 = r100 - 0.0823 * r33_ - 0.089159;
+        let r104 = c1 * (r83 - 0.0823 * r13_) + s1 * (r90 - 0.0823 * r23_); let r105 = 0.0 - r104;
+        let r109 = N::abs(magnitude + 6.148441); let r110 = N::abs(2.0 * magnitude + 12.118564);
+        // Case 1: generic, where A^2 + B^2 is not zero.
+        if c.is_usual(N::away(r94 * r94 + r96 * r96, N::of(95.40092293792))) {
+            let r116 = r94 * r104 - r96 * r103; let r119 = r94 * r103 + r96 * r104;
+            let r124 = 1.0 / N::root(r119 * r119 + r116 * r116); let c2 = 0.0 - r119 * r124;
+            let s2 = r116 * r124; let found5 = found4.next(2, 0);
+            block_6(p, found5, [c1, s1, c2, s2, c3, s3, c5, s5, c6, s6], c);
+        }
+        // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: ShoulderLift.
+        if c.is_due(before5, N::near(r94 * r94 + r96 * r96, N::of(5.96255768362e-7)) & N::near(r105, 0.01 * r110) & N::near(r103, 0.01 * r109)) {
+            for [c2, s2] in SAMPLES_1.map(|row| row.map(N::of)) {
+                let found5 = found4.next(2, 1).freeing(0b10);
+                rarely(|| block_6(p, found5, [c1, s1, c2, s2, c3, s3, c5, s5, c6, s6], c));
+            }
+        }
+    }
 }
 
-/// What the equations compare with the target.
-const TIP: usize = 12;
+/// Block 1: ShoulderPan.
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
+    let [px, py, _, r11_, r12_, r13_, r21_, r22_, r23_, _, _, _, magnitude] = *p;
+    let r1 = py - 0.0823 * r23_; let r3 = 0.0823 * r13_ - px; let r5 = N::abs(magnitude + 1.946082);
+    let r6 = r1 * r1; let r7 = r3 * r3; let r8 = r6 + r7; let r9 = r5 * r5; let r10 = r9 + r9;
+    if c.is_usual(N::away(r8, 16.0 * r10)) {
+        let roots1 = N::square_roots(0.0119137225 - r6 - r7, N::root(r10));
+        for (i1, &w1) in roots1.as_slice().iter().enumerate() {
+            let r21 = 1.0 / r8; let c1 = 0.0 - (w1 * r3 + 0.10915 * r1) * r21;
+            let s1 = (w1 * r1 - 0.10915 * r3) * r21;
+            let found1 = Found::first(i1, 2).by_root(&roots1, i1);
+            // Block 2: Wrist3.
+            let before2 = c.count(); let r29 = r12_ * s1 - r22_ * c1; let r30 = r11_ * s1 - r21_ * c1;
+            // Case 1: generic, where A^2 + B^2 is not zero.
+            let r31 = r29 * r29; let r32 = r30 * r30; let r33 = r31 + r32;
+            if c.is_usual(N::away(r33, N::of(128.0))) {
+                let f6 = N::of(1.0); let roots2 = N::square_roots(0.0 - r31 - r32, N::of(2.8284271247461903));
+                for (i2, &w6) in roots2.as_slice().iter().enumerate() {
+                    let r38 = 1.0 / r33; let c6 = 0.0 - w6 * r30 * r38; let s6 = w6 * r29 * r38;
+                    let found2 = found1.next(3, i2).by_root(&roots2, i2);
+                    block_3(p, found2, [c1, s1, c6, s6, f6], c);
+                }
+            }
+            // Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: Wrist3.
+            if c.is_due(before2, N::near(r29 * r29 + r30 * r30, N::of(8.000000000000001e-7))) {
+                let f6 = N::of(1000000.0);
+                for [c6, s6] in SAMPLES_1.map(|row| row.map(N::of)) {
+                    let found2 = found1.next(3, 2).freeing(0b100000);
+                    rarely(|| block_3(p, found2, [c1, s1, c6, s6, f6], c));
+                }
+            }
+        }
+    }
+}
 
-/// The tip, as the equations compare it.
+/// What the equations compare with parameters.
 #[inline(always)]
-fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
+fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
     let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
@@ -715,50 +227,8 @@ fn tip<T: Number>(at: &[T; PLACES]) -> [T; TIP] where f64: With<T> {
     ]
 }
 
-/// What the equations read of joints: 12 numbers.
-const PLACES: usize = 12;
-
-/// The numbers that the equations read: q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(), q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin().
-fn place(q: &[f64; JOINTS]) -> [f64; PLACES] {
-    [
-        q[0].cos(), q[0].sin(), q[1].cos(), q[1].sin(), q[2].cos(), q[2].sin(), q[3].cos(), q[3].sin(),
-        q[4].cos(), q[4].sin(), q[5].cos(), q[5].sin(),
-    ]
-}
-
-/// The equations' values, zero at a solution, and their sizes, the sums of their terms' magnitudes.
-struct Equations {
-    value: [f64; EQUATIONS],
-    size: [f64; SIZES],
-}
-
-const SIZES: usize = 2;
-/// Which of the sizes is that of each equation.
-const SIZE_OF: [usize; EQUATIONS] = [0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1];
-
-/// The equations' values.
-#[inline(always)]
-fn values<T: Number>(p: &Parameters, at: &[T; PLACES]) -> [T; EQUATIONS] where f64: With<T> {
-    let reached = tip(at);
-    [
-        reached[0] - p.px, reached[1] - p.py, reached[2] - p.pz, reached[3] - p.r11_,
-        reached[4] - p.r21_, reached[5] - p.r31_, reached[6] - p.r12_, reached[7] - p.r22_,
-        reached[8] - p.r32_, reached[9] - p.r13_, reached[10] - p.r23_, reached[11] - p.r33_,
-    ]
-}
-
-/// The sizes of equations.
-#[inline(always)]
-fn sizes(_p: &Parameters, _at: &[f64; PLACES]) -> [f64; SIZES] {
-    [1.192509, 1.0]
-}
-
-fn equations(p: &Parameters, at: &[f64; PLACES]) -> Equations {
-    Equations { value: values(p, at), size: sizes(p, at) }
-}
-
-/// The derivative of equation `i` by joint `j`, in row `i` and column `j`.
-fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
+/// The derivative of each equation by each joint.
+fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
     let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
     let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
@@ -800,1091 +270,3 @@ fn jacobian(_p: &Parameters, at: &[f64; PLACES]) -> [[f64; JOINTS]; EQUATIONS] {
         [0.0, r257, r257, r257, r53 * r183 - r49 * r104, 0.0],
     ]
 }
-
-/// Answers so far, and the largest share of an equation's value in its size for each.
-struct Answers<'a> {
-    out: &'a mut [Solution],
-    /// Where pairs are written instead, and whether all candidates so far can be.
-    pairs: Option<&'a mut [Pairs; CAPACITY]>,
-    usual: bool,
-    relative: [f64; CAPACITY],
-    count: usize,
-    /// How many candidates there have been, and had with the last one that did not hold where it was found.
-    candidates: usize,
-    unsound: usize,
-    /// By place: the numbers of candidates that wait to be measured.
-    at: [[f64; ROOM]; PLACES],
-    /// How each was found.
-    found: [Found; ROOM],
-    waiting: usize,
-}
-
-impl Answers<'_> {
-    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
-    #[cold]
-    fn suffice_since(&mut self, p: &Parameters, candidates: usize) -> bool {
-        self.flush(p);
-        self.candidates > candidates && self.unsound <= candidates
-    }
-
-    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
-    /// A member of a self-motion is moved along it only where it misses the equations by more than rounding.
-    #[cold]
-    #[inline(never)]
-    fn refine(&mut self, p: &Parameters, number: usize, branch: usize, last: usize, q: [f64; JOINTS], free: [bool; JOINTS]) {
-        let mut end = (q, measure(p, &q));
-        if free != NONE_FREE {
-            self.unsound = number;
-            if self.has_member(branch, &free) {
-                return;
-            }
-            let missed = end.1.relative;
-            if RESOLUTION <= end.1.relative && end.1.relative <= ADRIFT {
-                end = polish(p, end, &free);
-            }
-            if !self.keep_member(p, branch, last, end, free) {
-                end = polish(p, end, &NONE_FREE);
-                let is_member = self.keep_member(p, branch, last, end, free);
-                // It may be of another self-motion, of one joint.
-                let is_member = is_member
-                    || (end.1.relative <= ALONE
-                        && !self.is_listed(&end.0)
-                        && FREED.iter().any(|one| self.keep_member(p, branch, last, end, *one)));
-                if !is_member && end.1.relative <= ALONE {
-                    let known = self.count;
-                    self.keep(p, branch, last, end, NONE_FREE);
-                    if self.count > known && RESOLUTION <= missed && missed <= SPLIT {
-                        self.around(p, branch, last, &end, missed, NONE_FREE);
-                    }
-                }
-            }
-            return;
-        }
-        let missed = end.1.relative;
-        end = polish(p, end, &NONE_FREE);
-        let miss = end.1.relative;
-        if !(end.1.accepted && miss < RESOLUTION && farthest(&q, &end.0) <= MERGE) {
-            self.unsound = number;
-        }
-        if RESOLUTION <= miss && miss <= SPLIT {
-            self.around(p, branch, last, &end, miss, free);
-        } else if RESOLUTION <= missed && missed <= SPLIT && farthest(&q, &end.0) > LEVER * missed.sqrt() {
-            self.around(p, branch, last, &end, missed, free);
-            // Such a candidate stands between two answers: starts from the other side too.
-            let way = differences(&q, &end.0);
-            let start = core::array::from_fn(|i| wrap(q[i] + way[i]));
-            let start = (start, measure(p, &start));
-            let start = polish(p, start, &NONE_FREE);
-            self.keep(p, branch, last, start, free);
-        }
-        self.keep(p, branch, last, end, free);
-    }
-
-    /// Whether an isolated answer is listed that has these joints.
-    fn is_listed(&self, q: &[f64; JOINTS]) -> bool {
-        self.out[..self.count].iter().any(|answer| is_isolated(answer) && is_within(&answer.q, q, MERGE))
-    }
-
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, p: &Parameters, branch: usize, last: usize, end: &([f64; JOINTS], Fit), missed: f64, free: [bool; JOINTS]) {
-        let weights = weights(p, &end.0);
-        let mut is_found = end.1.accepted;
-        let mut farther = 1.0;
-        while farther <= FARTHEST {
-            for i in 0..JOINTS {
-                for sign in [-1.0, 1.0] {
-                    let weight = if end.1.accepted { 1.0 } else { weights[i] };
-                    let way = f64::min(farther * (missed / weight).sqrt(), APART);
-                    let start = moved(&end.0, i, 2.0 * sign * way);
-                    let start = (start, measure(p, &start));
-                    let start = polish(p, start, &NONE_FREE);
-                    is_found |= start.1.accepted;
-                    self.keep(p, branch, last, start, free);
-                }
-            }
-            if is_found {
-                return;
-            }
-            farther *= FARTHER;
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, p: &Parameters, branch: usize, last: usize, end: ([f64; JOINTS], Fit), free: [bool; JOINTS]) -> bool {
-        let is_member = end.1.accepted && lies_on_self_motion(p, &end.0, &free, end.1.relative);
-        if is_member {
-            self.keep(p, branch, last, end, free);
-        }
-        is_member
-    }
-
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
-    fn keep(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        if !fit.accepted {
-            return;
-        }
-        if self.is_apart(branch, &q, &free) {
-            self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-            self.relative[self.count] = fit.relative;
-            self.count += 1;
-            return;
-        }
-        self.keep_one(p, branch, last, (q, fit), free);
-    }
-
-    /// Whether there is room for an isolated answer of this branch, and none of the others is near it.
-    fn is_apart(&self, branch: usize, q: &[f64; JOINTS], free: &[bool; JOINTS]) -> bool {
-        let apart = |other: &Solution| other.branch != branch && is_isolated(other) && !is_within(&other.q, q, BLUR);
-        self.count < CAPACITY && *free == NONE_FREE && self.out[..self.count].iter().all(apart)
-    }
-
-    /// As [`Answers::keep`], where others are near.
-    #[cold]
-    #[inline(never)]
-    fn keep_one(&mut self, p: &Parameters, branch: usize, last: usize, (q, fit): ([f64; JOINTS], Fit), free: [bool; JOINTS]) {
-        let next = if free == NONE_FREE { last } else { branch };
-        let branch = (branch..next).find(|&branch| !self.has(branch)).unwrap_or(branch);
-        let answer = Solution { q, residual: fit.residual, branch, chosen: false, free };
-        let mut answer = Rated { answer, relative: fit.relative };
-        let mut doubles = [false; CAPACITY];
-        let mut first = None;
-        for i in 0..self.count {
-            let other = Rated { answer: self.out[i], relative: self.relative[i] };
-            doubles[i] = is_one(p, &other, &answer);
-            if doubles[i] && holds_against(&other, &answer) {
-                return;
-            }
-            if doubles[i] && first.is_none() {
-                first = Some(other.answer.branch);
-            }
-        }
-        if free == NONE_FREE {
-            answer.answer.branch = first.unwrap_or(branch);
-        }
-        self.drop_doubles(&doubles);
-        self.push(answer);
-    }
-
-    fn has(&self, branch: usize) -> bool {
-        self.out[..self.count].iter().any(|answer| answer.branch == branch)
-    }
-
-    /// Whether a member of this branch holds within rounding.
-    fn has_member(&self, branch: usize, free: &[bool; JOINTS]) -> bool {
-        let listed = self.out[..self.count].iter().zip(&self.relative);
-        listed.into_iter().any(|(a, relative)| *relative <= RESOLUTION && a.branch == branch && a.free == *free)
-    }
-
-    fn drop_doubles(&mut self, doubles: &[bool; CAPACITY]) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            if !doubles[i] {
-                self.out[kept] = self.out[i];
-                self.relative[kept] = self.relative[i];
-                kept += 1;
-            }
-        }
-        self.count = kept;
-    }
-
-    /// Adds an answer; where there are too many, the worst is left out.
-    fn push(&mut self, answer: Rated) {
-        if self.count == CAPACITY {
-            let mut worst = 0;
-            for i in 0..CAPACITY {
-                if self.relative[i] >= self.relative[worst] {
-                    worst = i;
-                }
-            }
-            if answer.relative >= self.relative[worst] {
-                return;
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worst] = true;
-            self.drop_doubles(&doubles);
-        }
-        self.out[self.count] = answer.answer;
-        self.relative[self.count] = answer.relative;
-        self.count += 1;
-    }
-
-    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
-    /// nearest two are one, and the better of them stays.
-    fn unite(&mut self) {
-        while self.out[..self.count].iter().filter(|answer| is_isolated(answer)).count() > 8 {
-            let (mut least, mut worse) = (f64::INFINITY, 0);
-            for second in 0..self.count {
-                for first in 0..second {
-                    let (a, b) = (&self.out[first], &self.out[second]);
-                    if is_isolated(a) && is_isolated(b) && farthest(&a.q, &b.q) < least {
-                        least = farthest(&a.q, &b.q);
-                        worse = if self.relative[first] > self.relative[second] { first } else { second };
-                    }
-                }
-            }
-            let mut doubles = [false; CAPACITY];
-            doubles[worse] = true;
-            self.drop_doubles(&doubles);
-        }
-    }
-
-    /// Insertion sort by branch.
-    fn sort(&mut self) {
-        for end in 1..self.count {
-            for place in (1..=end).rev() {
-                if self.out[place - 1].branch <= self.out[place].branch {
-                    break;
-                }
-                self.out.swap(place - 1, place);
-            }
-        }
-    }
-}
-
-/// An answer with the largest share of an equation's value in its size.
-struct Rated {
-    answer: Solution,
-    relative: f64,
-}
-
-/// Whether two answers are one.
-fn is_one(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    if close(&a.answer, &b.answer, MERGE) {
-        return true;
-    }
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, true) => blurred(p, a, b),
-        (false, false) => {
-            a.answer.free == b.answer.free && (a.answer.branch == b.answer.branch || leads_to(p, &a.answer, &b.answer))
-        }
-        (true, false) => b.relative <= RESOLUTION && lies_on_self_motion(p, &a.answer.q, &b.answer.free, RESOLUTION),
-        (false, true) => a.relative <= RESOLUTION && lies_on_self_motion(p, &b.answer.q, &a.answer.free, RESOLUTION),
-    }
-}
-
-/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
-/// its first member against the others.
-fn holds_against(a: &Rated, b: &Rated) -> bool {
-    match (is_isolated(&a.answer), is_isolated(&b.answer)) {
-        (true, false) if b.relative <= RESOLUTION => return false,
-        (false, _) if a.relative <= RESOLUTION => return true,
-        _ => {}
-    }
-    a.relative <= b.relative
-}
-
-/// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-/// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
-/// circle only: where `q` is singular within rounding, shorter ways are tried as well.
-fn lies_on_self_motion(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], bound: f64) -> bool {
-    let (mut way, bound) = (ASIDE, f64::max(bound, RESOLUTION));
-    let regularity = regularity(p, q);
-    if regularity > REGULAR {
-        return false;
-    }
-    for narrow in 0..NARROWS {
-        if narrow == 1 && (bound > RESOLUTION || regularity > SINGULAR) {
-            return false;
-        }
-        if leads_aside(p, q, free, way, bound) || leads_aside(p, q, free, -way, bound) {
-            return true;
-        }
-        way /= 8.0;
-    }
-    false
-}
-
-/// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-/// may be led to a self-motion next to it, but not back.
-fn leads_aside(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], way: f64, bound: f64) -> bool {
-    let (mut before, mut at) = (*q, *q);
-    let mut share = 1.0;
-    for _ in 1..DOUBLINGS {
-        share *= 0.5;
-    }
-    for stage in 0..DOUBLINGS {
-        let mut next = beyond(&before, &at, if stage == 1 { 1.0 } else { 2.0 });
-        for i in (0..JOINTS).filter(|&i| free[i]) {
-            next[i] = moved(q, i, share * way)[i];
-        }
-        let (next, fit) = follow(p, next, free);
-        if fit.relative > bound || (stage == 1 && !leads_back(p, q, free, &at, &next, bound)) {
-            return false;
-        }
-        (before, at) = (at, next);
-        share *= 2.0;
-    }
-    true
-}
-
-/// Whether the joints come back to `q` on along the line from `far` through `close_by`.
-fn leads_back(p: &Parameters, q: &[f64; JOINTS], free: &[bool; JOINTS], close_by: &[f64; JOINTS], far: &[f64; JOINTS], bound: f64) -> bool {
-    let mut back = beyond(far, close_by, 1.0);
-    for i in (0..JOINTS).filter(|&i| free[i]) {
-        back[i] = q[i];
-    }
-    let (back, fit) = follow(p, back, free);
-    fit.accepted && are_joined(p, &back, q, bound, free)
-}
-
-/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
-fn beyond(a: &[f64; JOINTS], b: &[f64; JOINTS], ahead: f64) -> [f64; JOINTS] {
-    let (mut beyond, way) = (*b, differences(b, a));
-    for i in 0..JOINTS {
-        beyond[i] += ahead * way[i];
-    }
-    beyond
-}
-
-/// Whether the self-motion of `a` has the member `b`: as the free joints move there in stages, the others follow.
-fn leads_to(p: &Parameters, a: &Solution, b: &Solution) -> bool {
-    let mut q = a.q;
-    let mut accepted = false;
-    for stages in (1..=STAGES).rev() {
-        let way = differences(&b.q, &q);
-        for i in (0..JOINTS).filter(|&i| b.free[i]) {
-            q[i] += way[i] / stages as f64;
-        }
-        let end = follow(p, q, &b.free);
-        (q, accepted) = (end.0, end.1.accepted);
-    }
-    accepted && is_within(&q, &b.q, ARRIVED) && are_joined(p, &q, &b.q, RESOLUTION, &b.free)
-}
-
-/// Polishes joints of which `free` ones stay where they are.
-fn follow(p: &Parameters, q: [f64; JOINTS], free: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    polish(p, (q, measure(p, &q)), free)
-}
-
-/// `a - b` joint by joint, angles by the shorter way round.
-fn differences(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| shorter(a[i] - b[i]))
-}
-
-fn shorter(difference: f64) -> f64 {
-    if difference > PI {
-        difference - TAU
-    } else if difference < -PI {
-        difference + TAU
-    } else {
-        difference
-    }
-}
-
-/// Whether joint values differ by `tolerance` at most.
-fn is_within(a: &[f64; JOINTS], b: &[f64; JOINTS], tolerance: f64) -> bool {
-    shorter(a[3] - b[3]).abs() <= tolerance
-    && shorter(a[1] - b[1]).abs() <= tolerance
-    && shorter(a[2] - b[2]).abs() <= tolerance
-    && shorter(a[4] - b[4]).abs() <= tolerance
-    && shorter(a[5] - b[5]).abs() <= tolerance
-    && shorter(a[0] - b[0]).abs() <= tolerance
-}
-
-fn is_isolated(answer: &Solution) -> bool {
-    !answer.free.contains(&true)
-}
-
-/// How far joints may differ: angles by `tolerance`, lengths by that share of their size.
-fn spans(_q: &[f64; JOINTS], tolerance: f64) -> [f64; JOINTS] {
-    [tolerance; JOINTS]
-}
-
-/// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
-fn farthest(a: &[f64; JOINTS], b: &[f64; JOINTS]) -> f64 {
-    let (difference, size) = (differences(a, b), spans(a, 1.0));
-    (0..JOINTS).fold(0.0, |farthest, i| f64::max(farthest, difference[i].abs() / size[i]))
-}
-
-/// Whether two answers differ by `tolerance` at most, joints left out that are free in either.
-fn close(a: &Solution, b: &Solution, tolerance: f64) -> bool {
-    let (difference, limit) = (differences(&a.q, &b.q), spans(&a.q, tolerance));
-    (0..JOINTS).all(|i| a.free[i] || b.free[i] || difference[i].abs() <= limit[i])
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond `MERGE`:
-/// they hold half-way too, as well as at the worse of the two.
-fn blurred(p: &Parameters, a: &Rated, b: &Rated) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let (a, b) = (&a.answer.q, &b.answer.q);
-    if bound <= RESOLUTION && farthest(a, b) <= BLUR && regularity(p, b) > DISTINCT {
-        return false;
-    }
-    are_joined(p, a, b, bound, &NONE_FREE)
-}
-
-/// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-fn are_joined(p: &Parameters, a: &[f64; JOINTS], b: &[f64; JOINTS], bound: f64, held: &[bool; JOINTS]) -> bool {
-    if farthest(a, b) > BLUR {
-        return false;
-    }
-    let way = differences(a, b);
-    let mut middle = *b;
-    for i in 0..JOINTS {
-        middle[i] += 0.5 * way[i];
-    }
-    let mut fit = measure(p, &middle);
-    for _ in 0..RETURNS {
-        if fit.relative <= bound {
-            return true;
-        }
-        let Some(back) = newton_step(p, &middle, STIFF, held) else { return false };
-        middle = stepped(&middle, &back);
-        fit = measure(p, &middle);
-    }
-    fit.relative <= bound
-}
-
-/// How well joint values solve the equations.
-#[derive(Clone, Copy)]
-struct Fit {
-    /// The largest magnitude of an equation's value.
-    residual: f64,
-    /// The largest share of an equation's value in its size.
-    relative: f64,
-    /// Whether every equation holds.
-    accepted: bool,
-}
-
-fn measure(p: &Parameters, q: &[f64; JOINTS]) -> Fit {
-    measure_at(p, &place(q), q)
-}
-
-/// As [`measure`], where the cosines and sines of `q` are known.
-#[inline(always)]
-fn measure_at(p: &Parameters, at: &[f64; PLACES], q: &[f64; JOINTS]) -> Fit {
-    let Equations { value, size } = equations(p, at);
-    let mut fit = Fit { residual: 0.0, relative: 0.0, accepted: q.iter().all(|value| value.is_finite()) };
-    let mut largest = [0.0; SIZES];
-    for i in 0..EQUATIONS {
-        largest[SIZE_OF[i]] = f64::max(largest[SIZE_OF[i]], value[i].abs());
-        fit.accepted &= value[i].abs() <= ACCEPT * size[SIZE_OF[i]];
-    }
-    for (largest, size) in largest.iter().zip(size) {
-        fit.residual = f64::max(fit.residual, *largest);
-        fit.relative = f64::max(fit.relative, largest / f64::max(size, f64::MIN_POSITIVE));
-    }
-    fit.accepted &= fit.residual.is_finite();
-    fit
-}
-
-/// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-/// after a leap.
-/// Joints that are `held` stay.
-fn polish(p: &Parameters, start: ([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> ([f64; JOINTS], Fit) {
-    let (mut end, mut slow) = (start, 0);
-    for _ in 0..POLISH_STEPS {
-        if end.1.relative <= POLISHED || slow == PATIENCE {
-            return end;
-        }
-        let Some(next) = improved(p, &end, held) else { return end };
-        slow = if next.1.relative <= f64::max(0.5 * end.1.relative, RESOLUTION) { 0 } else { slow + 1 };
-        let step = core::array::from_fn(|i| next.0[i] - end.0[i]);
-        end = next;
-        if end.1.relative < RESOLUTION && longest(&step) <= SHORT {
-            return end;
-        }
-    }
-    end
-}
-
-/// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-/// it is rounding and a plain step is short, that is the last.
-fn improved(p: &Parameters, (q, fit): &([f64; JOINTS], Fit), held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let leaps = RESOLUTION <= fit.relative && fit.relative <= SPLIT;
-    let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-    let mut fallen = None;
-    for damping in DAMPINGS {
-        let Some(step) = newton_step(p, q, damping, held) else { continue };
-        let next = stepped(q, &step);
-        let next = (next, measure(p, &next));
-        if next.1.relative < enough {
-            return Some(next);
-        }
-        if damping == 0.0 && fit.relative < RESOLUTION && longest(&step) <= SHORT {
-            return None;
-        }
-        if leaps && damping == 0.0 && *held == NONE_FREE && next.1.relative <= OVERSHOT * fit.relative {
-            let end = returned(p, next.0, fit.relative, held);
-            if end.is_some() {
-                return end;
-            }
-        }
-        if next.1.relative < fit.relative && fallen.is_none() {
-            fallen = Some(next);
-        }
-    }
-    let leap = if leaps { leap(p, q, enough, held) } else { None };
-    leap.or(fallen)
-}
-
-/// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-/// beyond one of them, and from there on each quarters the miss.
-fn returned(p: &Parameters, mut q: [f64; JOINTS], relative: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    for _ in 0..RETURNS {
-        let step = newton_step(p, &q, 0.0, held)?;
-        q = stepped(&q, &step);
-        let fit = measure(p, &q);
-        if fit.relative < relative {
-            return Some((q, fit));
-        }
-    }
-    None
-}
-
-/// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-/// hardly changes along a bent way, and rises on each straight one.
-fn leap(p: &Parameters, q: &[f64; JOINTS], enough: f64, held: &[bool; JOINTS]) -> Option<([f64; JOINTS], Fit)> {
-    let step = newton_step(p, q, 0.0, held)?;
-    let longest = longest(&step);
-    if !longest.is_finite() {
-        return None;
-    }
-    for most in LEAPS {
-        let share = f64::min(most / longest, 1.0);
-        let mut next = stepped(q, &step.map(|way| share * way));
-        for _ in 0..RETURNS {
-            let Some(back) = newton_step(p, &next, STIFF, held) else { break };
-            next = stepped(&next, &back);
-            let fit = measure(p, &next);
-            if fit.relative < enough {
-                return Some((next, fit));
-            }
-        }
-    }
-    None
-}
-
-/// The longest way of a joint in a step: an angle, or a share of the length scale.
-fn longest(step: &[f64; JOINTS]) -> f64 {
-    (0..JOINTS).fold(0.0, |longest, i| f64::max(longest, step[i].abs()))
-}
-
-/// `q - step`, angles in (-pi, pi].
-fn stepped(q: &[f64; JOINTS], step: &[f64; JOINTS]) -> [f64; JOINTS] {
-    core::array::from_fn(|i| wrap(q[i] - step[i]))
-}
-
-/// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
-fn weights(p: &Parameters, q: &[f64; JOINTS]) -> [f64; JOINTS] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let sizes = equations(p, &at).size;
-    let mut weights = [0.0; JOINTS];
-    for (row, size) in rows.iter().zip(SIZE_OF) {
-        let size = sizes[size];
-        for i in 0..JOINTS {
-            weights[i] = f64::max(weights[i], row[i].abs() / f64::max(size, f64::MIN_POSITIVE));
-        }
-    }
-    core::array::from_fn(|i| f64::min(weights[i], 1.0))
-}
-
-/// `q` with joint `i` moved: an angle by `way`, a length by that share of its size.
-fn moved(q: &[f64; JOINTS], i: usize, way: f64) -> [f64; JOINTS] {
-    let mut next = *q;
-    next[i] = wrap(q[i] + way);
-    next
-}
-
-/// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-fn newton_step(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> Option<[f64; JOINTS]> {
-    substituted(&triangle(p, q, damping, held))
-}
-
-/// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-/// hold, or a root is double.
-fn regularity(p: &Parameters, q: &[f64; JOINTS]) -> f64 {
-    let columns = triangle(p, q, 0.0, &NONE_FREE);
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for i in 0..JOINTS {
-        let pivot = columns[i][i].abs();
-        (least, most) = (f64::min(least, pivot), f64::max(most, pivot));
-    }
-    least / most
-}
-
-/// The triangle of a step's equations, the right side in the last column.
-fn triangle(p: &Parameters, q: &[f64; JOINTS], damping: f64, held: &[bool; JOINTS]) -> [[f64; ROWS]; JOINTS + 1] {
-    let at = place(q);
-    let rows = jacobian(p, &at);
-    let right = equations(p, &at).value;
-    let mut columns = [[0.0; ROWS]; JOINTS + 1];
-    let mut size = 0.0;
-    for i in 0..JOINTS {
-        let mut square = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let entry = if held[i] { 0.0 } else { row[i] };
-            columns[i][k] = entry;
-            square += entry * entry;
-        }
-        size = f64::max(size, square);
-    }
-    columns[JOINTS][..EQUATIONS].copy_from_slice(&right);
-    for i in 0..JOINTS {
-        columns[i][EQUATIONS + i] = if held[i] { 1.0 } else { (damping * size).sqrt() };
-    }
-    reflect(&mut columns);
-    columns
-}
-
-/// Rows of the equations and of the damping.
-const ROWS: usize = EQUATIONS + JOINTS;
-
-/// Turns columns into a triangle by reflections.
-fn reflect(columns: &mut [[f64; ROWS]; JOINTS + 1]) {
-    for pivot in 0..JOINTS {
-        let mut mirror = columns[pivot];
-        let square = mirror[pivot..].iter().fold(0.0, |sum, x| sum + x * x);
-        if square == 0.0 {
-            continue;
-        }
-        let length = square.sqrt().copysign(mirror[pivot]);
-        mirror[pivot] += length;
-        let half = length * mirror[pivot];
-        columns[pivot][pivot] = -length;
-        for column in &mut columns[pivot + 1..] {
-            let along = mirror[pivot..].iter().zip(&column[pivot..]).fold(0.0, |sum, (x, y)| sum + x * y) / half;
-            for (x, y) in column[pivot..].iter_mut().zip(&mirror[pivot..]) {
-                *x -= along * y;
-            }
-        }
-    }
-}
-
-/// The solution of a triangular system; none for a zero or non-finite pivot.
-fn substituted(columns: &[[f64; ROWS]; JOINTS + 1]) -> Option<[f64; JOINTS]> {
-    let mut solution = [0.0; JOINTS];
-    for row in (0..JOINTS).rev() {
-        let pivot = columns[row][row];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return None;
-        }
-        let mut sum = columns[JOINTS][row];
-        for k in row + 1..JOINTS {
-            sum -= columns[k][row] * solution[k];
-        }
-        solution[row] = sum / pivot;
-    }
-    Some(solution)
-}
-
-const PI: f64 = core::f64::consts::PI;
-const TAU: f64 = core::f64::consts::TAU;
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative. The arc tangent of |z| <= tan(pi/8) is z + z^3 P(z^2), where P
-/// interpolates at eleven Chebyshev points.
-#[inline(always)]
-fn acute(across: f64, up: f64) -> f64 {
-    let steep = up > across;
-    let (low, high) = if steep { (across, up) } else { (up, across) };
-    let far = low > 0.41421356237309503 * high;
-    let (top, bottom) = if far { (low - high, low + high) } else { (low, high) };
-    let z = top / bottom;
-    let mut angle = z + z * (z * z) * series(z * z);
-    if far {
-        angle = 0.25 * PI + (angle + REST);
-    }
-    if steep {
-        angle = 0.5 * PI - (angle - 2.0 * REST);
-    }
-    angle
-}
-
-/// The angle in (-pi, pi] from the one of the sizes of a cosine and a sine; zero is not negative.
-#[inline(always)]
-fn unfold(acute: f64, cosine: f64, sine: f64) -> f64 {
-    let angle = if cosine < 0.0 { PI - (acute - 4.0 * REST) } else { acute };
-    half_open(angle.copysign(sine)) + 0.0
-}
-
-/// What the double nearest to pi/4 lacks.
-const REST: f64 = 3.061616997868383e-17;
-
-fn series(u: f64) -> f64 {
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = -0.3333333333333333 + 0.1999999999999552 * u + (-0.14285714284666542 + 0.11111111015256361 * u) * square;
-    let second = -0.09090904578123903 + 0.07692183190826087 * u + (-0.06664511447381948 + 0.0585814891280221 * u) * square;
-    let third = -0.05085449737940259 + 0.03923165829558718 * u + -0.019176887119062243 * square;
-    first + (second + third * fourth) * fourth
-}
-
-/// The angle in (-pi, pi]: -pi, which `atan2` gives for a negative zero sine, becomes pi.
-fn half_open(angle: f64) -> f64 {
-    if angle <= -PI { angle + TAU } else { angle }
-}
-
-/// The angle moved by whole turns into (-pi, pi].
-fn wrap(angle: f64) -> f64 {
-    half_open(angle - TAU * (angle / TAU).round())
-}
-
-/// Whether a factor is near zero.
-fn is_near(value: f64, scale: f64, share: f64) -> bool {
-    value.abs() <= share * scale
-}
-
-/// Whether a factor is not zero.
-fn is_away(value: f64, scale: f64) -> bool {
-    value.abs() > TINY * scale
-}
-
-/// The highest degree of a polynomial.
-const DEGREE: usize = 2;
-/// Roots that differ by no more than this share of the unknown's typical size are close to one another.
-const MEETING: f64 = 1e-5;
-/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's
-/// typical size.
-const TANGENT: f64 = 1e-10;
-
-/// Real roots, ascending.
-struct Roots {
-    values: [f64; DEGREE],
-    count: usize,
-    /// Whether some are close to one another, or one is double.
-    close: bool,
-}
-
-impl Roots {
-    fn as_slice(&self) -> &[f64] {
-        &self.values[..self.count]
-    }
-
-    const NONE: Roots = Roots { values: [0.0; DEGREE], count: 0, close: false };
-
-    fn push(&mut self, x: f64) {
-        if x.is_finite() && self.count < DEGREE {
-            self.values[self.count] = x + 0.0;
-            self.count += 1;
-        }
-    }
-}
-
-/// All real roots of x^2 + constant; a miss is measured against the unknown's typical size `scale`.
-fn square_roots(constant: f64, scale: f64) -> Roots {
-    let mut roots = Roots::NONE;
-    if constant.is_nan() || constant > TANGENT * f64::max(constant, scale * scale) {
-        return roots;
-    }
-    if constant >= 0.0 {
-        roots.push(0.0);
-        roots.close = true;
-        return roots;
-    }
-    let root = (-constant).sqrt();
-    roots.close = root <= MEETING * scale;
-    roots.push(-root);
-    roots.push(root);
-    roots
-}
-
-/// What `core` lacks, from the C library.
-#[cfg(feature = "libm")]
-#[allow(dead_code, unsafe_code)]
-mod libm {
-    unsafe extern "C" {
-        pub safe fn sqrt(x: f64) -> f64;
-        pub safe fn sin(x: f64) -> f64;
-        pub safe fn cos(x: f64) -> f64;
-        pub safe fn round(x: f64) -> f64;
-        pub safe fn floor(x: f64) -> f64;
-        pub safe fn ceil(x: f64) -> f64;
-    }
-}
-
-/// The methods that `std` adds to `f64`.
-#[cfg(feature = "libm")]
-#[allow(dead_code)]
-trait Math: Sized {
-    fn sqrt(self) -> Self;
-    fn sin(self) -> Self;
-    fn cos(self) -> Self;
-    fn round(self) -> Self;
-    fn floor(self) -> Self;
-    fn ceil(self) -> Self;
-}
-
-#[cfg(feature = "libm")]
-impl Math for f64 {
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    fn sin(self) -> Self {
-        libm::sin(self)
-    }
-    fn cos(self) -> Self {
-        libm::cos(self)
-    }
-    fn round(self) -> Self {
-        libm::round(self)
-    }
-    fn floor(self) -> Self {
-        libm::floor(self)
-    }
-    fn ceil(self) -> Self {
-        libm::ceil(self)
-    }
-}
-
-use core::ops::{Add, Div, Mul, Sub};
-
-/// How many candidates are measured together, and how many of them an operation takes at once.
-const ROOM: usize = 8;
-const LANES: usize = 2;
-/// By angle: where its cosine and its sine stand among the places.
-const ANGLES: usize = 6;
-const CIRCLES: [[usize; 2]; ANGLES] = [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9], [10, 11]];
-/// The same for the angles that tell candidates apart, those that are found last first.
-const TELLING: [[usize; 2]; 6] = [[6, 7], [2, 3], [4, 5], [8, 9], [10, 11], [0, 1]];
-/// Angles differ by more than `BLUR` where their difference has a cosine below this.
-const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
-
-/// How a candidate was found.
-#[derive(Clone, Copy)]
-struct Found {
-    branch: usize,
-    last: usize,
-    close: bool,
-    free: [bool; JOINTS],
-}
-
-const NOT_FOUND: Found = Found { branch: 0, last: 0, close: false, free: NONE_FREE };
-
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
-struct Fits {
-    residual: [f64; ROOM],
-    relative: [f64; ROOM],
-    sound: [f64; ROOM],
-}
-
-impl Answers<'_> {
-    /// Takes in a candidate, which waits to be measured together with others.
-    #[inline(always)]
-    fn finish(&mut self, p: &Parameters, branch: usize, last: usize, close: bool, at: &[f64; PLACES], free: [bool; JOINTS]) {
-        if self.waiting >= ROOM {
-            self.flush(p);
-        }
-        let k = self.waiting % ROOM;
-        for i in 0..PLACES {
-            self.at[i][k] = at[i];
-        }
-        self.found[k] = Found { branch, last, close, free };
-        self.waiting = k + 1;
-        self.candidates += 1;
-    }
-
-    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
-    #[inline(never)]
-    fn flush(&mut self, p: &Parameters) {
-        if self.pairs.is_some() {
-            return self.flush_pairs(p);
-        }
-        let angles = angles(&self.at);
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let mut usual = self.count == 0;
-        for k in 0..waiting {
-            let Found { branch, last, close, free } = self.found[k];
-            let q = [angles[0][k], angles[1][k], angles[2][k], angles[3][k], angles[4][k], angles[5][k]];
-            let fit = Fit { residual: fits.residual[k], relative: fits.relative[k], accepted: true };
-            let holds = free == NONE_FREE && !close && fit.relative < RESOLUTION && fits.sound[k] > 0.0;
-            if holds && usual && self.count < CAPACITY && (0..k).all(|other| self.are_apart(k, other)) {
-                self.out[self.count] = Solution { q, residual: fit.residual, branch, chosen: false, free };
-                self.relative[self.count] = fit.relative;
-                self.count += 1;
-                continue;
-            }
-            usual = false;
-            if holds {
-                self.keep(p, branch, last, (q, fit), free);
-            } else {
-                self.refine(p, self.candidates + 1 + k - waiting, branch, last, q, free);
-            }
-        }
-    }
-
-    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self, p: &Parameters) {
-        let fits = fits(p, &self.at, self.waiting);
-        let waiting = core::mem::take(&mut self.waiting).min(ROOM);
-        let Some(pairs) = &mut self.pairs else { return };
-        for k in 0..waiting {
-            let Found { branch, close, free, .. } = self.found[k];
-            let holds = free == NONE_FREE && !close && fits.relative[k] < RESOLUTION && fits.sound[k] > 0.0;
-            let joints = [
-                [self.at[0][k] + 0.0, self.at[1][k] + 0.0],
-                [self.at[2][k] + 0.0, self.at[3][k] + 0.0],
-                [self.at[4][k] + 0.0, self.at[5][k] + 0.0],
-                [self.at[6][k] + 0.0, self.at[7][k] + 0.0],
-                [self.at[8][k] + 0.0, self.at[9][k] + 0.0],
-                [self.at[10][k] + 0.0, self.at[11][k] + 0.0],
-            ];
-            let is_apart = |other: &Pairs| other.branch != branch && tell_apart(&joints, &other.joints);
-            if !(self.usual && holds && self.count < CAPACITY && pairs[..self.count].iter().all(is_apart)) {
-                self.usual = false;
-                return;
-            }
-            pairs[self.count] = Pairs { joints, residual: fits.residual[k], branch, free };
-            self.count += 1;
-        }
-    }
-
-    /// Whether an angle tells two candidates apart.
-    #[inline(always)]
-    fn are_apart(&self, k: usize, other: usize) -> bool {
-        TELLING.iter().any(|&[c, s]| {
-            self.at[c][k] * self.at[c][other] + self.at[s][k] * self.at[s][other] < FAR_APART
-        })
-    }
-}
-
-/// Whether an angle tells two answers apart.
-#[inline(always)]
-fn tell_apart(a: &[[f64; 2]; JOINTS], b: &[[f64; 2]; JOINTS]) -> bool {
-    [3, 1, 2, 4, 5, 0].iter().any(|&i| a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
-}
-
-/// Measures the first so many candidates.
-#[inline(never)]
-fn fits(p: &Parameters, at: &[[f64; ROOM]; PLACES], waiting: usize) -> Fits {
-    let mut fits = Fits { residual: [0.0; ROOM], relative: [0.0; ROOM], sound: [0.0; ROOM] };
-    for first in (0..waiting.min(ROOM)).step_by(LANES) {
-        let at: [Lanes<LANES>; PLACES] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| at[i][first + lane])));
-        let [residual, relative] = fit(p, &at);
-        let mut sound = Lanes([1.0; LANES]);
-        for [c, s] in CIRCLES {
-            sound = sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).size(), RESOLUTION);
-        }
-        for lane in 0..LANES {
-            fits.residual[first + lane] = residual.0[lane];
-            fits.relative[first + lane] = relative.0[lane];
-            fits.sound[first + lane] = sound.0[lane];
-        }
-    }
-    fits
-}
-
-/// The largest magnitude of an equation's value, and its largest share of the equation's size.
-#[inline(always)]
-fn fit<const W: usize>(p: &Parameters, at: &[Lanes<W>; PLACES]) -> [Lanes<W>; 2] where Lanes<W>: Number {
-    let mut largest = [Lanes([0.0; W]); SIZES];
-    for (value, size) in values(p, at).iter().zip(SIZE_OF) {
-        largest[size] = largest[size].greater(value.size());
-    }
-    let sizes: [[f64; SIZES]; W] = core::array::from_fn(|lane| sizes(p, &at.map(|numbers| numbers.0[lane])));
-    let [mut residual, mut relative] = [Lanes([0.0; W]); 2];
-    for i in 0..SIZES {
-        residual = residual.greater(largest[i]);
-        let size = Lanes(sizes.map(|sizes| f64::max(sizes[i], f64::MIN_POSITIVE)));
-        relative = relative.greater(largest[i] / size);
-    }
-    [residual, relative]
-}
-
-/// At least as many as there are angles of candidates.
-const POOL: usize = (ANGLES * ROOM).next_power_of_two();
-
-/// The angles of candidates, as of [`unfold`]. Those that only differ in signs from the candidate before are not computed again.
-#[inline(never)]
-fn angles(at: &[[f64; ROOM]; PLACES]) -> [[f64; ROOM]; ANGLES] {
-    let (mut across, mut up) = ([0.0; POOL], [0.0; POOL]);
-    let mut which = [[0; ROOM]; ANGLES];
-    let mut last = POOL - 1;
-    for (which, [c, s]) in which.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            let is_new = k == 0 || (at[c][k].abs() != at[c][k - 1].abs()) | (at[s][k].abs() != at[s][k - 1].abs());
-            last = (last + is_new as usize) % POOL;
-            across[last] = at[c][k].abs();
-            up[last] = at[s][k].abs();
-            which[k] = last;
-        }
-    }
-    let acutes = acutes(&across, &up, last + 1);
-    let mut angles = which.map(|row| row.map(|i| acutes[i % POOL]));
-    for (row, [c, s]) in angles.iter_mut().zip(CIRCLES) {
-        for k in 0..ROOM {
-            row[k] = unfold(row[k], at[c][k], at[s][k]);
-        }
-    }
-    angles
-}
-
-/// The angles of the first `count` pairs of a cosine and a sine, as of [`acute`].
-#[inline(never)]
-fn acutes(across: &[f64; POOL], up: &[f64; POOL], count: usize) -> [f64; POOL] {
-    let mut acutes = [0.0; POOL];
-    for i in 0..count.min(POOL) {
-        acutes[i] = acute(across[i], up[i]);
-    }
-    acutes
-}
-
-/// Numbers that operations take at once.
-#[derive(Clone, Copy)]
-struct Lanes<const W: usize>([f64; W]);
-
-impl<const W: usize> Lanes<W> {
-    #[inline(always)]
-    fn size(self) -> Self {
-        Lanes(self.0.map(f64::abs))
-    }
-
-    /// The greater of two numbers; the first where one is not a number.
-    #[inline(always)]
-    fn greater(self, other: Self) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] }))
-    }
-
-    /// The numbers where others are below a limit, and zero elsewhere.
-    #[inline(always)]
-    fn where_below(self, other: Self, limit: f64) -> Self {
-        Lanes(core::array::from_fn(|i| if other.0[i] < limit { self.0[i] } else { 0.0 }))
-    }
-}
-
-/// A number that operations take with several at once.
-trait With<T>: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-impl<T> With<T> for f64 where f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T> {}
-
-/// What equations are computed of: one number, or several at once.
-trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Add<f64, Output = Self> + Sub<f64, Output = Self> + Mul<f64, Output = Self> {
-}
-
-impl Number for f64 {
-}
-impl Number for Lanes<LANES> {
-}
-
-macro_rules! by_lane {
-    ($($operation:ident $name:ident $sign:tt)*) => {
-        $(
-            impl<const W: usize> $operation for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(core::array::from_fn(|i| self.0[i] $sign other.0[i]))
-                }
-            }
-            impl<const W: usize> $operation<f64> for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: f64) -> Lanes<W> {
-                    Lanes(self.0.map(|number| number $sign other))
-                }
-            }
-            impl<const W: usize> $operation<Lanes<W>> for f64 {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(other.0.map(|number| self $sign number))
-                }
-            }
-        )*
-    };
-}
-
-by_lane!(Add add + Sub sub - Mul mul * Div div /);

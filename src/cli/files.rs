@@ -156,21 +156,20 @@ pub fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u
     let stems = source.ends.name.as_deref().map(word);
     let [solver, ikfast] =
         stems.map_or(["5_solver".into(), "5_ikfast".into()], |stem| [stem.clone(), stem + "_ikfast"]);
-    let header = format!("{solver}.h");
-    let Pair { header: declarations, source: code } = Pair::new(program, &header);
+    let Pair { header, source: code } = Pair::new(program, &solver);
     let own = [
         (format!("{solver}.c"), code.into_bytes()),
-        (header, declarations.into_bytes()),
+        (format!("{solver}.h"), header.into_bytes()),
         (format!("{solver}.rs"), codegen::rust::emit(program).into_bytes()),
     ];
-    let for_ikfast = codegen::ikfast::emit(program, &codegen::ikfast::Options::default());
+    let for_ikfast = codegen::ikfast::emit_beside(program, &codegen::ikfast::Options::default(), &solver);
     let for_ikfast = for_ikfast.ok().map(|text| (format!("{ikfast}.cpp"), text.into_bytes()));
     for_ikfast.into_iter().chain(own).collect()
 }
 
 /// Why there is no file for IKFast; nothing where there is one.
 pub fn without_ikfast(program: &Program) -> Option<String> {
-    let refusal = codegen::ikfast::emit(program, &codegen::ikfast::Options::default()).err()?;
+    let refusal = codegen::ikfast::emit_beside(program, &codegen::ikfast::Options::default(), "").err()?;
     Some(format!("no file for IKFast: {}", refusal.message()))
 }
 

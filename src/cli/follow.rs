@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(times), _) => Pace::At(times),
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
-    let followed = follow(&chain, &told, solver.program(), &poses, &pace, &session.watch)
+    let followed = follow(&chain, &told, &solver.program().solver(), &poses, &pace, &session.watch)
         .map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {

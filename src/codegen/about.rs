@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::language::Language;
+use super::language::Expressions;
 use super::names::remark;
-use super::printer::number;
 use crate::solver::{About, Program};
 
 /// Lines of the head, and limits.
@@ -17,19 +16,13 @@ pub(super) struct AboutText {
 }
 
 impl AboutText {
-    pub fn new(program: &Program, language: &dyn Language) -> Self {
+    pub fn new(program: &Program, language: &dyn Expressions) -> Self {
         let about = program.about.clone().unwrap_or_default();
         let limits = |joint: usize| match about.limits.get(joint).copied().flatten() {
-            Some((low, high)) => [number(low), number(high)],
+            Some((low, high)) => [language.given(low), language.given(high)],
             None => [false, true].map(|positive| language.infinity(positive)),
         };
         AboutText { limits: (0..program.joints.len()).map(limits).collect(), lines: lines(&about) }
-    }
-
-    /// With one more line.
-    pub fn and(mut self, line: &str) -> Self {
-        self.lines.push(line.to_owned());
-        self
     }
 }
 

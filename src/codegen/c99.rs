@@ -1,13 +1,17 @@
-//! C99: a header and a source file, or one file that is its own header. Main type: [`Pair`].
+//! C99: a robot's header and source file on the run time `groebot.h` and `groebot.c`. Main type: [`Pair`].
 
+use groebot_runtime::six_axes::{Chain, Rigid};
+
+use super::dialect::{Applies, Dialect, GuardText, How};
 use super::joined::Declaration;
-use super::language::{Finish, Language, State};
+use super::language::{Expressions, number};
 use super::outline::Outline;
-use super::printer::{INDENT, in_rows, negation, spread};
-use super::single::single;
+use super::printer::{INDENT, spread};
 use crate::solver::Program;
+use crate::solver::eigenvalue::SixAxes;
 
-const SKELETON: &str = include_str!("skeleton/solver.c.txt");
+const HEADER: &str = include_str!("skeleton/robot.h.txt");
+const SOURCE: &str = include_str!("skeleton/robot.c.txt");
 
 const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
     long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
@@ -17,122 +21,101 @@ const RESERVED: &str = "auto break case char const continue default do double el
     protected public reinterpret_cast requires static_cast template this throw try typeid typename using virtual xor xor_eq std UNITS IkReal \
     alignas alignof constexpr nullptr static_assert thread_local noreturn \
     size_t ptrdiff_t wchar_t NULL offsetof NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL DECIMAL_DIG errno complex imaginary I \
-    float_t double_t math_errhandling signgam linux unix i386 \
+    float_t double_t math_errhandling signgam linux unix i386 T R GROEBOT_H \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
 
-const CONSTANTS: Declaration = Declaration { head: "const double ", glue: ", " };
+const RESERVED_PREFIXES: [&str; 10] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__", "gb_", "GB_", "all"];
 
-const RESERVED_PREFIXES: [&str; 7] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__"];
+const NUMBERS: Declaration = Declaration { head: "const T ", glue: ", " };
 
-/// A solver in two files: what it declares, and a translation unit that includes that and is to be linked with `-lm`.
+/// A solver in two files: what it declares, and a translation unit that includes that and is to be linked with `groebot.c` and `-lm`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
     /// The text of the header, for C99 and C++.
     pub header: String,
-    /// The text of the source file, for C99.
+    /// The text of the source file, for C99 and C++.
     pub source: String,
 }
 
 impl Pair {
-    /// The solver of a valid program ([`Program::validate`]); `header` is the name of the header's file, which the source file includes. The
-    /// code allocates nothing and has no state.
-    pub fn new(program: &Program, header: &str) -> Self {
-        Pair::of(Outline::new(program, &C99), header, double)
-    }
-
-    /// The same in single precision, as [`emit_single`].
-    pub fn single(program: &Program, header: &str) -> Self {
-        Pair::of(Outline::single(program, &C99), header, in_single)
-    }
-
-    fn of(mut outline: Outline, header: &str, text: fn(&Outline) -> String) -> Self {
-        let mut part = |part| {
-            outline.be_part(part, header);
-            text(&outline)
-        };
-        Pair { header: part("header"), source: part("source") }
+    /// The solver of a valid program ([`Program::validate`]); `stem` is the name of both files but for `.h` and `.c`. The code allocates nothing and has no
+    /// state. With `GB_FLOAT` defined all numbers are `float`.
+    pub fn new(program: &Program, stem: &str) -> Self {
+        let mut outline = outline(program);
+        stem.clone_into(&mut outline.stem);
+        let text = |skeleton| NUMBERS.joined(&super::fill(skeleton, &outline));
+        Pair { header: super::fill(HEADER, &outline), source: text(SOURCE) }
     }
 }
 
-/// The solver of a valid program ([`Program::validate`]) as one C99 file: a translation unit to be linked with `-lm`.
-///
-/// With `<NAME>_DECLARATIONS_ONLY` defined it is its own header. It allocates nothing and has no state.
-pub fn emit(program: &Program) -> String {
-    double(&Outline::new(program, &C99))
+/// What a program puts into its files.
+pub(super) fn outline(program: &Program) -> Outline {
+    Outline::new(program, &WORDS, &C { kind: Kind::One })
 }
 
-/// The same in single precision: `float` everywhere, with tolerances to match. The answers are polished to about 1e-6 of their size, and
-/// near singular configurations fewer are told apart than in double precision.
-pub fn emit_single(program: &Program) -> String {
-    in_single(&Outline::single(program, &C99))
+/// What is computed with: a type that the run time tells, or one number.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Any,
+    One,
 }
 
-fn double(outline: &Outline) -> String {
-    CONSTANTS.joined(&super::fill(SKELETON, outline))
+pub(super) struct C {
+    kind: Kind,
 }
 
-fn in_single(outline: &Outline) -> String {
-    single(&double(outline))
-}
+/// The words that C keeps for itself.
+pub(super) const WORDS: C = C { kind: Kind::Any };
 
-/// The part of the file that solves, as C++ too: without `#include`, and constants in place of macros.
-pub(super) fn engine(program: &Program) -> String {
-    let text = double(&Outline::engine(program, &C99));
-    let limits = |line: String| {
-        line.replace("DBL_MIN", "(std::numeric_limits<double>::min)()")
-            .replace("DBL_EPSILON", "std::numeric_limits<double>::epsilon()")
-    };
-    text.lines().map(|line| limits(constant(line)) + "\n").collect()
-}
-
-/// A line, a definition of a macro as one of a constant.
-fn constant(line: &str) -> String {
-    let Some((name, value)) = line.strip_prefix("#define ").and_then(|rest| rest.split_once(' ')) else {
-        return line.to_owned();
-    };
-    let real = value.contains(['.', 'e']) || value.contains("DBL_");
-    format!("static const {} {name} = {value};", if real { "double" } else { "int" })
-}
-
-pub(super) struct C99;
-
-impl Language for C99 {
+impl Expressions for C {
     fn is_reserved(&self, word: &str) -> bool {
         RESERVED.split_whitespace().any(|reserved| reserved == word)
             || RESERVED_PREFIXES.iter().any(|prefix| word.starts_with(prefix))
     }
 
     fn field(&self, name: &str) -> String {
-        format!("p->{name}")
+        name.to_owned()
     }
 
     fn known(&self, name: &str) -> String {
-        format!("known->{name}")
+        name.to_owned()
     }
 
     fn shared(&self, name: &str) -> String {
-        format!("shared->{name}")
-    }
-
-    fn argument(&self, name: &str, kind: &str) -> String {
-        format!("const {kind} *{name}")
-    }
-
-    fn count(&self, name: &str) -> String {
-        format!("size_t {name}")
+        name.to_owned()
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
-        let function = if function == "abs" { "fabs" } else { function };
-        format!("{function}({argument})")
+        format!("GB_({function})({argument})")
     }
 
     fn greater(&self, a: &str, b: &str) -> String {
-        format!("larger({a}, {b})")
+        format!("GB_(max)({a}, {b})")
+    }
+
+    fn root(&self, square: &str) -> String {
+        format!("GB_(root)({square})")
+    }
+
+    fn literal(&self, value: f64) -> String {
+        let text = number(value);
+        text.strip_prefix('-').map_or_else(|| format!("R({text})"), |size| format!("-R({size})"))
+    }
+
+    fn given(&self, value: f64) -> String {
+        format!("(gb_real){}", number(value))
+    }
+
+    fn alone(&self, constant: String) -> String {
+        if self.kind == Kind::One { constant } else { format!("GB_(of)({constant})") }
     }
 
     fn declare(&self, name: &str, value: &str) -> String {
-        format!("const double {name} = {value};")
+        format!("const T {name} = {value};")
+    }
+
+    fn declare_all(&self, names: &[&str], array: &str) -> Vec<String> {
+        names.iter().enumerate().map(|(place, name)| self.declare(name, &format!("{array}[{place}]"))).collect()
     }
 
     fn infinity(&self, positive: bool) -> String {
@@ -150,119 +133,213 @@ impl Language for C99 {
             .collect();
         format!("\"{body}\"")
     }
+}
 
-    fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String> {
-        vec![format!("const Roots roots{depth} = square_roots({constant}, {typical});")]
+impl Dialect for C {
+    fn comment(&self, text: &str) -> String {
+        format!("/* {text} */")
     }
 
-    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
+    fn needs_scopes(&self) -> bool {
+        true
+    }
+
+    fn find_square_roots(&self, number: usize, constant: &str, typical: &str, grazing: bool) -> String {
+        let function = if grazing { "grazing_roots" } else { "square_roots" };
+        format!("const GB_(roots) roots{number} = GB_({function})({constant}, {typical});")
+    }
+
+    fn find_roots(&self, number: usize, _: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
         let mut lines = Vec::new();
         for (index, list) in polynomials.iter().enumerate() {
-            let head = format!("const double choice{depth}_{index}[{}] = {{", list.len());
-            lines.extend(spread(&head, list, "};"));
+            lines.extend(spread(&format!("const T choice{number}_{index}[] = {{"), list, "};"));
         }
-        let mut head = format!("const Roots roots{depth} =");
-        for (index, list) in polynomials.iter().enumerate() {
-            let arguments = format!("choice{depth}_{index}, {}", list.len());
-            if index + 1 < polynomials.len() {
-                lines.push(format!("{head} leads({arguments}) ? real_roots({arguments}, {typical})"));
-                head = format!("{INDENT}:");
-            } else {
-                lines.push(format!("{head} real_roots({arguments}, {typical});"));
-            }
-        }
-        lines
-    }
-
-    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String> {
-        let most = if first { format!(" && i{depth} < 1") } else { String::new() };
-        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < roots{depth}.count{most}; i{depth}++) {{")];
-        let value = format!("roots{depth}.values[i{depth}]");
-        lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
-        lines
-    }
-
-    fn only_if(&self, condition: &str) -> String {
-        format!("if ({condition}) {{")
-    }
-
-    fn leave_unless(&self, condition: &str, _: bool, beside: Option<&str>) -> Vec<String> {
-        let far = |beside| format!(" || (suffice_since(answers, before) && {})", negation(beside));
-        let is_left = negation(condition) + &beside.map_or_else(String::new, far);
-        vec![format!("if ({is_left}) {{"), format!("{INDENT}return;"), "}".to_owned()]
-    }
-
-    fn open_samples(&self, depth: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String> {
-        let mut lines = vec![format!("for (size_t i{depth} = 0; i{depth} < {rows}; i{depth}++) {{")];
-        for (column, name) in names.iter().enumerate() {
-            let value = format!("SAMPLES_{table}[i{depth}][{column}]");
-            lines.extend(name.map(|name| format!("{INDENT}{}", self.declare(name, &value))));
-        }
-        lines
-    }
-
-    fn six_axes(&self) -> &'static str {
-        include_str!("skeleton/six_axes.c.txt")
-    }
-
-    fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String> {
-        let mut lines = spread(&format!("const double target{depth}[12] = {{"), target, "};");
-        lines.extend([
-            format!("SixAnswers found{depth};"),
-            format!("six_solve(&CHAIN_{chain}, target{depth}, &found{depth});"),
-            format!("for (size_t i{depth} = 0; i{depth} < found{depth}.count; i{depth}++) {{"),
-            format!("{INDENT}const SixAnswer *six{depth} = &found{depth}.list[i{depth}];"),
-        ]);
-        lines
-    }
-
-    fn six_axes_joint(&self, depth: usize, joint: usize) -> String {
-        format!("six{depth}->q[{joint}]")
-    }
-
-    fn six_axes_lost(&self, depth: usize) -> String {
-        format!("six{depth}->lost")
-    }
-
-    fn six_axes_free(&self, depth: usize, joint: usize) -> String {
-        format!("six{depth}->free[{joint}]")
-    }
-
-    fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
-        let mut lines = spread("const double at[PLACES] = {", answer.at, "};");
-        let q = if answer.q.is_empty() { "" } else { " q," };
-        lines.extend(spread("const double q[JOINTS] = {", answer.q, "};").into_iter().filter(|_| !q.is_empty()));
-        if !answer.free.is_empty() {
-            lines.extend(spread("const bool free_joints[JOINTS] = {", answer.free, "};"));
-        }
-        if !answer.extra.is_empty() {
-            lines.extend(spread("const double extra[EXTRAS] = {", answer.extra, "};"));
-        }
-        let free = if answer.free.is_empty() { &answer.usual } else { "free_joints" };
-        let extra = if answer.extra.is_empty() { "" } else { ", extra" };
+        let of = |(index, list): (usize, &Vec<String>)| format!("{{choice{number}_{index}, {}}}", list.len());
+        let lists: Vec<String> = polynomials.iter().enumerate().map(of).collect();
+        lines.push(format!("const GB_(polynomial) choices{number}[] = {{{}}};", lists.join(", ")));
+        let count = polynomials.len();
         lines.push(format!(
-            "finish(p, {}, {}, at,{q} {free}{extra}, answers);",
-            answer.branch.join(", "),
-            answer.close
+            "const GB_(roots) roots{number} = GB_(polynomial_roots)(choices{number}, {count}, {typical});"
         ));
         lines
     }
 
-    fn go_on(&self, state: &State<'_>) -> Vec<String> {
-        let [branch, last] = &state.branch;
-        let start = if state.goes_on { "*known" } else { "NOTHING_KNOWN" };
-        let mut lines = vec![format!("Known next = {start};")];
-        for (name, value) in [("branch", branch), ("last", last), ("close", &state.close)] {
-            let is_there =
-                if state.goes_on { *value == self.known(name) } else { ["0", "false"].contains(&value.as_str()) };
-            lines.extend((!is_there).then(|| format!("next.{name} = {value};")));
-        }
-        lines.extend(state.pair.iter().map(|pair| format!("next.pair = {pair};")));
-        let is_usual = |free: &str| free == "false" || free.starts_with("known->") && !free.contains(' ');
-        let free = state.free.iter().enumerate().filter(|(_, free)| !is_usual(free));
-        lines.extend(free.map(|(joint, free)| format!("next.free[{joint}] = {free};")));
-        lines.extend(state.found.iter().map(|name| format!("next.{name} = {name};")));
-        let call = format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next);
-        in_rows(lines).into_iter().chain([call]).collect()
+    fn open_roots(&self, number: usize, name: Option<&str>, is_pair: bool) -> Vec<String> {
+        let (head, index) = if is_pair {
+            (format!("if (roots{number}.count > 0) {{"), "0".to_owned())
+        } else {
+            (
+                format!("for (size_t i{number} = 0; i{number} < roots{number}.count; i{number}++) {{"),
+                format!("i{number}"),
+            )
+        };
+        let value =
+            name.map(|name| format!("{INDENT}{}", self.declare(name, &format!("roots{number}.values[{index}]"))));
+        [head].into_iter().chain(value).collect()
     }
+
+    fn open_samples(&self, number: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String> {
+        let head = format!("for (size_t i{number} = 0; i{number} < {rows}; i{number}++) {{");
+        let width = names.len();
+        let value = |(place, name): (usize, &Option<&str>)| {
+            let cell = if width > 1 { format!("[{place}]") } else { "[0]".to_owned() };
+            name.map(|name| {
+                format!("{INDENT}{}", self.declare(name, &format!("GB_(of)(samples_{table}[i{number}]{cell})")))
+            })
+        };
+        [head].into_iter().chain(names.iter().enumerate().filter_map(value)).collect()
+    }
+
+    fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String> {
+        let mut lines = spread(&format!("const T six{number}[] = {{"), target, "};");
+        lines.push(format!("gb_six_answer answers{number}[GB_SIX_ROOM];"));
+        lines
+            .push(format!("const size_t count{number} = GB_(six_axes)(&chain_{chain}, six{number}, answers{number});"));
+        lines.push(format!("for (size_t i{number} = 0; i{number} < count{number}; i{number}++) {{"));
+        lines
+    }
+
+    fn chain(&self, six: &SixAxes) -> String {
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let rigid = |motion: &Rigid| format!("{{{}, {}}}", braces(&motion.rotation), braces(&motion.translation));
+        let steps: Vec<String> = steps.iter().map(rigid).collect();
+        let list = formulations.as_slice();
+        let formulation = |one: &groebot_runtime::six_axes::Formulation| format!("{{{}, {}}}", one.hidden, one.second);
+        let formulations: Vec<String> = list.iter().map(formulation).collect();
+        format!(
+            "{{\n    {},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n}}",
+            braces(&directions),
+            braces(&points),
+            braces(&across),
+            braces(&slides),
+            steps.join(", "),
+            rigid(&last),
+            rigid(&back),
+            self.literal(length),
+            formulations.join(", "),
+            list.len()
+        )
+    }
+
+    fn six_axes_joint(&self, number: usize, joint: usize) -> String {
+        format!("GB_(of)(answers{number}[i{number}].q[{joint}])")
+    }
+
+    fn guard(&self, guards: &[GuardText]) -> String {
+        let text = |guard: &GuardText| {
+            let function = if guard.near { "near" } else { "away" };
+            format!("GB_({function})({}, {})", guard.value, guard.scale)
+        };
+        let all = guards.iter().map(text).reduce(|all, guard| format!("GB_(both)({all}, {guard})"));
+        all.unwrap_or_else(|| "GB_(always)()".to_owned())
+    }
+
+    fn open_case(&self, applies: &Applies) -> String {
+        match applies {
+            Applies::Usually(guard) => format!("if (GB_(is_usual)(c, {guard})) {{"),
+            Applies::Rarely(guard) => format!("if (GB_(is_rare)(c, {guard})) {{"),
+            Applies::Near { count, guard } => format!("if (GB_(is_due)(c, before{count}, {guard})) {{"),
+        }
+    }
+
+    fn is_open(&self, _: usize, guard: &str) -> String {
+        format!("GB_(is_open)(c, {guard});")
+    }
+
+    fn claim(&self, number: usize, lines: Vec<String>, pivot: &str, guard: Option<&str>) -> Vec<String> {
+        let claim = guard.map_or_else(|| self.call("abs", pivot), |guard| format!("GB_(claim)({guard}, {pivot})"));
+        let lines =
+            lines.into_iter().chain([format!("claim{number} = {claim};")]).map(|line| format!("{INDENT}{line}"));
+        [format!("T claim{number};"), "{".to_owned()].into_iter().chain(lines).chain(["}".to_owned()]).collect()
+    }
+
+    fn elect(&self, claims: &[usize], bodies: Vec<Vec<String>>) -> Vec<String> {
+        let names: Vec<String> = claims.iter().map(|claim| format!("claim{claim}")).collect();
+        let list = format!("claims{}", claims.first().copied().unwrap_or(0));
+        let mut lines = vec![
+            format!("const T {list}[] = {{{}}};", names.join(", ")),
+            format!("switch (GB_(elect)(c, {list}, {})) {{", names.len()),
+        ];
+        for (place, body) in bodies.into_iter().enumerate() {
+            lines.push(format!("case {place}: {{"));
+            lines.extend(body.into_iter().map(|line| format!("{INDENT}{line}")));
+            lines.extend([format!("{INDENT}break;"), "}".to_owned()]);
+        }
+        lines.extend(["default:".to_owned(), format!("{INDENT}break;"), "}".to_owned()]);
+        lines
+    }
+
+    fn magnitude(&self, least: f64, names: &[String]) -> Vec<String> {
+        let mut lines = spread("const T all[] = {", names, "};");
+        let value = format!("GB_(largest)({}, all, {})", self.literal(least), names.len());
+        lines.push(self.declare("magnitude", &value));
+        lines
+    }
+
+    fn row(&self, numbers: &[f64]) -> String {
+        let numbers: Vec<String> = numbers.iter().map(|&number| self.literal(number)).collect();
+        format!("{{{}}}", numbers.join(", "))
+    }
+
+    fn count(&self, number: usize) -> String {
+        format!("const size_t before{number} = GB_(count)(c);")
+    }
+
+    fn found(&self, before: usize, number: usize, how: &[How]) -> String {
+        let mut text = format!("found{before}");
+        for how in how {
+            text = match how {
+                How::First { branch, last } => format!("GB_(first)({branch}, {last})"),
+                How::Next { radix, branch } => format!("GB_(next)({text}, {radix}, {branch})"),
+                How::Root(number) => format!("GB_(by_root)({text}, &roots{number}, i{number})"),
+                How::Pair(number) => format!("GB_(by_pair)({text}, &roots{number})"),
+                How::Free(joints) => format!("GB_(freeing)({text}, {joints:#x}u)"),
+                How::SixAxes { number, joints } => {
+                    let bits: Vec<String> =
+                        joints.iter().map(|joint| joint.map_or(0, |joint| 1_u32 << joint).to_string()).collect();
+                    format!("GB_(by_answer)({text}, &answers{number}[i{number}], {})", bits.join(", "))
+                }
+            };
+        }
+        format!("const GB_(found) found{number} = {text};")
+    }
+
+    fn go_on(&self, block: usize, found: usize, _: bool, known: &[String]) -> Vec<String> {
+        let arguments: Vec<String> = ["p".to_owned(), format!("found{found}")]
+            .into_iter()
+            .chain(known.iter().cloned())
+            .chain(["c".to_owned()])
+            .collect();
+        vec![format!("GB_(block_{block})({});", arguments.join(", "))]
+    }
+
+    fn finish(&self, found: usize, at: &[String]) -> Vec<String> {
+        let mut lines = spread("const T at[] = {", at, "};");
+        lines.push(format!("GB_(finish)(c, found{found}, at);"));
+        lines
+    }
+}
+
+/// Numbers as an initialiser: what Rust writes in brackets.
+fn braces(numbers: &impl std::fmt::Debug) -> String {
+    let text = format!("{numbers:?}").replace('[', "{").replace(']', "}");
+    let mut out = String::with_capacity(text.len() * 2);
+    let mut rest = text.as_str();
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let length = number_length(&rest[start..]);
+        out += &rest[..start];
+        out += &format!("R({})", &rest[start..start + length]);
+        rest = &rest[start + length..];
+    }
+    out + rest
+}
+
+/// The length of the number at the front.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let is_part = |at: &usize| {
+        let byte = bytes[*at];
+        byte.is_ascii_digit() || byte == b'.' || byte == b'e' || (byte == b'-' && *at > 0 && bytes[at - 1] == b'e')
+    };
+    (0..bytes.len()).take_while(is_part).count()
 }

@@ -1,14 +1,14 @@
 //! C++ in the interface of IKFast, which MoveIt's plugin template and OpenRAVE include: `docs/ikfast.md`.
 //!
-//! The solver inside is the one of [`super::c99`].
+//! The solver is the one of [`super::c99`].
 
 use serde::Serialize;
 
-use super::c99::{self, C99};
-use super::language::Language;
+use super::c99::WORDS;
+use super::language::{Expressions, number};
 use super::names::is_word;
 use super::outline::Outline;
-use super::printer::number;
+use super::single_file;
 use crate::document::word;
 use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
 use crate::{Error, ErrorKind, Result};
@@ -25,14 +25,29 @@ pub struct Options {
     pub namespace: Option<String>,
     /// Whether callers speak in single precision; the solver computes in double precision.
     pub single: bool,
+    /// The name of the file, by which it includes itself; the mechanism's name and `_ikfast.cpp` unless it is told.
+    pub file: Option<String>,
 }
 
-/// The solver of a valid program ([`Program::validate`]) as one C++11 file for `ikfast.h`.
+/// The solver of a valid program ([`Program::validate`]) as one C++11 file for `ikfast.h`, which needs nothing else.
+///
+/// # Errors
+/// As [`emit_beside`].
+pub fn emit(program: &Program, options: &Options) -> Result<String> {
+    file(program, options, None)
+}
+
+/// The interface alone, for `ikfast.h` and the solver in C whose files are called `stem` but for their ends ([`super::c99::Pair`]).
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task that IKFast has no
 /// type for, or in single precision with one that asks for more than the joints can do; [`ErrorKind::BadValue`] for a namespace that is no word.
-pub fn emit(program: &Program, options: &Options) -> Result<String> {
+pub fn emit_beside(program: &Program, options: &Options, stem: &str) -> Result<String> {
+    file(program, options, Some(stem))
+}
+
+/// The file: beside a solver with this stem, or with it.
+fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
     let forward = program.forward().filter(|_| program.cases().any(|case| !case.open)).ok_or_else(|| {
         refuse(
@@ -45,14 +60,20 @@ pub fn emit(program: &Program, options: &Options) -> Result<String> {
                     double precision";
         return Err(refuse(text.to_owned()));
     }
-    if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || C99.is_reserved(name)) {
+    if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || WORDS.is_reserved(name)) {
         return Err(Error::new(
             ErrorKind::BadValue,
             format!("namespace `{name}`: give a word of letters, digits and `_`"),
         ));
     }
-    let outline = Outline::new(program, &C99);
-    Ok(super::fill(SKELETON, &File::new(program, outline, &kind, options)))
+    let mut outline = super::c99::outline(program);
+    stem.unwrap_or_default().clone_into(&mut outline.stem);
+    let own = format!("{}_ikfast.cpp", word(&program.name));
+    let own = options.file.as_deref().unwrap_or(&own);
+    let is_kept = |line: &&str| !line.starts_with("#include <");
+    let bare = |text: String| text.lines().filter(is_kept).map(|line| format!("{line}\n")).collect::<String>();
+    let solver = stem.is_none().then(|| bare(single_file::c(program, own, false)));
+    Ok(super::fill(SKELETON, &File::new(program, outline, (solver, own), &kind, options)))
 }
 
 /// A type of IKFast.
@@ -170,7 +191,8 @@ fn ikfast_type(program: &Program, own: usize) -> Option<&'static Type> {
 struct File<'a> {
     #[serde(flatten)]
     outline: Outline,
-    solver: String,
+    solver: Option<String>,
+    file: &'a str,
     engine_name: String,
     namespace: Option<&'a str>,
     single: bool,
@@ -202,7 +224,13 @@ struct KindText {
 }
 
 impl<'a> File<'a> {
-    fn new(program: &Program, outline: Outline, kind: &Kind, options: &'a Options) -> Self {
+    fn new(
+        program: &Program,
+        outline: Outline,
+        (solver, file): (Option<String>, &'a str),
+        kind: &Kind,
+        options: &'a Options,
+    ) -> Self {
         let [translation, rotation] = kind.ikfast.numbers;
         let joint_kinds = program.joints.iter().map(|joint| match joint.value {
             JointValue::Angle { .. } => "0x01",
@@ -211,7 +239,8 @@ impl<'a> File<'a> {
         let hash = program.about.as_ref().map_or("", |about| about.hash.as_str());
         let free = kind.free.map_or("", |_| " free");
         File {
-            solver: c99::engine(program),
+            solver,
+            file,
             engine_name: format!("{}_solver", word(&program.name)),
             namespace: options.namespace.as_deref(),
             single: options.single,
@@ -243,7 +272,7 @@ impl<'a> File<'a> {
             },
             joint_kinds: joint_kinds.collect(),
             bases: bases(program, kind.free.map(|(joint, _)| joint)),
-            hash: C99.quote(hash),
+            hash: WORDS.quote(hash),
             usage: format!("{}{free}", kind.ikfast.usage),
             usage_count: translation + rotation + kind.free.iter().count(),
             outline,

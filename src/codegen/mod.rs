@@ -1,34 +1,26 @@
-//! Printing a [`Program`] as a stand-alone solver: [`rust::emit`], [`c99::emit`] and [`ikfast::emit`].
+//! Printing a [`Program`] as source code: [`rust::emit`], [`c99::Pair`] and [`ikfast::emit`].
 //!
-//! The printed solver is the algorithm of [`Program::solve`](crate::solver::Program::solve) step by step, without
-//! allocation, and holds only what its program needs. A language is an expression printer (`language::Language`) plus
-//! the skeleton of a file (`skeleton/`), filled from one `outline::Outline`.
+//! A printed file holds what is particular to a robot: its program as straight-line code in nested loops, its equations, and its
+//! [facts](crate::solver::Facts). All else is called from the run time `groebot-runtime`, which [`Program::solver`](crate::solver::Program::solver) calls
+//! too; [`single_file`] puts both together. A language prints expressions (`language::Expressions`) and statements (`dialect::Dialect`), and has the skeleton
+//! of a file (`skeleton/`), filled from one `outline::Outline`.
 
 pub mod c99;
 pub mod ikfast;
 pub mod rust;
+pub mod single_file;
 
 mod about;
-mod batch;
-mod blocks;
 mod body;
-mod code;
-mod demand;
-mod forward;
+mod dialect;
 mod joined;
-mod lanes;
 mod language;
-mod mirror;
 mod names;
-mod needs;
 mod outline;
 mod printer;
-mod quartic;
 mod samples;
-mod single;
 mod six_axes;
-mod steps;
-mod tolerances;
+mod walk;
 
 pub use names::is_word;
 
@@ -48,11 +40,8 @@ fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     environment.set_lstrip_blocks(true);
     environment.set_keep_trailing_newline(true);
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
-    environment.add_filter("number", printer::number);
+    environment.add_filter("number", language::number);
     environment.add_filter("packed", printer::packed_lines);
-    for (name, part) in quartic::PARTS {
-        environment.add_template(name, part).expect("the skeletons' parts are templates");
-    }
     let text = environment.render_str(skeleton, outline).expect("the outline has every value that the skeleton names");
     text.replace("\n\n\n", "\n\n")
 }

@@ -2,26 +2,20 @@
 
 use std::collections::HashSet;
 
-use super::language::Language;
+use super::language::Expressions;
 use crate::document::word;
 use crate::solver::Program;
 
-/// Names that the skeletons and the printed functions use themselves, beside `r0`, `i0`, `roots0` and `choice0`.
-const TAKEN: &str = "p q target answers extra magnitude result angle real_roots leads is_near is_away finish \
-    INPUTS JOINTS CAPACITY EQUATIONS EXTRAS DEGREE ACCEPT MERGE BLUR RESOLUTION NEAR TINY PIVOT POLISH_STEPS TANGENT GRAZING ROUNDING \
-    NEGLIGIBLE MAX_STEPS TAU PI NONE_FREE INPUT_NAMES JOINT_NAMES \
-    Parameters Solution Answers Error Fit Equations Jacobian Roots Polynomial Math close blurred differences shorter is_close keep relative doubles has_branch known shared next Known Shared branch free NOTHING_KNOWN ADRIFT FREED is_listed tries ALIKE MEETING ASIDE NARROWS narrow SINGULAR REGULAR regularity regular least most DOUBLINGS leads_aside beyond ahead close_by displaced end ARRIVED STAGES POLISHED CONSISTENT \
-    tip reached TIP forward LIMITS limits SLACK TURNS turns turns_within solve_within count_turns turn within nearest at MOST_TURNS nearest_turn finite_turns turned_within strides_within STRIDE STRIDES holds stride frames target_of base tool pose sum \
-    held stages greatest conform make_rotation make_unit dot lies_on_self_motion leads_to follow is_one holds_against \
-    is_exact worst improve own add is_isolated has_free has_member bound answer make_unit a_isolated b_isolated isolated Rated improved move moved DAMPINGS dampings SPLIT last turn_in substituted triangle squares weights APART way \
-    LEVER FARTHER FARTHEST IS_ANGLE ALONE LEAPS RETURNS STIFF spans farthest farthest_of longest longest_way stepped leap leaps copy around keep_member unite doubled leads_back are_joined fault before middle share \
-    PLACES SIZES SIZE_OF REST place series square_roots is_round measure_at is_within is_apart keep_one refine PATIENCE INLINE COLD slow place_of low high far steep value ROWS reflect columns mirror half along entry all_real_roots OVERSHOT returned start \
-    pair values sizes fits angles acute acutes unfold flush waiting usual found Found NOT_FOUND Fits sound Lanes LANES ROOM POOL ANGLES CIRCLES FAR_APART Number Add Sub Mul Div lane lanes by_lane are_apart tell_apart tells_apart order is_apart Pairs solve_pairs flush_pairs joints usual list of number find unfold joint_angle take_pair which up across is_new size where_below greater take \
-    ordinary_roots approximate_roots resolved settled ordinary lead largest size_of_all inverse monic quartic \
-    CANDIDATES TWINS ANGLE_OF FIRST TELLING WIDTH T With Truth Doubt Mask Bundle Neg BitAnd BitOr MANY SURE TURNED REST_OF_PI nothing_known walk fit everywhere solve_batch solve_pairs_batch solve_widest Answer NONE IS_BY_ANGLES of wants_angles solve_by solve_by_4 solve_by_8 solve_into is_usual is_rare is_due candidates unsound suffice_since BESIDE DISTINCT SHORT number is_so twin TWIN TWINS_AT times INVERSIONS APPROACHES PLAIN STEEP approached short short_way Short SHORTS TURN step_back turn_back in_turn larger lesser here Approach arrive approach missed_by Ways ways short_abreast normal_step_abreast step_back_abreast turn_back_abreast steps is_done later MILD normal_step square factor jacobi close_by plain stillest norm round side each exceeds at_most dead doubt bundle room done filled counts targets fine sound size limit";
+/// Names that the printed functions use themselves, beside `r0`, `i0`, `roots0` and the like.
+const TAKEN: &str = "p c at all rows tip values value sizes size columns target magnitude memcpy rarely jacobian short parameters walk FACTS Solver \
+    INPUTS JOINTS CAPACITY EMPTY INPUT_NAMES JOINT_NAMES LIMITS OPEN_STRATA Solution Pairs Error Solve Candidates Condition Facts Fixed Found Joint \
+    Mechanism Number Preference Reached Short With Chain Formulation Formulations Rigid groebot_runtime";
 
 /// Letters that a number follows in the printed functions.
-const NUMBERED: [&str; 7] = ["r", "i", "q", "roots", "choice", "SAMPLES_", "Shared"];
+const NUMBERED: [&str; 14] = [
+    "r", "i", "roots", "choice", "choices", "found", "before", "claim", "claims", "six", "answer", "answers", "count",
+    "block_",
+];
 
 /// The identifiers of one program in one language.
 pub(super) struct Names {
@@ -32,7 +26,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub fn new(program: &Program, language: &dyn Language) -> Self {
+    pub fn new(program: &Program, language: &dyn Expressions) -> Self {
         let mut used = HashSet::new();
         let mut name = |text: &str| unique(text, language, &mut used);
         Names {
@@ -42,7 +36,7 @@ impl Names {
     }
 }
 
-fn unique(text: &str, language: &dyn Language, used: &mut HashSet<String>) -> String {
+fn unique(text: &str, language: &dyn Expressions, used: &mut HashSet<String>) -> String {
     let mut name = word(text);
     while is_taken(&name, language) || used.contains(&name) {
         name.push('_');
@@ -59,7 +53,7 @@ pub fn is_word(text: &str) -> bool {
     word(text) == text
 }
 
-fn is_taken(name: &str, language: &dyn Language) -> bool {
+fn is_taken(name: &str, language: &dyn Expressions) -> bool {
     let is_number = |rest: &str| {
         let (first, last) = (rest.bytes().next(), rest.bytes().last());
         first.zip(last).is_some_and(|(first, last)| first.is_ascii_digit() && last.is_ascii_digit())

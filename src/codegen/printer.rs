@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
-use super::demand::Demand;
-use super::language::Language;
+use super::language::Expressions;
 use super::names::Names;
+use crate::solver::Demand;
 use crate::solver::{Instruction, Operand, Operation};
 
 /// Longest expression that becomes part of another one, in characters.
@@ -18,11 +18,6 @@ const LINE: usize = 96;
 
 /// One level of indentation.
 pub(super) const INDENT: &str = "    ";
-
-/// A condition that does not hold.
-pub(super) fn negation(condition: &str) -> String {
-    if condition.contains(" && ") { format!("!({condition})") } else { format!("!{condition}") }
-}
 
 /// How tightly a text binds: what it needs parentheses for.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -61,23 +56,6 @@ pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
     [head.to_owned()].into_iter().chain(items).chain([tail.to_owned()]).collect()
 }
 
-/// Short statements on lines that are not long.
-pub(super) fn in_rows(statements: Vec<String>) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for statement in statements {
-        match lines.last_mut().filter(|line| line.len() + statement.len() < LINE) {
-            Some(line) => *line += &format!(" {statement}"),
-            None => lines.push(statement),
-        }
-    }
-    lines
-}
-
-/// Whether code reads a place of `at`, as [`Language::declare_places`] does.
-pub(super) fn reads_places(line: &str) -> bool {
-    line.contains("at[") || line.contains("*at")
-}
-
 /// The items, a comma behind each, on lines that are not long.
 fn packed(items: &[String]) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -114,14 +92,9 @@ pub(super) fn packed_lines(
     Ok(lines.strip_suffix(',').unwrap_or(&lines).to_owned())
 }
 
-/// The shortest decimal that reads back as the same double.
-pub(super) fn number(value: f64) -> String {
-    format!("{value:?}")
-}
-
 /// Prints code of one function.
 pub(super) struct Printer<'a> {
-    language: &'a dyn Language,
+    language: &'a dyn Expressions,
     names: &'a Names,
     demand: Demand,
     /// Parameters are local variables, not fields.
@@ -139,7 +112,7 @@ pub(super) struct Printer<'a> {
 }
 
 impl<'a> Printer<'a> {
-    pub fn new(language: &'a dyn Language, names: &'a Names, demand: Demand) -> Self {
+    pub fn new(language: &'a dyn Expressions, names: &'a Names, demand: Demand) -> Self {
         let (known, shared, waiting) = (Vec::new(), 0, HashMap::new());
         let (local_parameters, tells, first_register) = (false, false, 0);
         Printer { language, names, demand, local_parameters, first_register, known, shared, tells, waiting }
@@ -149,16 +122,6 @@ impl<'a> Printer<'a> {
     pub fn among_parameters(mut self, first_register: usize) -> Self {
         (self.local_parameters, self.first_register, self.tells) = (true, first_register, true);
         self
-    }
-
-    /// For code of a block before which some unknowns are `known`; registers below `shared` are the block's own.
-    pub fn within_block(mut self, known: Vec<bool>, shared: usize) -> Self {
-        (self.known, self.shared, self.tells) = (known, shared, true);
-        self
-    }
-
-    pub fn language(&self) -> &'a dyn Language {
-        self.language
     }
 
     pub fn names(&self) -> &'a Names {
@@ -197,7 +160,7 @@ impl<'a> Printer<'a> {
     /// An operand that stands alone, as an expression.
     pub fn operand(&mut self, operand: Operand) -> String {
         match operand {
-            Operand::Constant(value) if self.tells => self.language.alone(number(value)),
+            Operand::Constant(value) if self.tells => self.language.alone(self.language.literal(value)),
             _ => self.expression(operand).text,
         }
     }
@@ -215,9 +178,9 @@ impl<'a> Printer<'a> {
     fn expression(&mut self, operand: Operand) -> Expression {
         match operand {
             Operand::Constant(value) if value.is_sign_negative() => {
-                Expression { text: number(value), binding: Binding::Sign }
+                Expression { text: self.language.literal(value), binding: Binding::Sign }
             }
-            Operand::Constant(value) => Expression::atom(number(value)),
+            Operand::Constant(value) => Expression::atom(self.language.literal(value)),
             Operand::Parameter(index) if self.local_parameters => Expression::atom(&self.names.parameters[index]),
             Operand::Parameter(index) => Expression::atom(self.language.field(&self.names.parameters[index])),
             Operand::Unknown(index) => Expression::atom(self.unknown(index)),

@@ -1,107 +1,68 @@
-//! Rust: a file on `core` alone.
+//! Rust: a file on the run time `groebot-runtime`, or with it.
 
-use super::batch;
+use groebot_runtime::six_axes::Chain;
+
+use super::dialect::{Applies, Dialect, GuardText, How};
 use super::joined::Declaration;
-use super::language::{Finish, Language, State};
+use super::language::{Expressions, number};
 use super::outline::Outline;
-use super::printer::{INDENT, negation, spread};
+use super::printer::{INDENT, spread};
 use crate::solver::Program;
+use crate::solver::eigenvalue::SixAxes;
 
-const SKELETON: &str = concat!(
-    include_str!("skeleton/solver.rs.txt"),
-    include_str!("skeleton/lanes.rs.txt"),
-    include_str!("skeleton/batch.rs.txt"),
-    include_str!("skeleton/numbers.rs.txt")
-);
+const SKELETON: &str = include_str!("skeleton/robot.rs.txt");
 
 const RESERVED: &str = "as async await break const continue crate dyn else enum extern false fn for gen if impl in let \
     loop match mod move mut pub ref return self Self static struct super trait true type unsafe use where while abstract \
-    become box do final macro override priv try typeof unsized virtual yield union None Some Ok Err f64 usize bool str \
-    core std libm";
+    become box do final macro override priv try typeof unsized virtual yield union None Some Ok Err f64 usize u32 bool str \
+    core std N C";
 
 const NUMBERS: Declaration = Declaration { head: "let ", glue: "; let " };
 
-/// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2021 or 2024, Rust 1.89 or later).
-///
-/// It is a module or the root of a crate, allocates nothing and needs no dependency. Its head says how it is used.
+/// The solver of a valid program ([`Program::validate`]) as one Rust file on the crate `groebot-runtime` (edition 2024, Rust 1.89 or later).
 pub fn emit(program: &Program) -> String {
-    NUMBERS.joined(&super::fill(SKELETON, &Outline::new(program, &Rust { batch: false })))
+    NUMBERS.joined(&super::fill(SKELETON, &Outline::new(program, &Rust { kind: "N" }, &Rust { kind: "f64" })))
 }
 
-/// The same with a function `solve_batch` that solves several targets at once, in the lanes of vector registers; none for a program of
-/// which the cases that run at ordinary targets take other roots than square roots, or are several in a block.
-pub fn emit_batch(program: &Program) -> Option<String> {
-    let outline = || Outline::new(program, &Rust { batch: true });
-    batch::is_possible(program).then(|| NUMBERS.joined(&super::fill(SKELETON, &outline())))
-}
-
-/// The language; where a `batch` of targets is solved at once, the walk is one over numbers of any kind `T`.
+/// The language, by the kind of numbers that are computed with.
 struct Rust {
-    batch: bool,
+    kind: &'static str,
 }
 
-impl Rust {
-    /// The kind of numbers that the walk is computed of.
-    fn kind(&self) -> &'static str {
-        if self.batch { "T" } else { "f64" }
-    }
-
-    /// Whether roots are close, an expression.
-    fn close(&self, text: &str) -> String {
-        match text {
-            "false" if self.batch => "T::SURE".to_owned(),
-            _ if self.batch => text.replace(" || ", " | "),
-            _ => text.to_owned(),
-        }
-    }
-}
-
-impl Language for Rust {
+impl Expressions for Rust {
     fn is_reserved(&self, word: &str) -> bool {
         RESERVED.split_whitespace().any(|reserved| reserved == word)
     }
 
     fn field(&self, name: &str) -> String {
-        format!("p.{name}")
+        name.to_owned()
     }
 
     fn known(&self, name: &str) -> String {
-        format!("known.{name}")
+        name.to_owned()
     }
 
     fn shared(&self, name: &str) -> String {
-        format!("shared.{name}")
-    }
-
-    fn argument(&self, name: &str, kind: &str) -> String {
-        format!("{name}: &{kind}{}", if self.batch { "<T>" } else { "" })
-    }
-
-    fn count(&self, name: &str) -> String {
-        format!("{name}: usize")
+        name.to_owned()
     }
 
     fn call(&self, function: &str, argument: &str) -> String {
-        match function {
-            "abs" => format!("{}::abs({argument})", self.kind()),
-            _ => format!("{argument}.{function}()"),
-        }
+        format!("{}::{function}({argument})", self.kind)
     }
 
     fn greater(&self, a: &str, b: &str) -> String {
-        format!("{}::max({a}, {b})", self.kind())
-    }
-
-    fn walks_abreast(&self) -> bool {
-        self.batch
+        format!("{}::max({a}, {b})", self.kind)
     }
 
     fn root(&self, square: &str) -> String {
-        if self.batch { format!("T::root({square})") } else { self.call("sqrt", &self.greater(square, "0.0")) }
+        match self.kind {
+            "f64" => format!("Number::root({square})"),
+            _ => format!("N::root({square})"),
+        }
     }
 
     fn alone(&self, constant: String) -> String {
-        if self.batch { format!("T::of({constant})") } else { constant }
+        if self.kind == "f64" { constant } else { format!("N::of({constant})") }
     }
 
     fn declare(&self, name: &str, value: &str) -> String {
@@ -116,6 +77,10 @@ impl Language for Rust {
         spread("let [", &names, "] = *at;")
     }
 
+    fn declare_all(&self, names: &[&str], array: &str) -> Vec<String> {
+        spread("let [", &names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>(), &format!("] = *{array};"))
+    }
+
     fn infinity(&self, positive: bool) -> String {
         if positive { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned()
     }
@@ -123,120 +88,134 @@ impl Language for Rust {
     fn quote(&self, text: &str) -> String {
         format!("\"{}\"", text.escape_default())
     }
+}
 
-    fn find_square_roots(&self, depth: usize, constant: &str, typical: &str) -> Vec<String> {
-        let kind = if self.batch { "T::" } else { "" };
-        vec![format!("let roots{depth} = {kind}square_roots({constant}, {typical});")]
+impl Dialect for Rust {
+    fn find_square_roots(&self, number: usize, constant: &str, typical: &str, grazing: bool) -> String {
+        let function = if grazing { "grazing_roots" } else { "square_roots" };
+        format!("let roots{number} = N::{function}({constant}, {typical});")
     }
 
-    fn find_roots(&self, depth: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
-        if let [only] = polynomials {
-            return spread(&format!("let roots{depth} = real_roots(&["), only, &format!("], {typical});"));
-        }
-        let mut lines = Vec::new();
-        for (index, list) in polynomials.iter().enumerate() {
-            let head = format!("let choice{depth}_{index}: [f64; {}] = [", list.len());
-            lines.extend(spread(&head, list, "];"));
-        }
-        let last = polynomials.len() - 1;
-        for index in 0..last {
-            let open = if index == 0 { format!("let roots{depth} = if") } else { "} else if".to_owned() };
-            lines.push(format!("{open} leads(&choice{depth}_{index}) {{"));
-            lines.push(format!("{INDENT}real_roots(&choice{depth}_{index}, {typical})"));
-        }
-        lines.extend([
-            "} else {".to_owned(),
-            format!("{INDENT}real_roots(&choice{depth}_{last}, {typical})"),
-            "};".to_owned(),
-        ]);
-        lines
+    fn find_roots(&self, number: usize, degree: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
+        let lists: Vec<String> = polynomials.iter().map(|list| format!("&[{}]", list.join(", "))).collect();
+        spread(&format!("let roots{number} = N::real_roots::<{degree}>(&["), &lists, &format!("], {typical});"))
     }
 
-    fn open_loop(&self, depth: usize, name: Option<&str>, first: bool) -> Vec<String> {
+    fn open_roots(&self, number: usize, name: Option<&str>, is_pair: bool) -> Vec<String> {
         let value = name.map_or_else(|| "_".to_owned(), |name| format!("&{name}"));
-        let most = if first { ".take(1)" } else { "" };
-        vec![format!("for (i{depth}, {value}) in roots{depth}.as_slice().iter().enumerate(){most} {{")]
-    }
-
-    fn only_if(&self, condition: &str) -> String {
-        format!("if {condition} {{")
-    }
-
-    fn leave_unless(&self, condition: &str, is_rare: bool, beside: Option<&str>) -> Vec<String> {
-        let together = |condition: &str| condition.replace(" && ", " & ");
-        let far = |beside| format!(" || (answers.suffice_since(p, before) && {})", negation(beside));
-        let is_left = match (self.batch, beside) {
-            (true, Some(beside)) => {
-                let (near, beside) = (together(condition), together(beside));
-                format!("!T::is_due(answers, p, before, {near}, {beside}) || T::MANY")
-            }
-            (true, None) if is_rare => format!("!T::is_rare(answers, {}) || T::MANY", together(condition)),
-            (true, None) => format!("!T::is_usual(answers, {})", together(condition)),
-            (false, _) => negation(condition) + &beside.map_or_else(String::new, far),
-        };
-        vec![format!("if {is_left} {{"), format!("{INDENT}return;"), "}".to_owned()]
+        if is_pair {
+            return vec![format!("if let Some({value}) = roots{number}.as_slice().first() {{")];
+        }
+        vec![format!("for (i{number}, {value}) in roots{number}.as_slice().iter().enumerate() {{")]
     }
 
     fn open_samples(&self, _: usize, names: &[Option<&str>], table: usize, _: usize) -> Vec<String> {
         let names: Vec<&str> = names.iter().map(|name| name.unwrap_or("_")).collect();
-        let numbers = if self.batch { ".map(|row| row.map(T::of))" } else { "" };
-        vec![format!("for [{}] in SAMPLES_{table}{numbers} {{", names.join(", "))]
+        vec![format!("for [{}] in SAMPLES_{table}.map(|row| row.map(N::of)) {{", names.join(", "))]
     }
 
-    fn six_axes(&self) -> &'static str {
-        include_str!("skeleton/six_axes.rs.txt")
-    }
-
-    fn open_six_axes(&self, depth: usize, chain: usize, target: &[String]) -> Vec<String> {
-        let mut lines = spread(&format!("let found{depth} = CHAIN_{chain}.solve(&["), target, "]);");
-        lines.push(format!("for (i{depth}, six{depth}) in found{depth}.as_slice().iter().enumerate() {{"));
-        lines
-    }
-
-    fn six_axes_joint(&self, depth: usize, joint: usize) -> String {
-        format!("six{depth}.q[{joint}]")
-    }
-
-    fn six_axes_lost(&self, depth: usize) -> String {
-        format!("six{depth}.lost")
-    }
-
-    fn six_axes_free(&self, depth: usize, joint: usize) -> String {
-        format!("six{depth}.free[{joint}]")
-    }
-
-    fn finish(&self, answer: &Finish<'_>) -> Vec<String> {
-        let mut lines = spread("let at = [", answer.at, "];");
-        let q = if answer.q.is_empty() { "" } else { " q," };
-        lines.extend(spread("let q = [", answer.q, "];").into_iter().filter(|_| !q.is_empty()));
-        let free = list(answer.free).unwrap_or_else(|| answer.usual.clone());
-        let extra = list(answer.extra).map(|list| format!(", &{list}")).unwrap_or_default();
+    fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String> {
+        let mut lines = spread(
+            &format!("let six{number} = N::alone(&["),
+            target,
+            &format!("], |target| CHAIN_{chain}.solve(target));"),
+        );
         lines.push(format!(
-            "{}p, {}, {}, &at,{q} {free}{extra});",
-            if self.batch { "T::finish(answers, " } else { "answers.finish(" },
-            answer.branch.join(", "),
-            self.close(&answer.close)
+            "for (i{number}, answer{number}) in six{number}.iter().flat_map(|six| six.as_slice()).enumerate() {{"
         ));
         lines
     }
 
-    fn go_on(&self, state: &State<'_>) -> Vec<String> {
-        let nothing = if self.batch { "..nothing_known()" } else { "..NOTHING_KNOWN" };
-        let [branch, last] = &state.branch;
-        let mut fields =
-            vec![format!("branch: {branch}"), format!("last: {last}"), format!("close: {}", self.close(&state.close))];
-        fields.extend(state.pair.iter().map(|pair| format!("pair: {pair}")));
-        fields.extend(list(state.free).map(|list| format!("free: {list}")));
-        fields.extend(state.found.iter().cloned());
-        fields.push(if state.goes_on { "..*known".to_owned() } else { nothing.to_owned() });
-        vec![
-            format!("let next = Known {{ {} }};", fields.join(", ")),
-            format!("{}_{}(p, &next, answers);", if state.is_rare { "again" } else { "block" }, state.next),
-        ]
+    fn chain(&self, six: &SixAxes) -> String {
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let formulations: Vec<String> = formulations.as_slice().iter().map(|one| format!("{one:?}")).collect();
+        format!(
+            "Chain {{\n    directions: {directions:?},\n    points: {points:?},\n    across: {across:?},\n    slides: {slides:?},\n    \
+             steps: {steps:?},\n    last: {last:?},\n    back: {back:?},\n    length: {length:?},\n    \
+             formulations: Formulations::new(&[{}]),\n}}",
+            formulations.join(", ")
+        )
     }
-}
 
-/// The items as an array, if there are any.
-fn list(items: &[String]) -> Option<String> {
-    (!items.is_empty()).then(|| format!("[{}]", items.join(", ")))
+    fn six_axes_joint(&self, number: usize, joint: usize) -> String {
+        format!("N::of(answer{number}.q[{joint}])")
+    }
+
+    fn guard(&self, guards: &[GuardText]) -> String {
+        let text = |guard: &GuardText| {
+            let function = if guard.near { "near" } else { "away" };
+            format!("N::{function}({}, {})", guard.value, guard.scale)
+        };
+        guards.iter().map(text).collect::<Vec<_>>().join(" & ")
+    }
+
+    fn open_case(&self, applies: &Applies) -> String {
+        match applies {
+            Applies::Usually(condition) => format!("if c.is_usual({condition}) {{"),
+            Applies::Rarely(condition) => format!("if c.is_rare({condition}) {{"),
+            Applies::Near { count, guard } => format!("if c.is_due(before{count}, {guard}) {{"),
+        }
+    }
+
+    fn is_open(&self, number: usize, condition: &str) -> String {
+        format!("c.is_open({number}, {condition});")
+    }
+
+    fn claim(&self, number: usize, lines: Vec<String>, pivot: &str, condition: Option<&str>) -> Vec<String> {
+        let claim = condition.map_or_else(|| format!("N::abs({pivot})"), |guard| format!("({guard}).claim({pivot})"));
+        let lines = lines.into_iter().chain([claim]).map(|line| format!("{INDENT}{line}"));
+        [format!("let claim{number} = {{")].into_iter().chain(lines).chain(["};".to_owned()]).collect()
+    }
+
+    fn elect(&self, claims: &[usize], bodies: Vec<Vec<String>>) -> Vec<String> {
+        let names: Vec<String> = claims.iter().map(|claim| format!("claim{claim}")).collect();
+        let mut lines = vec![format!("match c.elect(&[{}]) {{", names.join(", "))];
+        for (place, body) in bodies.into_iter().enumerate() {
+            lines.push(format!("{INDENT}{place} => {{"));
+            lines.extend(body.into_iter().map(|line| format!("{INDENT}{INDENT}{line}")));
+            lines.push(format!("{INDENT}}}"));
+        }
+        lines.extend([format!("{INDENT}_ => {{}}"), "}".to_owned()]);
+        lines
+    }
+
+    fn magnitude(&self, least: f64, names: &[String]) -> Vec<String> {
+        spread(&format!("let magnitude = N::largest({}, &[", number(least)), names, "]);")
+    }
+
+    fn row(&self, numbers: &[f64]) -> String {
+        format!("{numbers:?}")
+    }
+
+    fn count(&self, number: usize) -> String {
+        format!("let before{number} = c.count();")
+    }
+
+    fn found(&self, before: usize, number: usize, how: &[How]) -> String {
+        let mut text = if before > 0 { format!("found{before}") } else { String::new() };
+        for how in how {
+            text += &match how {
+                How::First { branch, last } => format!("Found::first({branch}, {last})"),
+                How::Next { radix, branch } => format!(".next({radix}, {branch})"),
+                How::Root(number) => format!(".by_root(&roots{number}, i{number})"),
+                How::Pair(number) => format!(".by_pair(&roots{number})"),
+                How::Free(joints) => format!(".freeing({joints:#b})"),
+                How::SixAxes { number, joints } => {
+                    let bits: Vec<String> =
+                        joints.iter().map(|joint| joint.map_or(0, |joint| 1_u32 << joint).to_string()).collect();
+                    format!(".by_answer(&answer{number}.free, answer{number}.lost, [{}])", bits.join(", "))
+                }
+            };
+        }
+        format!("let found{number} = {text};")
+    }
+
+    fn go_on(&self, block: usize, found: usize, is_rare: bool, known: &[String]) -> Vec<String> {
+        let call = format!("block_{block}(p, found{found}, [{}], c)", known.join(", "));
+        vec![if is_rare { format!("rarely(|| {call});") } else { format!("{call};") }]
+    }
+
+    fn finish(&self, found: usize, at: &[String]) -> Vec<String> {
+        spread(&format!("c.finish(&Solver, found{found}, &["), at, "]);")
+    }
 }

@@ -1,25 +1,21 @@
 //! Tables of the values at which cases put free joints: cases with the same values share one.
 
-use serde::Serialize;
-
-use super::printer::number;
 use crate::solver::{JointValue, Program, Step};
 
 /// A table: numbers by rows.
-#[derive(Clone, PartialEq, Serialize)]
+#[derive(Clone, PartialEq)]
 pub(super) struct Table {
-    rows: Vec<Vec<String>>,
-    width: usize,
+    rows: Vec<Vec<f64>>,
 }
 
 impl Table {
     /// The cosines and sines of an angle's values, or the values of a length.
     pub fn new(joint: JointValue, values: &[f64]) -> Self {
         let row = |value: &f64| match joint {
-            JointValue::Angle { .. } => vec![number(value.cos()), number(value.sin())],
-            JointValue::Plain(_) => vec![number(*value)],
+            JointValue::Angle { .. } => vec![value.cos(), value.sin()],
+            JointValue::Plain(_) => vec![*value],
         };
-        Table { rows: values.iter().map(row).collect(), width: joint.unknowns().len() }
+        Table { rows: values.iter().map(row).collect() }
     }
 
     /// The tables of a program, each once.
@@ -34,6 +30,11 @@ impl Table {
             }
         }
         tables
+    }
+
+    /// The numbers by rows.
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
     }
 
     /// Number of rows.

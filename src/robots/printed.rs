@@ -1,5 +1,6 @@
 //! The printed solvers of the humanoids' legs, those of `derivations/`: bit for bit what `Program::solve` answers. Main type: [`Printed`].
 
+use groebot_runtime::Solve;
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 use crate::kinematics::{InverseKinematics, Solution, Target};
@@ -33,15 +34,15 @@ macro_rules! printed {
     ($($name:ident: $solver:ident;)+) => {
         $(pub const $name: Printed = Printed {
             solve: |target, out| {
-                let mut answers = [$solver::Solution::EMPTY; $solver::CAPACITY];
-                let count = $solver::solve(target, &mut answers).ok()?;
+                let mut answers = [$solver::EMPTY; $solver::CAPACITY];
+                let count = $solver::Solver.solve(target, &mut answers).ok()?;
                 out.resize(count, Solution::default());
                 for (out, answer) in out.iter_mut().zip(&answers) {
                     out.q.clear();
                     out.q.extend_from_slice(&answer.q);
                     (out.residual, out.branch, out.chosen) = (answer.residual, answer.branch, answer.chosen);
                     out.free.clear();
-                    out.free.extend((0..$solver::JOINTS).filter(|joint| answer.free[*joint]));
+                    out.free.extend((0..$solver::JOINTS).filter(|joint| answer.is_free(*joint)));
                 }
                 Some(())
             },

@@ -14,7 +14,6 @@ mod refine;
 mod square_free;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
-pub(crate) use eigen::EIGEN_STEPS;
 pub use eigen::{Eigenvalue, Hessenberg};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
 pub use numeric::{MAX_DEGREE, Roots, TANGENT, real_roots, square_roots};

@@ -1,8 +1,13 @@
-//! Many targets at once, on all processors: [`Program::solve_batch`].
+//! Many targets at once, on all processors: [`Solver::solve_batch`].
 
+use groebot_runtime as runtime;
+use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::storage::Array;
+use groebot_runtime::{Mechanism, Solve};
 use rayon::prelude::*;
 
-use super::program::Program;
+use super::Solver;
+#[cfg(doc)]
 use crate::kinematics::Solution;
 use crate::{Error, ErrorKind, Result};
 
@@ -71,43 +76,57 @@ impl Batch {
         &self.refused
     }
 
-    fn push(&mut self, answer: &Solution) {
-        for (column, value) in self.joints.iter_mut().zip(&answer.q) {
+    fn push(&mut self, answer: &runtime::Solution<Solver>) {
+        for (column, value) in self.joints.iter_mut().zip(answer.q.as_ref()) {
             column.push(*value);
         }
         self.residuals.push(answer.residual);
         self.branches.push(answer.branch);
-        self.free.push(answer.free.iter().fold(0, |bits, joint| bits | 1 << joint));
+        self.free.push(answer.free);
     }
 }
 
-impl Program {
-    /// All real solutions for many targets: `targets` holds those of one after those of another, each as [`Program::solve_numbers`] takes it.
+/// The answers of a piece, target by target, and how many each has.
+type Piece = (Vec<runtime::Solution<Solver>>, Vec<std::result::Result<usize, runtime::Error>>);
+
+impl Solver {
+    /// All real solutions for many targets: `targets` holds those of one after those of another, each as [`Solver::solve_numbers`] takes it.
     ///
-    /// The work is shared among rayon's threads. The answers are those of [`Program::solve_numbers`], whatever their number.
+    /// The work is shared among rayon's threads. The answers are those of [`Solver::solve_numbers`], whatever their number.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the count of numbers is no multiple of the inputs'. Targets that [`Program::solve_numbers`] refuses are
+    /// [`ErrorKind::BadValue`] when the count of numbers is no multiple of the inputs'. Targets that [`Solver::solve_numbers`] refuses are
     /// told by [`Batch::refused`].
     pub fn solve_batch(&self, targets: &[f64]) -> Result<Batch> {
-        let inputs = self.inputs.len();
+        let (inputs, joints) = (self.facts().inputs, self.facts().joints.len());
         if inputs == 0 || !targets.len().is_multiple_of(inputs) {
             let text = format!("{} numbers are no targets of {inputs} each", targets.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let pieces: Vec<Vec<Result<Vec<Solution>>>> = targets
-            .par_chunks(PIECE * inputs)
-            .map(|piece| piece.chunks(inputs).map(|target| self.solve_numbers(target)).collect())
-            .collect();
-        let mut batch = Batch { joints: vec![Vec::new(); self.joints.len()], ..Batch::default() };
-        for (index, solved) in pieces.into_iter().flatten().enumerate() {
-            batch.starts.push(batch.answers());
-            match solved {
-                Ok(answers) => answers.iter().for_each(|answer| batch.push(answer)),
-                Err(error) => batch.refused.push((index, error)),
+        let pieces: Vec<Piece> = targets.par_chunks(PIECE * inputs).map(|piece| self.piece(piece, inputs)).collect();
+        let mut batch = Batch { joints: vec![Vec::new(); joints], ..Batch::default() };
+        let (mut index, mut numbers) = (0, targets.chunks(inputs));
+        for (answers, counts) in pieces {
+            let mut answers = answers.iter();
+            for count in counts {
+                batch.starts.push(batch.answers());
+                let target = numbers.next().unwrap_or_default();
+                match count {
+                    Ok(count) => answers.by_ref().take(count).for_each(|answer| batch.push(answer)),
+                    Err(error) => batch.refused.push((index, self.refused(target, error))),
+                }
+                index += 1;
             }
         }
         batch.starts.push(batch.answers());
         Ok(batch)
+    }
+
+    fn piece(&self, targets: &[f64], inputs: usize) -> Piece {
+        let rows: Vec<Inputs<Self>> = targets.chunks(inputs).map(|row| Array::by(inputs, |i| row[i])).collect();
+        let mut out = self.room(rows.len());
+        let mut counts = vec![Ok(0); rows.len()];
+        Solve::solve_batch(self, &rows, &mut out, &mut counts);
+        (out, counts)
     }
 }

@@ -4,7 +4,6 @@
 use super::instruction::{Instruction, Operand, Operation};
 use super::joint::{Joint, JointValue};
 use super::program::{Block, Case, Checks, Condition, Guard, Pivot, Program, Step};
-use super::refine::measured;
 use super::rule::{ParameterRule, Rule};
 use super::validate::MOST_ANSWERS;
 use crate::{Error, ErrorKind, Result};
@@ -354,4 +353,10 @@ fn moved(checks: &Checks, place: &dyn Fn(usize) -> usize) -> Checks {
         jacobian: checks.jacobian.iter().map(|row| all(row)).collect(),
         short: Vec::new(),
     }
+}
+
+/// How many instructions of the checks the equations' values and sizes need; the others are for the derivatives.
+fn measured(checks: &Checks) -> usize {
+    let end = |operand: &Operand| if let Operand::Register(index) = operand { index + 1 } else { 0 };
+    checks.residuals.iter().chain(&checks.scales).map(end).max().unwrap_or(0)
 }

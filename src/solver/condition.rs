@@ -1,8 +1,7 @@
-//! What a target must fulfil: rotations and unit vectors, checked and freed from their last digits' error.
+//! What a target must fulfil: rotations and unit vectors.
 
 use super::CONSISTENT;
-use super::program::{Condition, Program};
-use crate::{Error, ErrorKind, Result};
+use super::program::{Condition, Input};
 
 impl Condition {
     /// Index of the first input, and how many there are.
@@ -22,25 +21,6 @@ impl Condition {
             Condition::Unit(_) => (dot(values, values) - 1.0).abs(),
         }
     }
-
-    /// One Newton step towards the nearest rotation, `R - (R R^T - 1) R / 2` (N. Higham, "Computing the polar decomposition -
-    /// with applications", 1986), or the nearest unit vector: the square of the deviation is left.
-    fn correct(&self, values: &mut [f64]) {
-        match self {
-            Condition::Rotation(_) => {
-                let excess = products(values);
-                let given: [f64; 9] = std::array::from_fn(|index| values[index]);
-                for (index, value) in values.iter_mut().enumerate() {
-                    let (row, column) = (excess[index / 3], index % 3);
-                    *value -= 0.5 * (row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6]);
-                }
-            }
-            Condition::Unit(_) => {
-                let excess = dot(values, values) - 1.0;
-                values.iter_mut().for_each(|value| *value -= 0.5 * (excess * *value));
-            }
-        }
-    }
 }
 
 /// `R R^T - 1` for a matrix by rows.
@@ -57,27 +37,21 @@ fn determinant(m: &[f64]) -> f64 {
     m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6])
 }
 
-impl Program {
-    /// Checks the conditions on a target of the right length, and moves it onto them.
-    pub(super) fn conform(&self, target: &mut [f64]) -> Result<()> {
-        for condition in &self.conditions {
-            let (first, count) = condition.inputs();
-            let values = &mut target[first..first + count];
-            let deviation = condition.deviation(values);
-            let mirrored = matches!(condition, Condition::Rotation(_)) && determinant(values) < 0.0;
-            // A deviation that is not a number is refused too.
-            if mirrored || deviation.is_nan() || deviation > CONSISTENT {
-                return Err(self.refused(condition, deviation, mirrored));
-            }
-            condition.correct(values);
-        }
-        Ok(())
-    }
+/// Why a finite target of the right length misses a condition, if it does.
+pub(super) fn conform(conditions: &[Condition], inputs: &[Input], target: &[f64]) -> Option<String> {
+    conditions.iter().find_map(|condition| condition.refusal(inputs, target))
+}
 
-    fn refused(&self, condition: &Condition, deviation: f64, mirrored: bool) -> Error {
-        let (first, count) = condition.inputs();
-        let names = format!("`{}` to `{}`", self.inputs[first].name, self.inputs[first + count - 1].name);
-        let text = match condition {
+impl Condition {
+    fn refusal(&self, inputs: &[Input], target: &[f64]) -> Option<String> {
+        let (first, count) = self.inputs();
+        let values = &target[first..first + count];
+        let deviation = self.deviation(values);
+        let mirrored = matches!(self, Condition::Rotation(_)) && determinant(values) < 0.0;
+        let names = format!("`{}` to `{}`", inputs[first].name, inputs[first + count - 1].name);
+        // A deviation that is not a number is refused too.
+        let is_missed = mirrored || deviation.is_nan() || deviation > CONSISTENT;
+        is_missed.then(|| match self {
             Condition::Rotation(_) if mirrored => {
                 format!("{names} are no rotation matrix: the determinant is negative; give a right-handed one")
             }
@@ -87,7 +61,6 @@ impl Program {
             Condition::Unit(_) => format!(
                 "{names} are no unit vector: the squared length differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
             ),
-        };
-        Error::new(ErrorKind::BadValue, text)
+        })
     }
 }

@@ -1,14 +1,11 @@
-//! Forward kinematics out of a program's own equations: [`Program::forward`], [`Program::reached`].
+//! Forward kinematics out of a program's own equations: [`Program::forward`].
 //!
 //! The checks of a chain compare the tip with the target, `value(q) - parameter = 0`, one equation a parameter; `value` then is what
 //! the joints reach.
 
-use super::angle::angle;
-use super::frame::Frame;
 use super::instruction::{Instruction, Operand, Operation};
 use super::joint::JointValue;
 use super::program::Program;
-use super::refine::unknowns_of;
 use super::rule::Rule;
 
 /// What joint values reach, as operands of the checks' code.
@@ -45,22 +42,6 @@ impl Program {
         let inputs =
             (0..self.inputs.len()).map(|input| self.reached_input(input, &equations)).collect::<Option<_>>()?;
         Some(Forward { inputs, equations })
-    }
-
-    /// The target that joint values reach (radians, and the program's length unit): the one that [`Program::solve_numbers`] takes. None as for
-    /// [`Program::forward`], or for another number of joint values.
-    pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
-        let forward = self.forward().filter(|_| q.len() == self.joints.len())?;
-        let parameters = vec![0.0; self.parameters.len()];
-        let mut frame = Frame::new(&parameters, 0.0, self.unknowns.len(), self.checks.code.len());
-        unknowns_of(self, q, &mut frame.unknowns);
-        frame.run(&self.checks.code);
-        let value = |reached: &Reached| match *reached {
-            Reached::Value(operand) => frame.value(operand),
-            Reached::Angle { cosine, sine } => angle(frame.value(cosine), frame.value(sine)),
-            Reached::Joint(joint) => q[joint],
-        };
-        Some(forward.inputs.iter().map(value).collect())
     }
 
     /// By register of the checks: whether it depends on the joints alone.

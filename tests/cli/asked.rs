@@ -148,7 +148,7 @@ fn a_robot_of_any_name_is_derived() {
     let out = tempdir().unwrap();
     succeed(&["derive", text(&file), "--task", "position", "--tip", "link_4", "--quiet", "--out", text(out.path())]);
     let printed = succeed(&["codegen", text(out.path()), "--lang", "c"]);
-    assert!(printed.contains("int x6_axis_n_o_2_link_4_solve("), "{printed}");
+    assert!(printed.contains("GB_DECLARE(x6_axis_n_o_2_link_4, "), "{printed}");
 }
 
 /// The first five joints of a KUKA KR 6 are to reach a pose, which has six freedoms: only consistent targets are solved, and special ones

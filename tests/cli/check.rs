@@ -66,8 +66,8 @@ fn a_changed_stage_names_the_file_and_its_line() {
         ("3_basis.txt", "generic", "px", "py"),
         ("4_triangular.txt", "generic", "px", "py"),
         ("5_program.json", "\"cases\"", "58841", "58842"),
-        ("5_solver.c", "case_1", "58841", "58842"),
-        ("5_solver.rs", "case_1", "58841", "58842"),
+        ("5_solver.c", "block_1", "58841", "58842"),
+        ("5_solver.rs", "block_1", "58841", "58842"),
         ("6_check.csv", "far,", "pass", "fail"),
     ];
     let [capacity, boundary] =

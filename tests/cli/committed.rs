@@ -30,9 +30,10 @@ fn fault(folder: &Path) -> Option<String> {
     };
     let program = proved.program();
     let mut files = proved.stage_files().unwrap();
-    let Pair { header, source } = Pair::new(program, "5_solver.h");
+    let Pair { header, source } = Pair::new(program, "5_solver");
     let printed = [("5_solver.rs", rust::emit(program)), ("5_solver.c", source), ("5_solver.h", header)];
-    let plugin = ikfast::emit(program, &ikfast::Options::default()).ok().map(|text| ("5_ikfast.cpp", text));
+    let plugin =
+        ikfast::emit_beside(program, &ikfast::Options::default(), "5_solver").ok().map(|text| ("5_ikfast.cpp", text));
     files.extend(printed.into_iter().chain(plugin).map(|(name, text)| (name.to_owned(), text.into_bytes())));
     for (name, bytes) in &files {
         let Ok(stored) = fs::read(folder.join(name)) else { return Some(format!("{name} is missing")) };

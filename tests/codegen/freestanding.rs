@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use groebot::codegen::c99;
+use groebot::codegen::single_file;
 
 use super::harness::build;
 use super::stored::all;
@@ -34,7 +34,7 @@ fn every_file_compiles_without_a_system() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("5_solver.c");
     for stored in all() {
-        fs::write(&file, c99::emit(&stored.program)).unwrap();
+        fs::write(&file, single_file::c(&stored.program, "5_solver.c", false)).unwrap();
         if compile("cc", "-fsyntax-only", &file).is_none() {
             return;
         }
@@ -46,7 +46,9 @@ fn single_and_double_precision_compile_for_a_cortex_m() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("5_solver.c");
     for stored in super::stored::named(&["puma", "rh0_arm", "spherical_wrist"]) {
-        for (target, text) in CORTEX.iter().zip([c99::emit_single(&stored.program), c99::emit(&stored.program)]) {
+        for (target, text) in
+            CORTEX.iter().zip([true, false].map(|single| single_file::c(&stored.program, "5_solver.c", single)))
+        {
             fs::write(&file, text).unwrap();
             if compile("arm-none-eabi-gcc", target, &file).is_none() {
                 return;

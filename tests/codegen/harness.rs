@@ -5,6 +5,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use groebot::ErrorKind;
 use groebot::codegen::{self, c99::Pair};
@@ -134,34 +135,64 @@ pub fn write_pair(folder: &Path, pair: &Pair) {
     fs::write(folder.join("5_solver.c"), &pair.source).unwrap();
 }
 
+/// The C files that a solver of this program consists of, beside a driver.
+pub fn c_sources(program: &Program) -> Vec<String> {
+    let names = if codegen::has_six_axes(program) { &["groebot.c", "groebot_six_axes.c"][..] } else { &["groebot.c"] };
+    let runtime = names.iter().map(|name| c_runtime().join(name).to_str().unwrap().to_owned());
+    ["5_solver.c".to_owned()].into_iter().chain(runtime).collect()
+}
+
+/// The folder of the run time in C.
+pub fn c_runtime() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("runtime/c")
+}
+
 /// Writes a solver in C, and `main.c`, which answers the targets that it reads.
 pub fn write_c(program: &Program, folder: &Path) {
-    let pair = Pair::new(program, "5_solver.h");
+    let pair = Pair::new(program, "5_solver");
     write_pair(folder, &pair);
-    let has_extra = pair.header.contains("_EXTRAS");
+    let has_extra = pair.source.contains("GB_EXTRAS true");
     fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
 }
 
 /// The compiled solvers with their languages' names; `None` when a compiler is missing.
 pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
     let rust = codegen::rust::emit(program);
-    let has_extra = rust.contains("pub const EXTRAS");
+    let has_extra = rust.contains("has_extras: true");
     fs::write(folder.join("5_solver.rs"), rust).unwrap();
+    fs::write(folder.join("single.rs"), codegen::single_file::rust(program)).unwrap();
     write_c(program, folder);
-    let again = if has_extra { "answer.residual" } else { "solver::residual(&target, &answer.q)" };
+    let again = if has_extra { "answer.residual" } else { "Solver.residual(&target, &answer.q)" };
     let driver = RUST_DRIVER.replace("AGAIN", again);
     fs::write(folder.join("module.rs"), format!("#[path = \"5_solver.rs\"]\nmod solver;\n{driver}")).unwrap();
     fs::write(folder.join("crate.rs"), format!("use no_std_root::solver;\n{driver}")).unwrap();
-    fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"5_solver.rs\"]\npub mod solver;\n").unwrap();
+    fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n").unwrap();
     let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
     rustc(folder, &["--crate-type=lib", "--crate-name=solver", "--emit=metadata", "5_solver.rs"])?;
     rustc(folder, &["module.rs"])?;
     rustc(folder, &library)?;
     rustc(folder, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
-    compile_c(folder, &["-c", "5_solver.c", "-o", "solver.o"])?;
-    compile_c(folder, &["main.c", "solver.o", "-lm", "-o", "c99"])?;
+    let sources = c_sources(program);
+    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
+    compile_c(folder, &[&["-DGB_MAX_PLACES=1000", "main.c"], &files[..], &["-lm", "-o", "c99"]].concat())?;
     let at = |name: &str| folder.join(name);
     Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
+}
+
+/// The compiled crate `groebot-runtime`; `None` when the compiler is missing.
+fn runtime() -> Option<&'static Path> {
+    static RUNTIME: OnceLock<Option<(tempfile::TempDir, PathBuf)>> = OnceLock::new();
+    let compiled = RUNTIME.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("runtime/src/lib.rs");
+        let (library, root) = (folder.path().join("libgroebot_runtime.rlib"), root.to_str().unwrap().to_owned());
+        let mut command = Command::new(std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned()));
+        command.args(["--edition=2024", "-Dwarnings", "-Copt-level=1", "-Cdebug-assertions=on", "--crate-type=lib"]);
+        command.args(["--crate-name=groebot_runtime", "--cfg=feature=\"std\"", &root]).current_dir(folder.path());
+        build(&mut command)?;
+        Some((folder, library))
+    });
+    compiled.as_ref().map(|(_, library)| library.as_path())
 }
 
 /// Compiles Rust, without optimisation where nothing else is asked: that is quick, and overflow is checked.
@@ -169,6 +200,7 @@ pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     let name = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let mut command = Command::new(name);
     command.args(["--edition=2024", "-Dwarnings", "-Dmissing_docs"]).args(arguments);
+    command.arg(format!("--extern=groebot_runtime={}", runtime()?.display()));
     if arguments.iter().any(|name| ["module.rs", "crate.rs", "root.rs"].contains(name)) {
         command.arg("-Amissing_docs");
     }
@@ -177,7 +209,8 @@ pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
 
 pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     let mut command = Command::new("cc");
-    command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic -Wconversion -Wsign-conversion".split(' '));
+    command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic".split(' '));
+    command.arg("-I").arg(c_runtime());
     build(command.args(arguments).current_dir(folder))
 }
 
@@ -210,6 +243,7 @@ pub fn build(command: &mut Command) -> Option<()> {
 
 /// Reads the number of targets and the targets; prints for each the count or error code, and each answer.
 const RUST_DRIVER: &str = r#"
+use solver::{Solve, Solver};
 use std::io::Read;
 
 fn main() {
@@ -217,11 +251,11 @@ fn main() {
     std::io::stdin().read_to_string(&mut text).unwrap();
     let mut words = text.split_whitespace();
     let count: usize = words.next().unwrap().parse().unwrap();
-    let mut out = [solver::Solution::EMPTY; solver::CAPACITY];
+    let mut out = [solver::EMPTY; solver::CAPACITY];
     for _ in 0..count {
         let mut target = [0.0; solver::INPUTS];
         target.fill_with(|| words.next().unwrap().parse().unwrap());
-        let count = match solver::solve(&target, &mut out) {
+        let count = match Solver.solve(&target, &mut out) {
             Ok(count) => count,
             Err(error) => {
                 let code = match error {
@@ -229,6 +263,7 @@ fn main() {
                     solver::Error::OpenStratum(_) => -2,
                     solver::Error::NotRotation => -3,
                     solver::Error::NotUnit => -4,
+                    _ => -5,
                 };
                 println!("{code}");
                 continue;
@@ -237,7 +272,7 @@ fn main() {
         println!("{count}");
         for answer in &out[..count] {
             print!("{} {} {:e} {:e}", answer.branch, u8::from(answer.chosen), answer.residual, AGAIN);
-            answer.free.iter().for_each(|&free| print!(" {}", u8::from(free)));
+            (0..solver::JOINTS).for_each(|joint| print!(" {}", u8::from(answer.is_free(joint))));
             answer.q.iter().for_each(|value| print!(" {value:e}"));
             println!();
         }
@@ -274,7 +309,7 @@ int main(void)
             const NAME_solution *answer = &out[k];
             printf("%zu %d %.17g %.17g", answer->branch, answer->chosen, answer->residual, AGAIN);
             for (int i = 0; i < UPPER_JOINTS; i++) {
-                printf(" %d", answer->free[i]);
+                printf(" %d", (int)(answer->free >> i & 1));
             }
             for (int i = 0; i < UPPER_JOINTS; i++) {
                 printf(" %.17g", answer->q[i]);

@@ -7,7 +7,7 @@ use std::fs;
 use groebot::codegen;
 use groebot::solver::{JointValue, Program};
 
-use super::harness::{compile_c, feed, rustc};
+use super::harness::{c_sources, compile_c, feed, rustc, write_c};
 use super::stored::named;
 use super::{odd, random};
 
@@ -30,10 +30,12 @@ fn printed(program: &Program, targets: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let upper = program.name.to_ascii_uppercase();
     write("solver.rs", codegen::rust::emit(program));
     write("main.rs", format!("mod solver;\n{RUST_DRIVER}"));
-    write("solver.c", codegen::c99::emit(program));
+    write_c(program, folder.path());
     write("main.c", C_DRIVER.replace("NAME", &program.name).replace("UPPER", &upper));
     rustc(folder.path(), &["-Amissing_docs", "main.rs", "-o", "rust"])?;
-    compile_c(folder.path(), &["main.c", "-lm", "-o", "c99"])?;
+    let sources = c_sources(program);
+    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
+    compile_c(folder.path(), &[&["main.c"], &files[..], &["-lm", "-o", "c99"]].concat())?;
     let mut text = format!("{}\n", targets.len());
     for number in targets.iter().flatten() {
         write!(text, "{number:e} ").unwrap();
@@ -94,6 +96,7 @@ fn pairs_are_those_of_the_evaluator() {
 }
 
 const RUST_DRIVER: &str = r#"
+use solver::{Solve, Solver};
 use std::io::Read;
 
 fn main() {
@@ -101,11 +104,11 @@ fn main() {
     std::io::stdin().read_to_string(&mut text).unwrap();
     let mut words = text.split_whitespace();
     let count: usize = words.next().unwrap().parse().unwrap();
-    let mut out = [solver::Pairs::EMPTY; solver::CAPACITY];
+    let mut out = [solver::Pairs::empty(&Solver); solver::CAPACITY];
     for _ in 0..count {
         let mut target = [0.0; solver::INPUTS];
         target.fill_with(|| words.next().unwrap().parse().unwrap());
-        let Ok(count) = solver::solve_pairs(&target, &mut out) else {
+        let Ok(count) = Solver.solve_pairs(&target, &mut out) else {
             println!("-1");
             continue;
         };
@@ -120,7 +123,7 @@ fn main() {
 "#;
 
 const C_DRIVER: &str = r#"
-#include "solver.c"
+#include "5_solver.h"
 #include <stdio.h>
 
 int main(void)

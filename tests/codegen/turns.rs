@@ -6,11 +6,12 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use groebot::codegen::{c99, rust};
+use groebot::codegen::c99::Pair;
+use groebot::codegen::rust;
 use groebot::kinematics::Solution;
 use groebot::solver::{About, JointValue, Program};
 
-use super::harness::{SANITIZERS, compile_c, feed, has_sanitizers, rustc};
+use super::harness::{SANITIZERS, c_sources, compile_c, feed, has_sanitizers, rustc, write_c};
 use super::random;
 use super::stored::{joint_values, named};
 
@@ -191,9 +192,11 @@ fn text(questions: &[Question]) -> String {
 /// The C program that answers questions; none without a compiler.
 fn c_program(program: &Program, folder: &Path, flags: &[&str]) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
-    fs::write(folder.join("5_solver.c"), c99::emit(program)).unwrap();
+    write_c(program, folder);
     fs::write(folder.join("main.c"), C_DRIVER.replace("NAME", &program.name).replace("UPPER", &upper)).unwrap();
-    compile_c(folder, &[flags, &["main.c", "-lm", "-o", "c99"]].concat())
+    let sources = c_sources(program);
+    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
+    compile_c(folder, &[flags, &["main.c"], &files[..], &["-lm", "-o", "c99"]].concat())
 }
 
 fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
@@ -301,15 +304,17 @@ fn limits_and_the_source_stand_in_the_file() {
     let [base, tip] = ["base_link", "tool0"].map(|name| Some(name.to_owned()));
     program.about =
         Some(About { task: "pose".into(), base, tip, solutions: None, hash: "0123456789abcdef".into(), limits });
-    let (c, rust) = (c99::emit(&program), rust::emit(&program));
-    for text in [&c, &rust] {
+    let (pair, rust) = (Pair::new(&program, "scara"), rust::emit(&program));
+    for text in [&pair.header, &rust] {
         let head: Vec<&str> = text.lines().take(12).collect();
         let head = head.join("\n");
         for part in ["Task: pose", "Base link: base_link", "Tip link: tool0", "Hash of the input: 0123456789abcdef"] {
             assert!(head.contains(part), "{part} is missing in\n{head}");
         }
     }
-    assert!(c.contains("_limits[2 * JOINTS] = {-1.25, 2.5, -INFINITY, INFINITY, 0.0, 0.25, -INFINITY, INFINITY};"));
+    let limits =
+        "{(gb_real)-1.25, (gb_real)2.5, -INFINITY, INFINITY, (gb_real)0.0, (gb_real)0.25, -INFINITY, INFINITY};";
+    assert!(pair.source.contains(&format!("_limits[2 * SCARA_JOINTS] = {limits}")), "{}", pair.source);
     let none = "[f64::NEG_INFINITY, f64::INFINITY]";
     assert!(rust.contains(&format!("[[-1.25, 2.5], {none}, [0.0, 0.25], {none}];")));
 }

@@ -1,6 +1,8 @@
-//! groebot's printed solvers of batches: what `groebot codegen --lang rust --batch` prints.
+//! groebot's printed solvers, many targets at a time.
 
-use crate::by_print::Target;
+use groebot_runtime::Solve;
+
+use crate::by_print::{self as printed, Target};
 use crate::{Joints, Pairs};
 
 /// Targets that a pass solves together.
@@ -21,18 +23,14 @@ pub struct Batches {
     pub pairs: fn(&Target) -> Vec<Pairs>,
 }
 
-mod printed {
-    include!(concat!(env!("OUT_DIR"), "/batches.rs"));
-}
-
 /// Solves all targets by a function of a printed solver.
 macro_rules! pass {
     ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
-        let mut out = [printed::$name::$answer::EMPTY; ANSWERS];
+        let mut out = vec![printed::$name::$answer::empty(&printed::$name::Solver); ANSWERS];
         let mut counts = [Ok(0); TARGETS];
         let (mut count, mut rest) = (0, $targets);
         while !rest.is_empty() {
-            let done = printed::$name::$solve(std::hint::black_box(rest), &mut out, &mut counts);
+            let done = printed::$name::Solver.$solve(std::hint::black_box(rest), &mut out, &mut counts);
             std::hint::black_box(&out);
             count += counts[..done].iter().map(|count| count.unwrap_or(0)).sum::<usize>();
             rest = &rest[done..];
@@ -52,17 +50,17 @@ macro_rules! batches {
                         pass: |targets| pass!($name, Solution, solve_batch, targets),
                         pass_by_pairs: |targets| pass!($name, Pairs, solve_pairs_batch, targets),
                         solutions: |target| {
-                            use printed::$name::{CAPACITY, Solution, solve_batch};
-                            let mut out = [Solution::EMPTY; CAPACITY];
+                            use printed::$name::{CAPACITY, EMPTY, Solver};
+                            let mut out = [EMPTY; CAPACITY];
                             let mut counts = [Ok(0)];
-                            assert_eq!(solve_batch(&[*target], &mut out, &mut counts), 1);
+                            assert_eq!(Solver.solve_batch(&[*target], &mut out, &mut counts), 1);
                             out[..counts[0].unwrap_or(0)].iter().map(|answer| answer.q).collect()
                         },
                         pairs: |target| {
-                            use printed::$name::{CAPACITY, Pairs, solve_pairs_batch};
-                            let mut out = [Pairs::EMPTY; CAPACITY];
+                            use printed::$name::{CAPACITY, Pairs, Solver};
+                            let mut out = [Pairs::empty(&Solver); CAPACITY];
                             let mut counts = [Ok(0)];
-                            assert_eq!(solve_pairs_batch(&[*target], &mut out, &mut counts), 1);
+                            assert_eq!(Solver.solve_pairs_batch(&[*target], &mut out, &mut counts), 1);
                             out[..counts[0].unwrap_or(0)].iter().map(|answer| answer.joints).collect()
                         },
                     }),

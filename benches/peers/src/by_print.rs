@@ -1,6 +1,7 @@
 //! groebot's printed solvers, the files `5_solver.rs` of `derivations/`.
 
 use groebot::spatial::Pose;
+use groebot_runtime::Solve;
 
 use crate::{Joints, Pairs};
 
@@ -25,10 +26,10 @@ pub struct Printed {
 /// Solves all targets by a function of a printed solver.
 macro_rules! pass {
     ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
-        let mut out = [$name::$answer::EMPTY; $name::CAPACITY];
+        let mut out = [$name::$answer::empty(&$name::Solver); $name::CAPACITY];
         let mut count = 0;
         for target in $targets {
-            count += $name::$solve(std::hint::black_box(target), &mut out).unwrap_or(0);
+            count += $name::Solver.$solve(std::hint::black_box(target), &mut out).unwrap_or(0);
             std::hint::black_box(&out);
         }
         count
@@ -39,9 +40,9 @@ macro_rules! pass {
 macro_rules! printed {
     ($($name:ident: $file:literal),* $(,)?) => {
         $(
-            #[allow(dead_code, missing_docs)]
+            #[allow(missing_docs)]
             #[path = $file]
-            mod $name;
+            pub(crate) mod $name;
         )*
 
         /// The printed solver of the robot with this name.
@@ -52,18 +53,18 @@ macro_rules! printed {
                         pass: |targets| pass!($name, Solution, solve, targets),
                         pass_by_pairs: |targets| pass!($name, Pairs, solve_pairs, targets),
                         pairs: |target| {
-                            let mut out = [$name::Pairs::EMPTY; $name::CAPACITY];
-                            let count = $name::solve_pairs(target, &mut out).unwrap_or(0);
+                            let mut out = [$name::Pairs::empty(&$name::Solver); $name::CAPACITY];
+                            let count = $name::Solver.solve_pairs(target, &mut out).unwrap_or(0);
                             out[..count].iter().map(|answer| answer.joints).collect()
                         },
                         solutions: |target| {
-                            let mut out = [$name::Solution::EMPTY; $name::CAPACITY];
-                            let count = $name::solve(target, &mut out).unwrap_or(0);
+                            let mut out = [$name::EMPTY; $name::CAPACITY];
+                            let count = $name::Solver.solve(target, &mut out).unwrap_or(0);
                             out[..count].iter().map(|answer| answer.q).collect()
                         },
                         forward: |all| {
                             for q in all {
-                                std::hint::black_box($name::forward(std::hint::black_box(q)));
+                                std::hint::black_box($name::Solver.forward(std::hint::black_box(q)));
                             }
                         },
                     }),

@@ -56,7 +56,7 @@ pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walke
     let biped = biped.map_err(at_file)?;
     let leg = |name: &str| -> Result<LegSolver> {
         let chain = robot.chain(None, Some(name)).map_err(at_file)?;
-        Ok(Arc::new(Proved::of_chain(&chain, watch)?.program().clone()))
+        Ok(Arc::new(Proved::of_chain(&chain, watch)?.program().solver()))
     };
     let solvers = [leg(names[0])?, leg(names[1])?];
     Walker::new(&robot, biped, solvers).map_err(at_file)

@@ -9,9 +9,6 @@ mod shifted_qr;
 
 pub use hessenberg::Hessenberg;
 
-/// QR steps for one deflation, and rounds of inverse iteration: for those who print the solver.
-pub(crate) const EIGEN_STEPS: [usize; 2] = [shifted_qr::MAX_STEPS, inverse_iteration::ROUNDS];
-
 /// An eigenvalue of a real matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::polish::{Links, Rigid};
-use crate::solver::angle::wrap;
+use groebot_runtime::trigonometry::wrap;
 
 /// The most answers that are kept while formulations are united.
 pub const ROOM: usize = 32;

@@ -8,7 +8,7 @@ use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide, monomials};
 use super::profile::PRODUCTS;
 use super::reduce::Reduced;
 use super::rows::{COLUMNS, Doubled, FAR, Rows};
-use crate::solver::angle::angle;
+use groebot_runtime::trigonometry::angle;
 
 /// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
 pub(super) const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];

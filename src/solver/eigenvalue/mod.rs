@@ -7,7 +7,6 @@
 
 mod answers;
 mod candidates;
-mod constants;
 mod curve;
 mod formulation;
 mod linear;
@@ -22,7 +21,6 @@ mod six_axes;
 mod solve;
 
 pub use answers::{Answer, Answers, ROOM};
-pub(crate) use constants::{Constants, Curve};
 pub use formulation::{Equations, Formulation};
 pub use pencil::SIZE;
 pub use polish::{Links, Rigid};

@@ -1,8 +1,8 @@
 //! The solver of six axes as a step of a program ([`SixAxes`]).
 
+use groebot_runtime::six_axes;
 use serde::{Deserialize, Serialize};
 
-use super::answers::{Answer, Answers};
 use super::formulation::Formulation;
 use super::polish::Rigid;
 use super::screw::Line;
@@ -53,8 +53,10 @@ impl SixAxes {
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
         ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
-        let known = !parts.formulations.is_empty() && parts.formulations.iter().all(Formulation::is_valid);
-        ensure(known, "six axes: one formulation at least, which hides one of joints 0 to 5, is allowed")?;
+        let count = parts.formulations.len();
+        let known =
+            (1..=six_axes::Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
+        ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;
         let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
         let solver = EigenvalueSolver::new(&layout, parts.formulations.clone());
         let back = parts.tip.inverse();
@@ -66,20 +68,22 @@ impl SixAxes {
         &self.parts
     }
 
-    /// The answers at a target, which is its position, then its rotation matrix by rows, in ascending order of their joints; and
-    /// candidates to start from once more ([`Answers::lost`]).
-    pub(crate) fn solve(&self, target: &[f64; 12]) -> (Vec<Answer>, Answers) {
-        let rotation = std::array::from_fn(|i| std::array::from_fn(|j| target[3 + 3 * i + j]));
-        let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
-        let answers = self.solver.solve(&pose.after(&self.back));
-        let mut found = answers.as_slice().to_vec();
-        found.sort_by(|a, b| a.q.partial_cmp(&b.q).unwrap_or(std::cmp::Ordering::Equal));
-        (found, answers)
-    }
-
-    /// What is computed once, and the base seen from the tip at zero.
-    pub(crate) fn tables(&self) -> (&EigenvalueSolver, &Rigid) {
-        (&self.solver, &self.back)
+    /// The chain in the run time's terms.
+    pub(crate) fn chain(&self) -> six_axes::Chain {
+        let rigid = |motion: &Rigid| six_axes::Rigid { rotation: motion.rotation, translation: motion.translation };
+        let formulation = |one: &Formulation| six_axes::Formulation { hidden: one.hidden, second: one.second };
+        let formulations: Vec<_> = self.solver.formulations().iter().map(formulation).collect();
+        six_axes::Chain {
+            directions: self.solver.axes.map(|axis| axis.line.direction),
+            points: self.solver.axes.map(|axis| axis.line.point),
+            across: self.solver.frames.map(|frame| frame.across),
+            slides: self.parts.slides,
+            steps: self.solver.links.steps.each_ref().map(rigid),
+            last: rigid(&self.solver.last),
+            back: rigid(&self.back),
+            length: self.solver.scale,
+            formulations: six_axes::Formulations::new(&formulations),
+        }
     }
 
     /// The step with other names of its unknowns and operands.

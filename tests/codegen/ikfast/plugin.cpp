@@ -1,10 +1,18 @@
 // Includes a printed solver as MoveIt's plugin template does, within a namespace behind its headers, and speaks to it as the plugin does.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include <float.h>
+// MoveIt's headers include it through Eigen's.
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace robot_group {
 #define IKFAST_NO_MAIN

@@ -1,0 +1,370 @@
+//! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
+
+use crate::approach::{LANES, Ways, abreast};
+use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
+use crate::number::{Guard, Lanes, Number};
+use crate::problem::{End, Fit, Problem, everywhere, fit};
+use crate::solution::{Pairs, Solution};
+use crate::storage::Array;
+use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
+use crate::trigonometry::{acute, unfold};
+
+/// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
+pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
+
+/// The answers so far.
+pub(crate) struct Answers<'a, M: Mechanism> {
+    pub problem: Problem<'a, M>,
+    pub out: &'a mut [Solution<M>],
+    /// Where pairs are written instead, and whether all candidates so far can be.
+    pairs: Option<&'a mut [Pairs<M>]>,
+    usual: bool,
+    pub count: usize,
+    /// How many candidates there have been, and had with the last one that did not hold where it was found.
+    candidates: usize,
+    pub unsound: usize,
+    /// The first stratum met that could not be derived.
+    pub open: Option<usize>,
+    /// The joints that missed the equations by the least share of their size, where they are no answer.
+    pub nearest: Option<End<M>>,
+    /// By place: the numbers of candidates that wait to be measured, and how each was found.
+    at: Places<M, Abreast<M>>,
+    found: Abreast<M, Found>,
+    waiting: usize,
+}
+
+/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
+struct Fits<M: Mechanism> {
+    residual: Abreast<M>,
+    relative: Abreast<M>,
+    sound: Abreast<M>,
+}
+
+impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
+    #[inline(always)]
+    fn is_usual(&mut self, guard: Guard<f64>) -> bool {
+        guard.here
+    }
+
+    #[inline(always)]
+    fn is_rare(&mut self, guard: Guard<f64>) -> bool {
+        guard.here
+    }
+
+    #[inline(always)]
+    fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
+        guard.here && (guard.beside || !self.suffice_since(before))
+    }
+
+    #[inline(always)]
+    #[allow(clippy::misnamed_getters)]
+    fn count(&self) -> usize {
+        self.candidates
+    }
+
+    fn is_open(&mut self, number: usize, guard: Guard<f64>) {
+        if guard.here {
+            self.open = self.open.or(Some(number));
+        }
+    }
+
+    fn elect(&mut self, claims: &[f64]) -> usize {
+        let (mut most, mut place) = (-1.0, claims.len());
+        for (i, &claim) in claims.iter().enumerate() {
+            if claim > most {
+                (most, place) = (claim, i);
+            }
+        }
+        place
+    }
+
+    #[inline(always)]
+    fn take(&mut self, found: Found, at: &Places<M>) {
+        let room = self.problem.facts().candidates;
+        if self.waiting >= room {
+            self.flush();
+        }
+        let k = self.waiting % room;
+        for (row, number) in self.at.as_mut().iter_mut().zip(at.as_ref()) {
+            row.as_mut()[k] = *number;
+        }
+        self.found.as_mut()[k] = found;
+        self.waiting = k + 1;
+        self.candidates += 1;
+    }
+}
+
+impl<'a, M: Mechanism> Answers<'a, M> {
+    /// None yet; solutions go to `out`, or pairs to `pairs` if there is a place for them.
+    #[inline(always)]
+    pub fn new(problem: Problem<'a, M>, out: &'a mut [Solution<M>], pairs: Option<&'a mut [Pairs<M>]>) -> Self {
+        let Facts { places, candidates: room, .. } = problem.facts();
+        Answers {
+            problem,
+            out,
+            pairs,
+            usual: true,
+            count: 0,
+            candidates: 0,
+            unsound: 0,
+            open: None,
+            nearest: None,
+            at: Array::by(places, |_| Array::by(room, |_| 0.0)),
+            found: Array::by(room, |_| Found::first(0, 0)),
+            waiting: 0,
+        }
+    }
+
+    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
+    #[cold]
+    fn suffice_since(&mut self, candidates: usize) -> bool {
+        self.flush();
+        self.candidates > candidates && self.unsound <= candidates
+    }
+
+    /// Whether all candidates could be written as pairs.
+    pub fn are_all_pairs(&self) -> bool {
+        self.usual && self.problem.facts().isolated.is_none_or(|most| self.count <= most)
+    }
+
+    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
+    #[inline(never)]
+    pub fn flush(&mut self) {
+        if self.pairs.is_some() {
+            return self.flush_pairs();
+        }
+        let joints = joints(self.problem.mechanism, &self.at);
+        if self.problem.facts().nearby.is_some() {
+            return self.flush_nearby(&joints);
+        }
+        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let room = self.problem.facts().candidates;
+        let waiting = core::mem::take(&mut self.waiting).min(room);
+        let mut usual = self.count == 0;
+        for k in 0..waiting {
+            let Found { close, free, .. } = self.found.as_ref()[k];
+            let q = self.joints_of(&joints, k);
+            let (residual, relative) = (fits.residual.as_ref()[k], fits.relative.as_ref()[k]);
+            let fit = Fit { residual, relative, accepted: true };
+            let holds = free == 0 && !close && relative < ROUNDING && fits.sound.as_ref()[k] > 0.0;
+            if holds && usual && self.write_apart(k, &q, &fit) {
+                continue;
+            }
+            usual = false;
+            if holds {
+                self.extras_of(k);
+                self.keep(&self.found.as_ref()[k].clone(), (q, fit));
+            } else {
+                self.refine_waiting(k, waiting, q);
+            }
+        }
+    }
+
+    /// The same for candidates of a nearby mechanism's formulas: they are led to answers.
+    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>) {
+        let ways = Ways::new(&self.problem, &self.at, self.waiting);
+        let room = self.problem.facts().candidates;
+        let waiting = core::mem::take(&mut self.waiting).min(room);
+        let mut usual = self.count == 0;
+        for k in 0..waiting {
+            let found = self.found.as_ref()[k];
+            let q = self.joints_of(joints, k);
+            let is_short = found.free == 0 && ways.sound.as_ref()[k] > 0.0 && ways.relative.as_ref()[k] < ROUNDING;
+            let approached = if is_short {
+                Some(ways.approach(&self.problem, k, &q))
+            } else if found.free == 0 {
+                self.problem.approached(&self.places_of(k), &q)
+            } else {
+                None
+            };
+            let Some(approach) = approached else {
+                usual = false;
+                self.refine_waiting(k, waiting, q);
+                continue;
+            };
+            let holds = approach.pivot >= approach.missed * if found.close { STEEP } else { MILD };
+            if holds && usual && self.write_apart(k, &approach.end, &approach.fit) {
+                continue;
+            }
+            usual = false;
+            self.extras_of(k);
+            self.arrive(self.candidates + 1 + k - waiting, &found, approach);
+        }
+    }
+
+    /// Writes a candidate that holds if there is room, and it is apart from all before it.
+    #[inline(always)]
+    fn write_apart(&mut self, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
+        let is_apart = self.count < self.out.len() && (0..k).all(|other| self.are_apart(k, other));
+        if is_apart {
+            self.write(&self.found.as_ref()[k].clone(), q.clone(), fit);
+        }
+        is_apart
+    }
+
+    /// Writes an answer behind the others.
+    #[inline(always)]
+    pub fn write(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
+        let Found { branch, free, .. } = *found;
+        let Fit { residual, relative, .. } = *fit;
+        self.out[self.count] = Solution { q, residual, relative, branch, chosen: false, free };
+        self.count += 1;
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn refine_waiting(&mut self, k: usize, waiting: usize, q: Joints<M>) {
+        self.extras_of(k);
+        let found = self.found.as_ref()[k];
+        self.refine(self.candidates + 1 + k - waiting, &found, q);
+    }
+
+    /// Lets the equations read what follows from no joint from a candidate that waits.
+    fn extras_of(&mut self, k: usize) {
+        if self.problem.facts().has_extras {
+            self.problem.extras = Some(self.places_of(k));
+        }
+    }
+
+    fn places_of(&self, k: usize) -> Places<M> {
+        Array::by(self.problem.facts().places, |place| self.at.as_ref()[place].as_ref()[k])
+    }
+
+    #[inline(always)]
+    fn joints_of(&self, joints: &Joints<M, Abreast<M>>, k: usize) -> Joints<M> {
+        Array::by(self.problem.joints(), |i| joints.as_ref()[i].as_ref()[k])
+    }
+
+    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
+    #[inline(never)]
+    fn flush_pairs(&mut self) {
+        let facts = self.problem.facts();
+        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let waiting = core::mem::take(&mut self.waiting).min(facts.candidates);
+        let Some(pairs) = &mut self.pairs else { return };
+        self.usual &= facts.nearby.is_none();
+        for k in 0..waiting {
+            let Found { branch, close, free, .. } = self.found.as_ref()[k];
+            let residual = fits.residual.as_ref()[k];
+            let holds = free == 0 && !close && fits.relative.as_ref()[k] < ROUNDING && fits.sound.as_ref()[k] > 0.0;
+            let joints: Joints<M, [f64; 2]> = Array::by(facts.joints.len(), |i| {
+                let number = |place: usize| self.at.as_ref()[place].as_ref()[k] + 0.0;
+                match facts.joints[i] {
+                    Joint::Angle([c, s]) => [number(c), number(s)],
+                    Joint::Length(place) => [self.at.as_ref()[place].as_ref()[k], 0.0],
+                }
+            });
+            let is_apart = |other: &Pairs<M>| other.branch != branch && tell_apart::<M>(&facts, &joints, &other.joints);
+            self.usual &= holds && self.count < pairs.len() && pairs[..self.count].iter().all(is_apart);
+            if !self.usual {
+                return;
+            }
+            pairs[self.count] = Pairs { joints, residual, branch, free };
+            self.count += 1;
+        }
+    }
+
+    /// Whether an angle tells two candidates apart.
+    #[inline(always)]
+    fn are_apart(&self, k: usize, other: usize) -> bool {
+        let at = self.at.as_ref();
+        let cosine = |place: usize| at[place].as_ref()[k] * at[place].as_ref()[other];
+        self.problem.facts().last_first.iter().any(|&i| match self.problem.facts().joints[i] {
+            Joint::Angle([c, s]) => cosine(c) + cosine(s) < FAR_APART,
+            Joint::Length(_) => false,
+        })
+    }
+}
+
+/// Whether an angle tells two answers apart.
+#[inline(always)]
+fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
+    let (a, b) = (a.as_ref(), b.as_ref());
+    facts.last_first.iter().any(|&i| facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
+}
+
+impl<M: Mechanism> Fits<M> {
+    /// Those of the first so many candidates.
+    #[inline(never)]
+    fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+        let room = problem.facts().candidates;
+        let none = || Array::by(room, |_| 0.0);
+        let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };
+        let p = everywhere::<M, LANES>(problem);
+        for first in (0..waiting.min(room)).step_by(LANES) {
+            let at: Places<M, Lanes<LANES>> = abreast::<M>(at, first);
+            let [residual, relative] = fit::<M, LANES>(problem.mechanism, &p, &at);
+            let sound = sound::<M>(&problem.facts(), &at);
+            for lane in 0..LANES {
+                fits.residual.as_mut()[first + lane] = residual.0[lane];
+                fits.relative.as_mut()[first + lane] = relative.0[lane];
+                fits.sound.as_mut()[first + lane] = sound.0[lane];
+            }
+        }
+        fits
+    }
+}
+
+/// Whether candidates are of joints at all: 1, else 0.
+#[inline(always)]
+fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes<LANES> {
+    let (mut sound, at) = (Lanes([1.0; LANES]), at.as_ref());
+    for joint in facts.joints {
+        sound = match *joint {
+            Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ROUNDING),
+            Joint::Length(place) => sound.where_below(at[place].abs(), f64::MAX),
+        };
+    }
+    if facts.has_extras {
+        sound = at.iter().fold(sound, |sound, number| sound.where_below(number.abs(), f64::MAX));
+    }
+    sound
+}
+
+/// By joint and candidate, the joint values. Angles that only differ in signs from those of the candidate before are not computed again.
+#[inline(never)]
+fn joints<M: Mechanism>(mechanism: &M, at: &Places<M, Abreast<M>>) -> Joints<M, Abreast<M>> {
+    let Facts { joints, candidates: room, .. } = mechanism.facts();
+    let mut across: Joints<M, Abreast<M>> = Array::by(joints.len(), |_| Array::by(room, |_| 0.0));
+    let mut up = across.clone();
+    let mut which: Joints<M, Abreast<M, usize>> = Array::by(joints.len(), |_| Array::by(room, |_| 0));
+    let mut count = 0;
+    for (joint, which) in joints.iter().zip(which.as_mut()) {
+        let Joint::Angle([c, s]) = *joint else { continue };
+        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
+        let mut before = [f64::NAN; 2];
+        for k in 0..room {
+            let pair = [cosines[k].abs(), sines[k].abs()];
+            count += usize::from((k == 0) | (pair[0] != before[0]) | (pair[1] != before[1]));
+            let place = usize::min(count - 1, joints.len() * room - 1);
+            across.as_mut()[place / room].as_mut()[place % room] = pair[0];
+            up.as_mut()[place / room].as_mut()[place % room] = pair[1];
+            (which.as_mut()[k], before) = (place, pair);
+        }
+    }
+    for first in (0..count).step_by(LANES) {
+        let (row, first) = (first / room, first % room);
+        let pair = |rows: &Joints<M, Abreast<M>>| {
+            Lanes::<LANES>(core::array::from_fn(|lane| rows.as_ref()[row].as_ref()[first + lane]))
+        };
+        let acutes = acute(pair(&across), pair(&up));
+        across.as_mut()[row].as_mut()[first..first + LANES].copy_from_slice(&acutes.0);
+    }
+    for ((joint, which), q) in joints.iter().zip(which.as_ref()).zip(up.as_mut()) {
+        let Joint::Angle([c, s]) = *joint else {
+            continue;
+        };
+        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
+        for k in 0..room {
+            let place = which.as_ref()[k];
+            let acute = across.as_ref()[place / room].as_ref()[place % room];
+            q.as_mut()[k] = unfold(acute, cosines[k], sines[k]);
+        }
+    }
+    for (joint, q) in joints.iter().zip(up.as_mut()) {
+        if let Joint::Length(place) = *joint {
+            q.clone_from(&at.as_ref()[place]);
+        }
+    }
+    up
+}

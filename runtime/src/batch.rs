@@ -1,0 +1,381 @@
+//! Many targets, several at once in the lanes of vector registers. Main type: [`Bundle`].
+
+use crate::answers::FAR_APART;
+use crate::conditions::fulfil;
+use crate::mechanism::{
+    Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places,
+};
+use crate::number::{Guard, Lanes, Mask, Number};
+use crate::problem::fit;
+use crate::solution::{Error, Pairs, Solution};
+use crate::solve::Solve;
+use crate::storage::Array;
+use crate::tolerances::ROUNDING;
+use crate::trigonometry::{acute, unfold};
+
+/// What is written of a solution.
+pub(crate) trait Answer<M: Mechanism>: Clone {
+    /// Whether it holds joint values, not cosines and sines.
+    const IS_BY_ANGLES: bool;
+    /// No answer yet.
+    fn none(mechanism: &M) -> Self;
+    /// That of an ordinary candidate in a lane.
+    fn of<const W: usize>(facts: &Facts<'_>, bundle: &Bundle<M, W>, candidate: usize, lane: usize) -> Self;
+    /// All of one target.
+    fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error>;
+}
+
+impl<M: Mechanism> Answer<M> for Solution<M> {
+    const IS_BY_ANGLES: bool = true;
+
+    fn none(mechanism: &M) -> Self {
+        Solution::empty(mechanism)
+    }
+
+    #[inline(always)]
+    fn of<const W: usize>(facts: &Facts<'_>, bundle: &Bundle<M, W>, candidate: usize, lane: usize) -> Self {
+        let joints = bundle.q.as_ref()[candidate].as_ref();
+        debug_assert_eq!(joints.len(), facts.joints.len());
+        Solution {
+            q: Array::by(joints.len(), |i| joints[i].0[lane]),
+            residual: bundle.residual.as_ref()[candidate].0[lane],
+            relative: bundle.relative.as_ref()[candidate].0[lane],
+            branch: bundle.branch.as_ref()[candidate],
+            chosen: false,
+            free: 0,
+        }
+    }
+
+    fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error> {
+        mechanism.solve(target, list)
+    }
+}
+
+impl<M: Mechanism> Answer<M> for Pairs<M> {
+    const IS_BY_ANGLES: bool = false;
+
+    fn none(mechanism: &M) -> Self {
+        Pairs::empty(mechanism)
+    }
+
+    #[inline(always)]
+    fn of<const W: usize>(facts: &Facts<'_>, bundle: &Bundle<M, W>, candidate: usize, lane: usize) -> Self {
+        let at = bundle.at.as_ref()[candidate].as_ref();
+        Pairs {
+            joints: Array::by(facts.joints.len(), |i| match facts.joints[i] {
+                Joint::Angle([c, s]) => [at[c].0[lane] + 0.0, at[s].0[lane] + 0.0],
+                Joint::Length(place) => [at[place].0[lane], 0.0],
+            }),
+            residual: bundle.residual.as_ref()[candidate].0[lane],
+            branch: bundle.branch.as_ref()[candidate],
+            free: 0,
+        }
+    }
+
+    fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error> {
+        mechanism.solve_pairs(target, list)
+    }
+}
+
+/// In the widest registers that the processor has.
+#[allow(unsafe_code)]
+pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
+    mechanism: &M,
+    targets: &[Inputs<M>],
+    out: &mut [A],
+    counts: &mut [Result<usize, Error>],
+) -> usize {
+    if M::IS_SINGLE {
+        return solve_singly(mechanism, targets, out, counts);
+    }
+    if M::IS_TOLD {
+        let solve = if mechanism.facts().first.is_empty() { solve_singly::<M, A> } else { solve_by::<M, A, 16> };
+        return solve(mechanism, targets, out, counts);
+    }
+    #[cfg(all(target_arch = "x86_64", feature = "std"))]
+    {
+        if std::is_x86_feature_detected!("avx512f") {
+            // SAFETY: the processor has what the function is compiled for.
+            return unsafe { solve_by_8(mechanism, targets, out, counts) };
+        }
+        if std::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has what the function is compiled for.
+            return unsafe { solve_by_4(mechanism, targets, out, counts) };
+        }
+    }
+    const WIDTH: usize = if cfg!(target_feature = "avx512f") {
+        8
+    } else if cfg!(target_feature = "avx2") {
+        4
+    } else {
+        2
+    };
+    solve_by::<M, A, WIDTH>(mechanism, targets, out, counts)
+}
+
+#[cfg(all(target_arch = "x86_64", feature = "std"))]
+#[target_feature(enable = "avx512f")]
+fn solve_by_8<M: Mechanism, A: Answer<M>>(
+    mechanism: &M,
+    targets: &[Inputs<M>],
+    out: &mut [A],
+    counts: &mut [Result<usize, Error>],
+) -> usize {
+    solve_by::<M, A, 8>(mechanism, targets, out, counts)
+}
+
+#[cfg(all(target_arch = "x86_64", feature = "std"))]
+#[target_feature(enable = "avx2")]
+fn solve_by_4<M: Mechanism, A: Answer<M>>(
+    mechanism: &M,
+    targets: &[Inputs<M>],
+    out: &mut [A],
+    counts: &mut [Result<usize, Error>],
+) -> usize {
+    solve_by::<M, A, 4>(mechanism, targets, out, counts)
+}
+
+/// One after the other.
+fn solve_singly<M: Mechanism, A: Answer<M>>(
+    mechanism: &M,
+    targets: &[Inputs<M>],
+    out: &mut [A],
+    counts: &mut [Result<usize, Error>],
+) -> usize {
+    let (mut done, mut filled) = (0, 0);
+    for (target, count) in targets.iter().zip(counts) {
+        let room = &mut out[filled..];
+        let found = solve_into(mechanism, target, room);
+        if found.is_ok_and(|found| found > room.len()) {
+            return done;
+        }
+        *count = found;
+        filled += found.unwrap_or(0);
+        done += 1;
+    }
+    done
+}
+
+#[inline(always)]
+fn solve_by<M: Mechanism, A: Answer<M>, const W: usize>(
+    mechanism: &M,
+    targets: &[Inputs<M>],
+    out: &mut [A],
+    counts: &mut [Result<usize, Error>],
+) -> usize {
+    let (mut done, mut filled) = (0, 0);
+    let facts = mechanism.facts();
+    let mut bundle = Bundle::<M, W>::empty(&facts);
+    for targets in targets[..targets.len().min(counts.len())].chunks(W) {
+        bundle.find(mechanism, &facts, targets, A::IS_BY_ANGLES);
+        for (lane, target) in targets.iter().enumerate() {
+            let room = &mut out[filled..];
+            let is_ordinary = bundle.doubt.0[lane] == 0 && room.len() >= facts.candidates;
+            let count =
+                if is_ordinary { Ok(bundle.write(&facts, lane, room)) } else { solve_into(mechanism, target, room) };
+            if count.is_ok_and(|count| count > room.len()) {
+                return done;
+            }
+            counts[done] = count;
+            done += 1;
+            filled += count.unwrap_or(0);
+        }
+    }
+    done
+}
+
+/// All of one target, where there may be less room than solutions: then none is written.
+#[cold]
+#[inline(never)]
+fn solve_into<M: Mechanism, A: Answer<M>>(mechanism: &M, target: &Inputs<M>, room: &mut [A]) -> Result<usize, Error> {
+    let mut list: Answered<M, A> = Array::by(mechanism.facts().capacity, |_| A::none(mechanism));
+    let count = A::solve(mechanism, target, list.as_mut())?;
+    if count <= room.len() {
+        room[..count].clone_from_slice(&list.as_ref()[..count]);
+    }
+    Ok(count)
+}
+
+/// The candidates of several targets. No lanes lie across a cache line.
+#[repr(C, align(64))]
+pub(crate) struct Bundle<M: Mechanism, const W: usize> {
+    at: Abreast<M, Places<M, Lanes<W>>>,
+    q: Abreast<M, Joints<M, Lanes<W>>>,
+    residual: Abreast<M, Lanes<W>>,
+    relative: Abreast<M, Lanes<W>>,
+    /// Which targets have no such candidate.
+    dead: Abreast<M, Mask<W>>,
+    /// Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate misses the equations or is next to another.
+    doubt: Mask<W>,
+    branch: Abreast<M, usize>,
+    count: usize,
+}
+
+impl<M: Mechanism, const W: usize> Candidates<Lanes<W>, M> for Bundle<M, W> {
+    #[inline(always)]
+    fn is_usual(&mut self, guard: Guard<Lanes<W>>) -> bool {
+        self.doubt = self.doubt | guard.here.inverted();
+        true
+    }
+
+    #[inline(always)]
+    fn is_rare(&mut self, guard: Guard<Lanes<W>>) -> bool {
+        self.doubt = self.doubt | guard.here;
+        false
+    }
+
+    #[inline(always)]
+    fn is_due(&mut self, _: usize, guard: Guard<Lanes<W>>) -> bool {
+        self.is_rare(guard)
+    }
+
+    #[inline(always)]
+    fn count(&self) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn is_open(&mut self, _: usize, guard: Guard<Lanes<W>>) {
+        self.doubt = self.doubt | guard.here;
+    }
+
+    /// All targets must agree.
+    #[inline(always)]
+    fn elect(&mut self, claims: &[Lanes<W>]) -> usize {
+        let elected = |lane: usize| {
+            let mut best = (-1.0, claims.len());
+            for (i, claim) in claims.iter().enumerate() {
+                best = if claim.0[lane] > best.0 { (claim.0[lane], i) } else { best };
+            }
+            best.1
+        };
+        let first = elected(0);
+        for lane in 1..W {
+            self.doubt.0[lane] |= if elected(lane) == first { 0 } else { !0 };
+        }
+        first
+    }
+
+    #[inline(always)]
+    fn take(&mut self, found: Found<Lanes<W>>, at: &Places<M, Lanes<W>>) {
+        let k = self.count % self.branch.as_ref().len();
+        self.at.as_mut()[k] = at.clone();
+        self.dead.as_mut()[k] = found.close.dead;
+        self.branch.as_mut()[k] = found.branch;
+        self.doubt = self.doubt | (found.close.close & found.close.dead.inverted());
+        self.count = k + 1;
+    }
+}
+
+impl<M: Mechanism, const W: usize> Bundle<M, W> {
+    fn empty(facts: &Facts<'_>) -> Self {
+        let (none, room) = (Lanes([0.0; W]), facts.candidates);
+        Bundle {
+            at: Array::by(room, |_| Array::by(facts.places, |_| none)),
+            q: Array::by(room, |_| Array::by(facts.joints.len(), |_| none)),
+            residual: Array::by(room, |_| none),
+            relative: Array::by(room, |_| none),
+            dead: Array::by(room, |_| Mask::NONE),
+            doubt: Mask::NONE,
+            branch: Array::by(room, |_| 0),
+            count: 0,
+        }
+    }
+
+    /// Finds those of up to `W` targets, of which there is one at least, and their angles if they are wanted.
+    #[inline(always)]
+    fn find(&mut self, mechanism: &M, facts: &Facts<'_>, targets: &[Inputs<M>], wants_angles: bool) {
+        let number = |i: usize, lane: usize| targets[lane.min(targets.len() - 1)].as_ref()[i];
+        let mut target: Inputs<M, Lanes<W>> =
+            Array::by(facts.inputs, |i| Lanes(core::array::from_fn(|lane| number(i, lane))));
+        let mut fine = Mask([!0; W]);
+        for value in target.as_ref() {
+            fine = fine & value.abs().at_most(Lanes::of(f64::MAX));
+        }
+        for condition in facts.conditions {
+            fine = fine & fulfil(*condition, target.as_mut());
+        }
+        let p = mechanism.parameters(&target);
+        (self.doubt, self.count) = (fine.inverted(), 0);
+        mechanism.walk(&p, self);
+        self.measure(mechanism, facts, &p);
+        self.tell_apart(facts);
+        self.find_joints(facts, wants_angles);
+    }
+
+    /// Doubts where a candidate misses the equations.
+    #[inline(always)]
+    fn measure(&mut self, mechanism: &M, facts: &Facts<'_>, p: &Parameters<M, Lanes<W>>) {
+        for k in (0..facts.candidates).step_by(facts.twins) {
+            let [residual, relative] = fit::<M, W>(mechanism, p, &self.at.as_ref()[k]);
+            self.residual.as_mut()[k..k + facts.twins].fill(residual);
+            self.relative.as_mut()[k..k + facts.twins].fill(relative);
+            let holds = Lanes::of(ROUNDING).exceeds(relative);
+            self.doubt = self.doubt | holds.or_not(self.dead.as_ref()[k]);
+        }
+    }
+
+    /// Doubts where two candidates are next to one another. Of those that are alike one is enough: the others are as far from one another.
+    #[inline(always)]
+    fn tell_apart(&mut self, facts: &Facts<'_>) {
+        let (mut doubt, at, dead) = (self.doubt, self.at.as_ref(), self.dead.as_ref());
+        for k in (0..facts.candidates).step_by(facts.twins) {
+            for other in (0..k + facts.twins).filter(|&other| other != k) {
+                let (a, b) = (at[k].as_ref(), at[other].as_ref());
+                let mut near = (dead[k] | dead[other]).inverted();
+                for &i in facts.last_first {
+                    let Joint::Angle([c, s]) = facts.joints[i] else { continue };
+                    near = near & Lanes::of(FAR_APART).exceeds(a[c] * b[c] + a[s] * b[s]).inverted();
+                    if !near.any() {
+                        break;
+                    }
+                }
+                doubt = doubt | near;
+            }
+        }
+        self.doubt = doubt;
+    }
+
+    /// Finds joint values, angles only if they are wanted; doubts where they are none.
+    #[inline(always)]
+    fn find_joints(&mut self, facts: &Facts<'_>, wants_angles: bool) {
+        let mut doubt = self.doubt;
+        let (at, dead, q) = (self.at.as_ref(), self.dead.as_ref(), self.q.as_mut());
+        for (i, joint) in facts.joints.iter().enumerate() {
+            let (mut sound, mut size) = (Mask::NONE, Lanes::of(0.0));
+            for k in 0..facts.candidates {
+                match *joint {
+                    Joint::Angle([c, s]) => {
+                        let (c, s) = (at[k].as_ref()[c], at[k].as_ref()[s]);
+                        if facts.first[i * facts.candidates + k] == k {
+                            sound = Lanes::of(ROUNDING).exceeds((c * c + s * s - 1.0).abs());
+                            size = if wants_angles { acute(c.abs(), s.abs()) } else { size };
+                        }
+                        if wants_angles {
+                            q[k].as_mut()[i] = unfold(size, c, s);
+                        }
+                    }
+                    Joint::Length(place) => {
+                        let length = at[k].as_ref()[place];
+                        q[k].as_mut()[i] = length;
+                        sound = Lanes::of(f64::MAX).exceeds(length.abs());
+                    }
+                }
+                doubt = doubt | sound.or_not(dead[k]);
+            }
+        }
+        self.doubt = doubt;
+    }
+
+    /// Writes the solutions of the target in a lane, with room for all candidates; how many there are.
+    #[inline(always)]
+    fn write<A: Answer<M>>(&self, facts: &Facts<'_>, lane: usize, room: &mut [A]) -> usize {
+        let mut count = 0;
+        for k in 0..facts.candidates {
+            // One number each: a whole vector would be copied for it.
+            room[count] = A::of(facts, self, k, lane);
+            count += usize::from(self.dead.as_ref()[k].0[lane] == 0);
+        }
+        count
+    }
+}

@@ -1,0 +1,79 @@
+//! What a target must fulfil: rotations and unit vectors, checked and freed from their last digits' error.
+
+use crate::mechanism::Condition;
+use crate::number::{Number, With};
+use crate::solution::Error;
+use crate::tolerances::CONSISTENT;
+
+/// Moves a target onto its conditions, which it may miss by a little.
+#[inline(always)]
+pub(crate) fn conform(conditions: &[Condition], target: &mut [f64]) -> Result<(), Error> {
+    if !target.iter().all(|value| value.is_finite()) {
+        return Err(Error::NotFinite);
+    }
+    for condition in conditions {
+        if !fulfil(*condition, target) {
+            return Err(match condition {
+                Condition::Rotation(_) => Error::NotRotation,
+                Condition::Unit(_) => Error::NotUnit,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// One Newton step towards what a condition asks for; false when that is far.
+#[inline(always)]
+pub(crate) fn fulfil<N: Number>(condition: Condition, target: &mut [N]) -> N::Truth
+where
+    f64: With<N>,
+{
+    match condition {
+        Condition::Rotation(first) => make_rotation(&mut target[first..first + 9]),
+        Condition::Unit(first) => make_unit(&mut target[first..first + 3]),
+    }
+}
+
+/// One Newton step towards the nearest rotation of a matrix by rows, `R - (R R^T - 1) R / 2` (N. Higham, "Computing the polar decomposition - with
+/// applications", 1986); false when that is far, or it is a reflection.
+#[inline(always)]
+fn make_rotation<N: Number>(r: &mut [N]) -> N::Truth
+where
+    f64: With<N>,
+{
+    let mut excess = [[N::of(0.0); 3]; 3];
+    let mut deviation = N::of(0.0);
+    for i in 0..3 {
+        for j in 0..3 {
+            excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
+            deviation = N::max(excess[i][j].abs(), deviation);
+        }
+    }
+    let determinant =
+        r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
+    let given: [N; 9] = core::array::from_fn(|i| r[i]);
+    for i in 0..9 {
+        let (row, column) = (excess[i / 3], i % 3);
+        let moved = row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6];
+        r[i] = r[i] - 0.5 * moved;
+    }
+    N::of(0.0).at_most(determinant) & deviation.at_most(N::of(CONSISTENT))
+}
+
+/// One Newton step towards the nearest unit vector; false when that is far.
+#[inline(always)]
+fn make_unit<N: Number>(v: &mut [N]) -> N::Truth
+where
+    f64: With<N>,
+{
+    let excess = dot(v, v) - 1.0;
+    for value in v {
+        *value = *value - 0.5 * (excess * *value);
+    }
+    excess.abs().at_most(N::of(CONSISTENT))
+}
+
+#[inline(always)]
+fn dot<N: Number>(a: &[N], b: &[N]) -> N {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,39 @@
+//! What runs on a robot: the run time of inverse kinematics that the package `groebot` derives.
+//!
+//! A robot's own file, printed by `groebot codegen --lang rust`, holds its program as straight-line code and implements [`Mechanism`]; [`Solve`] is
+//! what it offers then: all solutions of a target, each measured on forward kinematics, singular poses and self-motions included, limits and turns,
+//! cosines and sines, and batches in the lanes of vector registers. Nothing is allocated, there is no state, and the same target has the same answers, to
+//! the last bit, on every machine.
+//!
+//! Without the feature `std` (a default) the crate needs `core` and the C library's `sqrt`.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+mod answers;
+mod approach;
+mod arithmetic;
+mod batch;
+mod conditions;
+mod joints;
+pub mod limits;
+pub mod mechanism;
+mod newton;
+pub mod number;
+mod problem;
+mod quartic;
+mod refine;
+pub mod roots;
+mod self_motion;
+pub mod six_axes;
+mod solution;
+pub mod solve;
+#[cfg(feature = "sources")]
+pub mod sources;
+pub mod storage;
+pub mod tolerances;
+pub mod trigonometry;
+
+pub use mechanism::{Candidates, Condition, Facts, Found, Joint, Mechanism, Preference, Reached, Short, rarely};
+pub use number::{Guard, Lanes, Number, With};
+pub use solution::{Error, Pairs, Solution};
+pub use solve::{Solve, target_of};
+pub use storage::Fixed;

@@ -1,0 +1,140 @@
+//! Limits of joints, and turns: the joint values that are a solution up to whole turns.
+
+use core::f64::consts::TAU;
+
+use crate::arithmetic::Arithmetic;
+use crate::joints::{is_in, moved};
+use crate::mechanism::{Facts, Joint, Joints, Mechanism};
+use crate::problem::Problem;
+use crate::solution::Solution;
+use crate::tolerances::{SLACK, STRIDE, STRIDES};
+
+/// The most turns that are counted.
+pub const MOST_TURNS: usize = 1_000_000;
+
+impl Joint {
+    /// A turn of an angle, 0 for a length.
+    fn turn(self) -> f64 {
+        if self.is_angle() { TAU } else { 0.0 }
+    }
+
+    /// The least and the greatest number of turns that bring the joint within its limits: the first is greater when none does.
+    fn turns_within(self, value: f64, limit: [f64; 2]) -> (f64, f64) {
+        let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
+        if self.is_angle() {
+            return (Arithmetic::ceil(low / TAU), Arithmetic::floor(high / TAU));
+        }
+        (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
+    }
+}
+
+/// The number of turns between bounds that is nearest to another.
+fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
+    f64::min(f64::max(turn, first), last) + 0.0
+}
+
+/// The bounds, brought together where one is infinite, and not too far apart.
+fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
+    if !first.is_finite() || !last.is_finite() {
+        first = nearest_turn(0.0, first, last);
+        last = first;
+    }
+    (first, f64::min(last, first + MOST_TURNS as f64))
+}
+
+/// The number of turns of `q`.
+pub(crate) fn count_turns(facts: &Facts<'_>, q: &[f64], limits: &[[f64; 2]]) -> usize {
+    let mut count = 1.0;
+    for ((joint, value), limit) in facts.joints.iter().zip(q).zip(limits) {
+        let (first, last) = joint.turns_within(*value, *limit);
+        let is_reached = first <= last;
+        if !is_reached {
+            return 0;
+        }
+        let (first, last) = finite_turns(first, last);
+        count = f64::min(count * (last - first + 1.0), MOST_TURNS as f64);
+    }
+    count as usize
+}
+
+/// Moves `q` to its turn with this index.
+pub(crate) fn turn(facts: &Facts<'_>, q: &mut [f64], limits: &[[f64; 2]], mut index: usize) {
+    for ((joint, value), limit) in facts.joints.iter().zip(q).zip(limits).rev() {
+        let (first, last) = joint.turns_within(*value, *limit);
+        let (first, last) = finite_turns(first, last);
+        let count = (last - first) as usize + 1;
+        *value += joint.turn() * (first + (index % count) as f64);
+        index /= count;
+    }
+}
+
+/// Joints moved by as few turns as can be within limits; none when that cannot be.
+pub(crate) fn turned_within<M: Mechanism>(
+    facts: &Facts<'_>,
+    q: &Joints<M>,
+    limits: &Joints<M, [f64; 2]>,
+) -> Option<Joints<M>> {
+    let mut place = q.clone();
+    for ((joint, value), limit) in facts.joints.iter().zip(place.as_mut()).zip(limits.as_ref()) {
+        let (first, last) = joint.turns_within(*value, *limit);
+        let is_reached = first <= last;
+        if !is_reached {
+            return None;
+        }
+        *value += joint.turn() * nearest_turn(0.0, first, last);
+    }
+    Some(place)
+}
+
+/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
+/// when it meets no such place.
+pub(crate) fn strides_within<M: Mechanism>(
+    problem: &Problem<'_, M>,
+    answer: &Solution<M>,
+    limits: &Joints<M, [f64; 2]>,
+) -> Option<(Joints<M>, f64)> {
+    for i in (0..2 * problem.joints()).filter(|i| is_in(answer.free, i / 2)) {
+        let mut q = answer.q.clone();
+        for _ in 0..STRIDES {
+            let way = if i % 2 == 0 { STRIDE } else { -STRIDE };
+            let (next, fit) = problem.polished(moved::<M>(&problem.facts(), &q, i / 2, way), answer.free);
+            if !fit.accepted {
+                break;
+            }
+            if let Some(place) = turned_within::<M>(&problem.facts(), &next, limits) {
+                return Some((place, fit.residual));
+            }
+            q = next;
+        }
+    }
+    None
+}
+
+/// Of a list of solutions, the one that can come nearest to a reference by turns within limits.
+pub(crate) fn nearest<M: Mechanism>(
+    facts: &Facts<'_>,
+    list: &[Solution<M>],
+    reference: &Joints<M>,
+    weights: &Joints<M>,
+    limits: &Joints<M, [f64; 2]>,
+) -> Option<(usize, Joints<M>)> {
+    let mut least = f64::INFINITY;
+    let mut best = None;
+    for (k, answer) in list.iter().enumerate() {
+        let (mut place, mut distance) = (answer.q.clone(), 0.0);
+        for (i, joint) in facts.joints.iter().enumerate() {
+            let (value, wanted) = (answer.q.as_ref()[i], reference.as_ref()[i]);
+            let (first, last) = joint.turns_within(value, limits.as_ref()[i]);
+            distance = if first <= last { distance } else { f64::INFINITY };
+            let turn = if joint.is_angle() { Arithmetic::round((wanted - value) / TAU) } else { 0.0 };
+            let moved = value + joint.turn() * nearest_turn(turn, first, last);
+            place.as_mut()[i] = moved;
+            distance += weights.as_ref()[i] * (moved - wanted) * (moved - wanted);
+        }
+        if distance < least {
+            least = distance;
+            best = Some((k, place));
+        }
+    }
+    best
+}

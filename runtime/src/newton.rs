@@ -1,0 +1,250 @@
+//! Newton's method with all that keeps it from going astray next to singular configurations.
+
+use crate::arithmetic::Arithmetic;
+use crate::joints::{beyond, is_in, stepped};
+use crate::mechanism::{Joints, Mechanism};
+use crate::problem::{End, Problem};
+use crate::storage::{Array, Storage};
+use crate::tolerances::{
+    BLUR, DAMPINGS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SHORT,
+    STIFF,
+};
+
+/// A triangle of columns, the right side in the last one.
+struct Triangle<M: Mechanism> {
+    numbers: <M::Storage as Storage>::Triangle,
+    /// The length of a column.
+    rows: usize,
+    joints: usize,
+}
+
+impl<M: Mechanism> Problem<'_, M> {
+    /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
+    /// after a leap. Joints that are `held` stay.
+    pub fn polish(&self, start: End<M>, held: u32) -> End<M> {
+        let (mut end, mut slow) = (start, 0);
+        for _ in 0..POLISH_STEPS {
+            if end.1.relative <= POLISHED || slow == PATIENCE {
+                return end;
+            }
+            let Some(next) = self.improved(&end, held) else { return end };
+            slow = if next.1.relative <= f64::max(0.5 * end.1.relative, ROUNDING) { 0 } else { slow + 1 };
+            let step: Joints<M> = Array::by(self.joints(), |i| next.0.as_ref()[i] - end.0.as_ref()[i]);
+            end = next;
+            if end.1.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
+                return end;
+            }
+        }
+        end
+    }
+
+    /// The same from joints that are not measured yet.
+    pub fn polished(&self, q: Joints<M>, held: u32) -> End<M> {
+        self.polish(self.measured(q), held)
+    }
+
+    /// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
+    /// it is rounding and a plain step is short, that is the last.
+    fn improved(&self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
+        let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
+        let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
+        let mut fallen = None;
+        for damping in DAMPINGS {
+            let Some(step) = self.newton_step(q, damping, held) else { continue };
+            let next = self.measured(stepped::<M>(&self.facts(), q, &step));
+            if next.1.relative < enough {
+                return Some(next);
+            }
+            if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
+                return None;
+            }
+            if leaps && damping == 0.0 && held == 0 && next.1.relative <= OVERSHOT * fit.relative {
+                let end = self.returned(next.0.clone(), fit.relative, held);
+                if end.is_some() {
+                    return end;
+                }
+            }
+            if next.1.relative < fit.relative && fallen.is_none() {
+                fallen = Some(next);
+            }
+        }
+        let leap = if leaps { self.leap(q, enough, held) } else { None };
+        leap.or(fallen)
+    }
+
+    /// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
+    /// beyond one of them, and from there on each quarters the miss.
+    fn returned(&self, mut q: Joints<M>, relative: f64, held: u32) -> Option<End<M>> {
+        for _ in 0..RETURNS {
+            let step = self.newton_step(&q, 0.0, held)?;
+            q = stepped::<M>(&self.facts(), &q, &step);
+            let fit = self.measure(&q);
+            if fit.relative < relative {
+                return Some((q, fit));
+            }
+        }
+        None
+    }
+
+    /// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
+    /// hardly changes along a bent way, and rises on each straight one.
+    fn leap(&self, q: &Joints<M>, enough: f64, held: u32) -> Option<End<M>> {
+        let step = self.newton_step(q, 0.0, held)?;
+        let longest = self.facts().longest(step.as_ref());
+        if !longest.is_finite() {
+            return None;
+        }
+        for most in LEAPS {
+            let share = f64::min(most / longest, 1.0);
+            let way: Joints<M> = Array::by(self.joints(), |i| share * step.as_ref()[i]);
+            let mut next = stepped::<M>(&self.facts(), q, &way);
+            for _ in 0..RETURNS {
+                let Some(back) = self.newton_step(&next, STIFF, held) else { break };
+                next = stepped::<M>(&self.facts(), &next, &back);
+                let fit = self.measure(&next);
+                if fit.relative < enough {
+                    return Some((next, fit));
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
+    pub fn are_joined(&self, a: &Joints<M>, b: &Joints<M>, bound: f64, held: u32) -> bool {
+        if self.facts().farthest(a.as_ref(), b.as_ref()) > BLUR {
+            return false;
+        }
+        let mut middle = beyond::<M>(&self.facts(), a, b, -0.5);
+        let mut fit = self.measure(&middle);
+        for _ in 0..RETURNS {
+            if fit.relative <= bound {
+                return true;
+            }
+            let Some(back) = self.newton_step(&middle, STIFF, held) else { return false };
+            middle = stepped::<M>(&self.facts(), &middle, &back);
+            fit = self.measure(&middle);
+        }
+        fit.relative <= bound
+    }
+
+    /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
+    fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
+        self.triangle(q, damping, held).substituted()
+    }
+
+    /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
+    /// hold, or a root is double.
+    pub fn regularity(&self, q: &Joints<M>) -> f64 {
+        let triangle = self.triangle(q, 0.0, 0);
+        let pivots = (0..self.joints()).map(|i| triangle.entry(i, i).abs());
+        let (least, most) =
+            pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
+        least / most
+    }
+
+    /// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
+    /// inverse iteration; none where a pivot is zero.
+    pub fn stillest(&self, q: &Joints<M>) -> Option<(Joints<M>, f64)> {
+        let mut triangle = self.triangle(q, 0.0, 0);
+        let joints = self.joints();
+        let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));
+        let mut way: Joints<M> = Array::by(joints, |_| 1.0);
+        let mut share = 1.0;
+        for _ in 0..INVERSIONS {
+            for row in 0..joints {
+                let above =
+                    (0..row).fold(way.as_ref()[row], |sum, k| sum - triangle.entry(row, k) * triangle.entry(joints, k));
+                let solved = above / triangle.entry(row, row);
+                triangle.column_mut(joints)[row] = solved;
+            }
+            let before = norm(&triangle.column(joints)[..joints]);
+            way = triangle.substituted()?;
+            share = before / (norm(way.as_ref()) * most);
+        }
+        let longest = self.facts().longest(way.as_ref());
+        let unit = Array::by(joints, |i| way.as_ref()[i] / longest);
+        (longest.is_finite() && longest > 0.0).then_some((unit, share))
+    }
+
+    /// The triangle of a step's equations.
+    fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+        let (at, joints, equations) = (self.place(q), self.joints(), self.facts().size_of.len());
+        let derivatives = self.mechanism.jacobian(self.parameters, &at);
+        let right = self.mechanism.values(self.parameters, &at);
+        let rows = equations + joints;
+        let mut triangle: Triangle<M> = Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints };
+        let mut size = 0.0;
+        for i in (0..joints).filter(|i| !is_in(held, *i)) {
+            let mut square = 0.0;
+            for (entry, row) in triangle.column_mut(i).iter_mut().zip(derivatives.as_ref()) {
+                *entry = row.as_ref()[i];
+                square += *entry * *entry;
+            }
+            size = f64::max(size, square);
+        }
+        triangle.column_mut(joints)[..equations].copy_from_slice(right.as_ref());
+        for i in 0..joints {
+            let damped = if is_in(held, i) { 1.0 } else { Arithmetic::sqrt(damping * size) };
+            triangle.column_mut(i)[equations + i] = damped;
+        }
+        triangle.reflect();
+        triangle
+    }
+}
+
+impl<M: Mechanism> Triangle<M> {
+    fn column(&self, column: usize) -> &[f64] {
+        &self.numbers.as_ref()[column * self.rows..][..self.rows]
+    }
+
+    fn column_mut(&mut self, column: usize) -> &mut [f64] {
+        &mut self.numbers.as_mut()[column * self.rows..][..self.rows]
+    }
+
+    fn entry(&self, column: usize, row: usize) -> f64 {
+        self.numbers.as_ref()[column * self.rows + row]
+    }
+
+    /// Turns columns into a triangle by reflections.
+    fn reflect(&mut self) {
+        for pivot in 0..self.joints {
+            let (before, behind) = self.numbers.as_mut().split_at_mut((pivot + 1) * self.rows);
+            let mirror = &mut before[pivot * self.rows..][pivot..];
+            let square = mirror.iter().fold(0.0, |sum, x| sum + x * x);
+            if square == 0.0 {
+                continue;
+            }
+            let length = Arithmetic::sqrt(square).copysign(mirror[0]);
+            mirror[0] += length;
+            let half = length * mirror[0];
+            for column in behind.chunks_exact_mut(self.rows) {
+                let column = &mut column[pivot..];
+                let along = mirror.iter().zip(&*column).fold(0.0, |sum, (x, y)| sum + x * y) / half;
+                column.iter_mut().zip(&*mirror).for_each(|(x, y)| *x -= along * y);
+            }
+            mirror[0] = -length;
+        }
+    }
+
+    /// The solution of the triangular system; none for a zero or non-finite pivot.
+    fn substituted(&self) -> Option<Joints<M>> {
+        let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
+        for row in (0..self.joints).rev() {
+            let pivot = self.entry(row, row);
+            if pivot == 0.0 || !pivot.is_finite() {
+                return None;
+            }
+            let mut sum = self.entry(self.joints, row);
+            for k in row + 1..self.joints {
+                sum -= self.entry(k, row) * solution.as_ref()[k];
+            }
+            solution.as_mut()[row] = sum / pivot;
+        }
+        Some(solution)
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    Arithmetic::sqrt(vector.iter().fold(0.0, |sum, x| sum + x * x))
+}

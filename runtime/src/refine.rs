@@ -1,0 +1,314 @@
+//! Candidates that are no answers where they were found, and answers next to each other.
+
+use crate::answers::Answers;
+use crate::approach::Approach;
+use crate::arithmetic::Arithmetic;
+use crate::joints::{differences, moved, shifted, stepped};
+use crate::mechanism::{Found, Joints, Mechanism};
+use crate::problem::{End, Fit};
+use crate::solution::Solution;
+use crate::storage::Array;
+use crate::tolerances::{
+    ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN,
+    TWINS_AT,
+};
+
+/// The most answers of a target.
+const MOST: usize = 4096;
+const WORD: usize = u64::BITS as usize;
+
+impl<M: Mechanism> Answers<'_, M> {
+    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    #[cold]
+    #[inline(never)]
+    pub fn refine(&mut self, number: usize, found: &Found, q: Joints<M>) {
+        if found.free != 0 {
+            self.unsound = number;
+            return self.refine_member(found, q);
+        }
+        let start = self.problem.measured(q.clone());
+        let missed = start.1.relative;
+        let end = self.problem.polish(start, 0);
+        let miss = end.1.relative;
+        let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
+        if !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
+            self.unsound = number;
+        }
+        if (ROUNDING..=NEAR).contains(&miss) {
+            self.around(found, &end, miss);
+        } else if (ROUNDING..=NEAR).contains(&missed) && way > LEVER * Arithmetic::sqrt(missed) {
+            self.around(found, &end, missed);
+            // Such a candidate stands between two answers: starts from the other side too.
+            let way = differences::<M>(&self.problem.facts(), &q, &end.0);
+            let start = self.problem.polished(shifted::<M>(&self.problem.facts(), &q, &way), 0);
+            self.keep(found, start);
+        }
+        if self.problem.facts().nearby.is_some() && (ROUNDING..=NEAR).contains(&missed) {
+            self.twin(found, &end.0, missed);
+        }
+        self.keep(found, end);
+    }
+
+    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
+    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
+    fn refine_member(&mut self, found: &Found, q: Joints<M>) {
+        let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
+        if self.out[..self.count].iter().any(settles) {
+            return;
+        }
+        let mut end = self.problem.measured(q);
+        let missed = end.1.relative;
+        if (ROUNDING..=ADRIFT).contains(&missed) {
+            end = self.problem.polish(end, found.free);
+        }
+        if self.keep_member(found, &end) {
+            return;
+        }
+        end = self.problem.polish(end, 0);
+        if !self.keep_member(found, &end) {
+            self.keep_alone(found, end, missed);
+        }
+    }
+
+    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
+    /// isolated answer. One that has not been found before may have another next to it.
+    fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
+        if end.1.relative > ALONE {
+            return self.miss(end);
+        }
+        let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
+        let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
+        let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
+        let alone = Found { free: joint.unwrap_or(0), ..*found };
+        let known = self.count;
+        self.keep(&alone, end.clone());
+        if joint.is_none() && self.count > known && (ROUNDING..=NEAR).contains(&missed) {
+            self.around(&alone, &end, missed);
+        }
+    }
+
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
+    fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
+        let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
+        if is_member {
+            self.keep(found, end.clone());
+        }
+        is_member
+    }
+
+    /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
+    pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
+        let Approach { end, fit, missed, pivot } = approach;
+        self.keep(found, (end.clone(), fit));
+        if pivot < missed * if found.close { STEEP } else { MILD } {
+            self.unsound = number;
+            self.twin(found, &end, missed);
+        }
+    }
+
+    /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
+    /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
+    fn twin(&mut self, found: &Found, end: &Joints<M>, missed: f64) {
+        let Some((way, share)) = self.problem.stillest(end) else { return };
+        if share > TWIN * Arithmetic::sqrt(missed) {
+            return;
+        }
+        for times in TWINS_AT {
+            let factor = times * Arithmetic::sqrt(missed);
+            let step: Joints<M> = Array::by(self.problem.joints(), |i| factor * way.as_ref()[i]);
+            let start = stepped::<M>(&self.problem.facts(), end, &step);
+            let end = match self.problem.approached(&self.problem.place(&start), &start) {
+                Some(Approach { end, fit, .. }) => (end, fit),
+                None => self.problem.polished(start, 0),
+            };
+            self.keep(found, end);
+        }
+    }
+
+    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
+    /// matters. Where none leads to an answer, from farther ones.
+    fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
+        let weights = self.problem.weights(&end.0);
+        let mut is_found = end.1.accepted;
+        let mut farther = 1.0;
+        while farther <= FARTHEST {
+            for i in 0..self.problem.joints() {
+                for sign in [-1.0, 1.0] {
+                    let weight = if end.1.accepted { 1.0 } else { weights.as_ref()[i] };
+                    let way = f64::min(farther * Arithmetic::sqrt(missed / weight), APART);
+                    let start = moved::<M>(&self.problem.facts(), &end.0, i, 2.0 * sign * way);
+                    let start = self.problem.polished(start, 0);
+                    is_found |= start.1.accepted;
+                    self.keep(found, start);
+                }
+            }
+            if is_found {
+                return;
+            }
+            farther *= FARTHER;
+        }
+    }
+
+    /// Remembers a candidate that is no answer if it comes nearest so far.
+    fn miss(&mut self, end: End<M>) {
+        let is_nearer = self.nearest.as_ref().is_none_or(|nearest| end.1.relative < nearest.1.relative);
+        if !end.1.accepted && end.1.relative.is_finite() && is_nearer {
+            self.nearest = Some(end);
+        }
+    }
+
+    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
+    /// a second root of a double one takes the next free number below `last`.
+    pub fn keep(&mut self, found: &Found, (q, fit): End<M>) {
+        if !fit.accepted {
+            return self.miss((q, fit));
+        }
+        let is_apart = |other: &Solution<M>| {
+            let is_near = self.problem.facts().is_within(other.q.as_ref(), q.as_ref(), BLUR);
+            other.branch != found.branch && other.is_isolated() && !is_near
+        };
+        let is_first = found.free == 0 && self.out[..self.count].iter().all(is_apart);
+        if is_first && self.count < self.out.len() {
+            return self.write(found, q, &fit);
+        }
+        self.keep_one(found, q, &fit);
+    }
+
+    /// As [`Answers::keep`], where others are near.
+    #[cold]
+    #[inline(never)]
+    fn keep_one(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
+        let Found { branch, last, free, .. } = *found;
+        let next = if free == 0 { last } else { branch };
+        let is_taken = |branch: usize| self.out[..self.count].iter().any(|answer| answer.branch == branch);
+        let branch = (branch..next).find(|branch| !is_taken(*branch)).unwrap_or(branch);
+        let Fit { residual, relative, .. } = *fit;
+        let mut answer = Solution { q, residual, relative, branch, chosen: false, free };
+        let mut doubles = [0_u64; MOST / WORD];
+        let mut first = None;
+        for i in 0..self.count.min(MOST) {
+            let other = &self.out[i];
+            if self.is_one(other, &answer) {
+                if holds_against(other, &answer) {
+                    return;
+                }
+                doubles[i / WORD] |= 1 << (i % WORD);
+                first = first.or(Some(other.branch));
+            }
+        }
+        if free == 0 {
+            answer.branch = first.unwrap_or(branch);
+        }
+        self.retain(|i| doubles[i / WORD] >> (i % WORD) & 1 == 0);
+        self.push(answer);
+    }
+
+    /// Drops the answers whose index does not stay.
+    fn retain(&mut self, stays: impl Fn(usize) -> bool) {
+        let mut kept = 0;
+        for i in 0..self.count {
+            if stays(i) {
+                self.out.swap(kept, i);
+                kept += 1;
+            }
+        }
+        self.count = kept;
+    }
+
+    /// Adds an answer; where there are too many, the worst is left out.
+    fn push(&mut self, answer: Solution<M>) {
+        if self.count == self.out.len() {
+            let mut worst = None;
+            for (i, other) in self.out.iter().enumerate() {
+                if worst.is_none_or(|(_, most)| other.relative >= most) {
+                    worst = Some((i, other.relative));
+                }
+            }
+            match worst {
+                Some((worst, most)) if answer.relative < most => self.retain(|i| i != worst),
+                _ => return,
+            }
+        }
+        self.out[self.count] = answer;
+        self.count += 1;
+    }
+
+    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
+    /// nearest two are one, and the better of them stays.
+    pub fn unite(&mut self) {
+        let Some(most) = self.problem.facts().isolated else { return };
+        while self.count > most && self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count() > most {
+            let (mut least, mut worse) = (f64::INFINITY, 0);
+            for second in 0..self.count {
+                for first in 0..second {
+                    let (a, b) = (&self.out[first], &self.out[second]);
+                    let distance = self.problem.facts().farthest(a.q.as_ref(), b.q.as_ref());
+                    if a.is_isolated() && b.is_isolated() && distance < least {
+                        (least, worse) = (distance, if a.relative > b.relative { first } else { second });
+                    }
+                }
+            }
+            self.retain(|i| i != worse);
+        }
+    }
+
+    /// Insertion sort by branch.
+    pub fn sort(&mut self) {
+        for end in 1..self.count {
+            for place in (1..=end).rev() {
+                if self.out[place - 1].branch <= self.out[place].branch {
+                    break;
+                }
+                self.out.swap(place - 1, place);
+            }
+        }
+    }
+
+    /// Marks what the source would choose.
+    pub fn mark_choice(&mut self) {
+        let Some(preference) = self.problem.facts().preference else { return };
+        let sign = if preference.greatest { -1.0 } else { 1.0 };
+        let value = |answer: &Solution<M>| sign * self.problem.place(&answer.q).as_ref()[preference.place];
+        let answers = &mut self.out[..self.count];
+        let least = answers.iter().map(value).fold(f64::INFINITY, f64::min);
+        for answer in answers {
+            answer.chosen = value(answer) <= least + MERGE;
+        }
+    }
+
+    /// Whether two answers are one: members of one self-motion, or within [`MERGE`] with joints left out that are free in either, or one singular
+    /// configuration.
+    fn is_one(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
+        let (problem, free) = (&self.problem, a.free | b.free);
+        if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), free, MERGE) {
+            return true;
+        }
+        match (a.is_isolated(), b.is_isolated()) {
+            (true, true) => self.are_blurred(a, b),
+            (false, false) => a.free == b.free && (a.branch == b.branch || problem.leads_to(a, b)),
+            (true, false) => b.relative <= ROUNDING && problem.lies_on_self_motion(&a.q, b.free, ROUNDING),
+            (false, true) => a.relative <= ROUNDING && problem.lies_on_self_motion(&b.q, a.free, ROUNDING),
+        }
+    }
+
+    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]:
+    /// they hold half-way too, as well as at the worse of the two.
+    fn are_blurred(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
+        let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
+        let is_near = self.problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR;
+        if bound <= ROUNDING && is_near && self.problem.regularity(&b.q) > DISTINCT {
+            return false;
+        }
+        self.problem.are_joined(&a.q, &b.q, bound, 0)
+    }
+}
+
+/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
+/// its first member against the others.
+fn holds_against<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
+    match (a.is_isolated(), b.is_isolated()) {
+        (true, false) if b.relative <= ROUNDING => false,
+        (false, _) if a.relative <= ROUNDING => true,
+        _ => a.relative <= b.relative,
+    }
+}

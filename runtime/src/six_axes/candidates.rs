@@ -1,0 +1,229 @@
+//! From the pencil to joint angles: eigenvalues, eigenvectors, back-substitution ([`Candidates`]).
+
+use core::array::from_fn;
+
+use super::chain::{Chain, Formulation};
+use super::hessenberg::Hessenberg;
+use super::linear::solve;
+use super::pencil::{Doubled, Matrix, NEAR, Pencil, SIZE, Wide};
+use super::profile::{PRODUCTS, Products};
+use super::reduce::Reduced;
+use super::rigid::Rigid;
+use super::rows::{COLUMNS, FAR, Rows};
+use super::screw::{Axis, Figure};
+use super::shifted_qr::Eigenvalue;
+use super::vector::{Vector, cosines_and_sines, product, turn};
+use crate::trigonometry::{angle, cosine, sine};
+
+/// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
+const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
+/// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
+const SOUND: f64 = 1e-9;
+/// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
+const CROWDED: f64 = 1e-8;
+
+/// A candidate for a solution.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate {
+    /// The joint values; that of the joint whose line was used is still missing, and a way may be infinite.
+    pub q: [f64; 6],
+    /// [`Eigenvalue::depth`].
+    pub depth: f64,
+}
+
+/// Candidates for solutions of one formulation.
+pub(super) struct Candidates {
+    /// Those of real eigenvalues first.
+    list: [Candidate; SIZE],
+    count: usize,
+    /// Whether two real eigenvalues are so close that their eigenvectors are not known.
+    pub is_crowded: bool,
+    /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
+    pub conditioning: f64,
+}
+
+/// What an eigenvector means.
+struct Reader<'a> {
+    slides: &'a [bool; 6],
+    formulation: Formulation,
+    reduced: &'a Reduced,
+    pencil: &'a Pencil,
+}
+
+impl Candidates {
+    /// Those at a displacement, of eigenvalues no farther off the real line than `deepest`; each `attempt` begins with another origin of the half angle.
+    /// `None` when the pencil is singular for this target, or not finite.
+    #[inline(always)]
+    pub fn new(chain: &Chain, displacement: &Rigid, attempt: usize, deepest: f64) -> Option<Self> {
+        let formulation = chain.formulations.of(attempt);
+        let reduced = Reduced::new(equations(chain, formulation, displacement));
+        let slides = chain.slides[formulation.doubled()];
+        let pencil = Pencil::new(&reduced, Doubled { second: formulation.second, slides })?;
+        let Standard { origin, matrix, conditioning } = Standard::new(&pencil, attempt)?;
+        let form = Hessenberg::reduce(matrix);
+        let values = form.eigenvalues()?;
+        let reader = Reader { slides: &chain.slides, formulation, reduced: &reduced, pencil: &pencil };
+        let (near, count) = near_real(&values, deepest);
+        let vectors = form.eigenvectors(&near.map(|value| value.re)[..count]);
+        let mut list = [Candidate { q: [0.0; 6], depth: 0.0 }; SIZE];
+        for (candidate, (value, vector)) in list.iter_mut().zip(near[..count].iter().zip(&vectors)) {
+            let half = origin + angle(1.0, value.re + value.im);
+            *candidate = Candidate { q: reader.values(half, vector), depth: value.depth() };
+        }
+        Some(Candidates { list, count, is_crowded: is_crowded(&values), conditioning })
+    }
+
+    pub fn as_slice(&self) -> &[Candidate] {
+        &self.list[..self.count]
+    }
+}
+
+/// The equations of a formulation.
+#[inline(always)]
+fn equations(chain: &Chain, formulation: Formulation, displacement: &Rigid) -> Rows {
+    let place = |steps: usize, ahead: bool| chain.place(formulation, steps, ahead, displacement);
+    let axis = |steps: usize, ahead: bool| {
+        let Figure { direction, point, .. } = place(steps, ahead);
+        Axis { direction, point, slides: chain.slides[formulation.joint(steps)] }
+    };
+    let frame = chain.frame(formulation);
+    let near = frame.profile(&axis(1, true), &axis(2, true), &place(3, true));
+    let far = frame.profile(&axis(5, false), &axis(4, false), &place(3, false));
+    Rows::new(&near, &far, [frame.axis.slides, chain.slides[formulation.joint(3)]])
+}
+
+/// The eigenvalues no farther off the real line than `deepest`, real ones first; how many they are.
+fn near_real(values: &[Eigenvalue; SIZE], deepest: f64) -> ([Eigenvalue; SIZE], usize) {
+    let (mut near, mut count) = ([Eigenvalue { re: 0.0, im: 0.0 }; SIZE], 0);
+    for is_real in [true, false] {
+        for value in values.iter().filter(|value| (value.im == 0.0) == is_real && value.depth() <= deepest) {
+            near[count] = *value;
+            count += 1;
+        }
+    }
+    (near, count)
+}
+
+fn is_crowded(values: &[Eigenvalue; SIZE]) -> bool {
+    let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
+        a.im == 0.0 && b.im == 0.0 && (a.re - b.re).abs() <= CROWDED * (1.0 + a.re * a.re + b.re * b.re)
+    };
+    (1..SIZE).any(|k| values[..k].iter().any(|other| is_close(other, &values[k])))
+}
+
+/// `B^-1 A` for an origin of the half angle.
+struct Standard {
+    origin: f64,
+    matrix: Matrix,
+    /// How well `B` was inverted.
+    conditioning: f64,
+}
+
+impl Standard {
+    /// That of the first origin whose `B` can be inverted well, or of the best one.
+    #[inline(always)]
+    fn new(pencil: &Pencil, attempt: usize) -> Option<Self> {
+        let origin = |index: usize| ORIGINS[(attempt + index) % ORIGINS.len()];
+        let mut best = Standard::of(pencil, origin(0));
+        for index in 1..ORIGINS.len() {
+            if best.conditioning >= SOUND {
+                break;
+            }
+            let other = Standard::of(pencil, origin(index));
+            if other.conditioning > best.conditioning {
+                best = other;
+            }
+        }
+        (best.conditioning > 0.0).then_some(best)
+    }
+
+    fn of(pencil: &Pencil, origin: f64) -> Self {
+        let (c, s) = (cosine(origin), sine(origin));
+        let mut rows = [[0.0; 2 * SIZE]; SIZE];
+        for (row, (a, b)) in rows.iter_mut().zip(pencil.constant.iter().zip(&pencil.linear)) {
+            for column in 0..SIZE {
+                row[column] = s * a[column] + c * b[column];
+                row[SIZE + column] = c * a[column] - s * b[column];
+            }
+        }
+        let (conditioning, mut matrix) = (solve(&mut rows), [[0.0; SIZE]; SIZE]);
+        matrix.iter_mut().zip(&rows).for_each(|(entries, row)| entries.copy_from_slice(&row[SIZE..]));
+        Standard { origin, matrix, conditioning }
+    }
+}
+
+impl Reader<'_> {
+    /// The values, given half the hidden angle and its eigenvector.
+    fn values(&self, hidden: f64, vector: &[f64; SIZE]) -> [f64; 6] {
+        let wide = self.pencil.widened(vector);
+        let (half, head) = half_angle(&wide);
+        let [[c], [s]] = cosines_and_sines(&[half]);
+        let [near, far] = if self.formulation.second { [2, 1] } else { [1, 2] };
+        let sign = 1.0_f64.copysign(head[0]);
+        let other = if self.slides(far) { head[2] / head[0] } else { turn(head[1] * sign, head[2] * sign) };
+        let doubled = if self.slides(near) { s / c } else { 2.0 * half };
+        let (first, second) = if self.formulation.second { (other, doubled) } else { (doubled, other) };
+        let [a, b] = self.factors([first, second]);
+        let products = from_fn(|product| a[product / 3] * b[product % 3]);
+        let far = self.far(&wide, [c, s], head[0], &products);
+        let fourth = if self.slides(4) { -far[1] } else { -turn(far[0], far[1]) };
+        let fifth = if self.slides(5) { -far[5] } else { -turn(far[2], far[5]) };
+        let mut ordered = [0.0; 6];
+        for (steps, value) in [self.doubled(hidden), first, second, 0.0, fourth, fifth].into_iter().enumerate() {
+            ordered[self.formulation.joint(steps)] = value;
+        }
+        ordered
+    }
+
+    /// The angle or way of the hidden joint, given half of it.
+    #[inline(always)]
+    fn doubled(&self, half: f64) -> f64 {
+        if !self.slides(0) {
+            return 2.0 * half;
+        }
+        2.0 * (sine(half) / cosine(half))
+    }
+
+    /// Whether the joint `steps` behind the hidden one slides.
+    #[inline(always)]
+    fn slides(&self, steps: usize) -> bool {
+        self.slides[self.formulation.joint(steps)]
+    }
+
+    /// 1, c, s of the angles, or 1, d^2, d of the ways, of the near joints.
+    #[inline(always)]
+    fn factors(&self, values: [f64; 2]) -> [[f64; 3]; 2] {
+        let [c, s] = cosines_and_sines(&values);
+        from_fn(|k| if self.slides(k + 1) { [1.0, values[k] * values[k], values[k]] } else { [1.0, c[k], s[k]] })
+    }
+
+    /// The products of the far joints.
+    #[inline(always)]
+    fn far(&self, wide: &Wide, [c, s]: [f64; 2], head: f64, near: &Products) -> [f64; FAR] {
+        let scale = if c.abs() >= s.abs() { head / (c * c * c) } else { head / (s * s * s) };
+        let scale = if self.slides[self.formulation.doubled()] { scale * (c * c) } else { scale };
+        let (solved, order, left) = (self.reduced.solved, &self.reduced.order, self.reduced.left());
+        let mut values = [0.0; COLUMNS];
+        values[..PRODUCTS].copy_from_slice(near);
+        for (k, column) in order[solved..].iter().enumerate() {
+            values[*column] = (c * wide[NEAR + k] + s * wide[NEAR + left + k]) / scale;
+        }
+        let known = values;
+        for (row, column) in self.reduced.rows.still.iter().zip(&order[..solved]) {
+            values[*column] = -product(row, &known);
+        }
+        from_fn(|product| values[PRODUCTS + product])
+    }
+}
+
+/// Half of the doubled angle, and the products of the other near joint at the greatest monomial: multiples of 1, c, s.
+#[inline(always)]
+fn half_angle(wide: &Wide) -> (f64, Vector) {
+    let powers = [0, 3, 6, 9].map(|first| [wide[first], wide[first + 1], wide[first + 2]]);
+    let [first, last] = [0, 3].map(|power: usize| product(&powers[power], &powers[power]));
+    if first >= last {
+        (turn(first, product(&powers[1], &powers[0])), powers[0])
+    } else {
+        (turn(product(&powers[2], &powers[3]), last), powers[3])
+    }
+}

@@ -1,0 +1,178 @@
+//! Curves all along which the target is nearly reached, as next to a self-motion ([`Walk`]).
+//!
+//! Beside a self-motion the isolated answers of a target may stand anywhere on the curve that the self-motion was, and Newton's steps find none of them: the
+//! Jacobian has rank five but for a trace. A walk holds the five equations that joints can change and goes along the tangent; what is missed of the sixth
+//! one changes its sign at each answer. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
+
+use core::array::from_fn;
+use core::f64::consts::TAU;
+
+use super::answers::{ROOM, Search, distance};
+use super::chain::Chain;
+use super::polish::EXACT;
+use super::rigid::Rigid;
+use super::section::Place;
+use super::vector::product;
+use crate::arithmetic::Arithmetic;
+
+/// What rounding leaves of the equations on a self-motion.
+const LEVEL: f64 = 1e-13;
+/// Steps across the curve at most, from where a walk may begin.
+const ROUNDS: usize = 12;
+/// The same from the end of a step along it.
+const FEW: usize = 5;
+/// The length of a step along the curve.
+const STRIDE: f64 = 0.1;
+/// The least one, as a share of it.
+const SHORT: f64 = 0.015;
+/// The most steps of a walk in one direction.
+const PACES: usize = 400;
+/// Rounds of the false position between two steps.
+const NARROWED: usize = 16;
+
+/// A walk along all curves that are found from some joint vectors.
+pub(super) struct Walk<'a> {
+    chain: &'a Chain,
+    target: &'a Rigid,
+    /// Where walks begin; those that another one has passed are left out.
+    starts: [Option<Place>; ROOM],
+    count: usize,
+}
+
+impl<'a> Walk<'a> {
+    /// A walk that has not begun.
+    pub fn new(chain: &'a Chain, target: &'a Rigid) -> Self {
+        Walk { chain, target, starts: [None; ROOM], count: 0 }
+    }
+
+    /// Begins at `q` too if there is a curve next to it.
+    pub fn begin(&mut self, q: [f64; 6]) {
+        if self.count < ROOM
+            && let Some(place) = self.chain.settled(q, self.target, ROUNDS)
+        {
+            self.starts[self.count] = Some(place);
+            self.count += 1;
+        }
+    }
+
+    /// Walks along the curves, both ways if they do not close, and adds answers where the sixth equation changes its sign; of a curve that misses nothing,
+    /// a self-motion, one member.
+    pub fn run(mut self, search: &mut Search) {
+        for index in 0..self.count {
+            let Some(start) = self.starts[index].take() else { continue };
+            let mut level = start.section.value.abs();
+            for way in [1.0, -1.0] {
+                let mut first = start;
+                first.section.along = first.section.along.map(|entry| way * entry);
+                if self.leads_home(first, search, &mut level) {
+                    break;
+                }
+            }
+            if level <= LEVEL {
+                search.find(self.chain, start.q, self.target);
+            }
+        }
+    }
+
+    /// Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the most that was missed.
+    fn leads_home(&mut self, home: Place, search: &mut Search, level: &mut f64) -> bool {
+        let slides = &self.chain.slides;
+        let (mut before, mut at, mut stride, mut is_away) = (home, home, STRIDE, false);
+        for _ in 0..PACES {
+            let Some(next) = self.pace(&at, &mut stride) else { return false };
+            *level = f64::max(*level, next.section.value.abs());
+            self.change(&at, &next, search);
+            self.dip([&before, &at, &next], search);
+            for start in &mut self.starts[..self.count] {
+                *start = start.filter(|start| distance(&start.q, &next.q, slides) > STRIDE);
+            }
+            (before, at) = (at, next);
+            let way = distance(&at.q, &home.q, slides);
+            is_away |= way > 3.0 * STRIDE;
+            if is_away && way <= STRIDE && product(&at.section.along, &home.section.along) > 0.5 {
+                let section = home.section.aligned(&at.section);
+                self.change(&at, &Place { q: beside(&home.q, &at.q, slides), section }, search);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// A step along the curve, shorter where it bends; `None` where it ends.
+    fn pace(&self, at: &Place, stride: &mut f64) -> Option<Place> {
+        while *stride >= SHORT * STRIDE {
+            let ahead = between(&at.q, &at.section.along, *stride);
+            if let Some(next) = self.chain.settled(ahead, self.target, FEW)
+                && product(&next.section.along, &at.section.along).abs() > 0.9
+                && distance(&next.q, &at.q, &self.chain.slides) <= 2.0 * *stride
+            {
+                *stride = f64::min(2.0 * *stride, STRIDE);
+                return Some(Place { section: next.section.aligned(&at.section), ..next });
+            }
+            *stride *= 0.5;
+        }
+        None
+    }
+
+    /// Adds the answer between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt,
+    /// BIT 11 (1971) 168-174).
+    fn change(&self, a: &Place, b: &Place, search: &mut Search) {
+        let (mut low, mut high) = (a.section.value, b.section.value);
+        if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= LEVEL {
+            return;
+        }
+        let (mut near, mut far, mut side) = (*a, *b, 0.0);
+        for _ in 0..NARROWED {
+            let way: [f64; 6] = from_fn(|joint| far.q[joint] - near.q[joint]);
+            let middle = between(&near.q, &way, low / (low - high));
+            let Some(place) = self.chain.settled(middle, self.target, FEW) else { break };
+            let section = place.section.aligned(&a.section);
+            if (section.value <= 0.0) == (low <= 0.0) {
+                near = Place { section, ..place };
+                high = if side < 0.0 { 0.5 * high } else { far.section.value };
+                (low, side) = (section.value, -1.0);
+            } else {
+                far = Place { section, ..place };
+                low = if side > 0.0 { 0.5 * low } else { near.section.value };
+                (high, side) = (section.value, 1.0);
+            }
+            if section.value.abs() <= EXACT {
+                break;
+            }
+        }
+        let best = if near.section.value.abs() <= far.section.value.abs() { near } else { far };
+        search.find(self.chain, best.q, self.target);
+    }
+
+    /// Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one.
+    fn dip(&self, [a, b, c]: [&Place; 3], search: &mut Search) {
+        let [low, least, high] = [a, b, c].map(|place| place.section.value);
+        let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > LEVEL;
+        if !is_dip || (low <= 0.0) != (least <= 0.0) || (high <= 0.0) != (least <= 0.0) {
+            return;
+        }
+        let share = 0.5 * (low - high) / (low - least - least + high);
+        let end = if share < 0.0 { a } else { c };
+        let way: [f64; 6] = from_fn(|joint| end.q[joint] - b.q[joint]);
+        if let Some(place) = self.chain.settled(between(&b.q, &way, share.abs()), self.target, FEW) {
+            let vertex = Place { section: place.section.aligned(&b.section), ..place };
+            self.change(b, &vertex, search);
+            self.change(&vertex, end, search);
+            search.find(self.chain, vertex.q, self.target);
+        }
+    }
+}
+
+/// `q` moved along `way` by a share of it.
+fn between(q: &[f64; 6], way: &[f64; 6], share: f64) -> [f64; 6] {
+    from_fn(|joint| q[joint] + share * way[joint])
+}
+
+/// `q` with the turns of its angles that are nearest to `other`.
+fn beside(q: &[f64; 6], other: &[f64; 6], slides: &[bool; 6]) -> [f64; 6] {
+    from_fn(|joint| {
+        let way = other[joint] - q[joint];
+        let turns = if slides[joint] { 0.0 } else { Arithmetic::round(way / TAU) };
+        q[joint] + TAU * turns
+    })
+}

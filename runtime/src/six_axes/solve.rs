@@ -1,0 +1,215 @@
+//! The solver: formulations in turn until one can be trusted ([`Chain::solve`]).
+
+use core::array::from_fn;
+
+use super::answers::{ACCEPT, Answer, Answers, Distinct, List, Search, wrapped};
+use super::candidates::{Candidate, Candidates};
+use super::chain::Chain;
+use super::curve::Walk;
+use super::rigid::{Rigid, aside};
+use super::vector::scale;
+
+/// The share of a pivot below which another formulation is asked too.
+const SOUND: f64 = 1e-11;
+/// The share of a pivot at which a target without real eigenvalues is out of reach.
+const CLEAR: f64 = 1e-6;
+/// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
+const ACCURATE: f64 = 1e-6;
+/// What stands in for the accuracy of the eigenvalues when it is better than that.
+const UNKNOWN: f64 = 1e-11;
+/// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
+const OFF: f64 = 1e3;
+/// Below it, it is tried.
+const FAR_OFF: f64 = 1e7;
+/// A complex pair that is farther off the real line is no double root that rounding has parted.
+const BLURRED: f64 = 1e-2;
+/// More than any eigenvalue is off the real line.
+const DEEPEST: f64 = 1.0;
+/// By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of
+/// isolated ones are only found next to it.
+const DISTURBANCES: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+/// A way of so many length scales stands for an infinite one.
+const LONG: f64 = 1e4;
+/// Stages in which a candidate next to the target is led to it.
+const STAGES: usize = 20;
+
+/// A target, and where it is put aside for one attempt.
+struct Attempt<'a> {
+    chain: &'a Chain,
+    number: usize,
+    /// How far aside.
+    size: f64,
+    /// What takes the tip from its place at zero to the target.
+    goal: &'a Rigid,
+    /// The frame of the last joint at the target.
+    target: &'a Rigid,
+    /// The same at the target aside.
+    near: Rigid,
+    /// The joint whose line is used.
+    missing: usize,
+}
+
+/// What an attempt has come to.
+struct Tally {
+    /// Its own answers, which are of interest behind the first attempt.
+    own: Distinct,
+    /// How many candidates led nowhere.
+    lost: usize,
+    /// The most that a candidate missed the target by before it was polished.
+    worst: f64,
+}
+
+impl Chain {
+    /// All joint values that reach a target: a position, and a rotation matrix by rows.
+    #[must_use]
+    pub fn solve(&self, target: &[f64; 12]) -> Answers {
+        let rotation = from_fn(|i| from_fn(|j| target[3 + 3 * i + j]));
+        let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
+        let displacement = pose.after(&self.back);
+        let goal = Rigid { translation: scale(&displacement.translation, 1.0 / self.length), ..displacement };
+        let target = goal.after(&self.last);
+        let mut search = Search::NONE;
+        let runs = self.search(&goal, &target, &mut search);
+        if runs > 1 {
+            self.walk(&target, &mut search);
+        }
+        // A run that can be trusted at once has seen no self-motion.
+        self.told(&search, runs == 1)
+    }
+
+    /// Runs formulations until one can be trusted; their number. What was lost is forgotten then.
+    fn search(&self, goal: &Rigid, target: &Rigid, search: &mut Search) -> usize {
+        for (number, size) in DISTURBANCES.into_iter().enumerate() {
+            // One run aside shows too little of what may be beside it.
+            let is_first_aside = size > 0.0 && DISTURBANCES[number - 1] == 0.0;
+            if is_first_aside {
+                search.lost = List::EMPTY;
+            }
+            let displacement = aside(size, number).after(goal);
+            let missing = self.formulations.of(number).joint(3);
+            let near = displacement.after(&self.last);
+            let attempt = Attempt { chain: self, number, size, goal, target, near, missing };
+            if attempt.run(&displacement, search) && !is_first_aside {
+                search.lost = List::EMPTY;
+                return number + 1;
+            }
+        }
+        DISTURBANCES.len()
+    }
+
+    /// Walks along the curves next to answers, and to candidates that led to none.
+    fn walk(&self, target: &Rigid, search: &mut Search) {
+        let mut walk = Walk::new(self, target);
+        for q in search.answers.iter() {
+            if self.section(q, target).is_some_and(|section| section.is_near()) {
+                walk.begin(*q);
+            }
+        }
+        search.far.as_slice().iter().chain(search.lost.as_slice()).for_each(|q| walk.begin(*q));
+        walk.run(search);
+    }
+
+    /// What was found, in the unit of the target.
+    fn told(&self, search: &Search, is_isolated: bool) -> Answers {
+        let mut answers = Answers::NONE;
+        for q in search.answers.iter() {
+            let free = if is_isolated { [false; 6] } else { self.free(q) };
+            answers.push(Answer { q: self.scaled(q), free, lost: false });
+        }
+        answers.sort();
+        for q in search.lost.as_slice() {
+            answers.push(Answer { q: self.scaled(q), free: [false; 6], lost: true });
+        }
+        answers
+    }
+
+    /// Whether a way is so long that it stands for an infinite one, which chains with two sliding joints have among their eigenvalues.
+    fn is_infinite(&self, q: &[f64; 6]) -> bool {
+        q.iter().zip(&self.slides).any(|(way, slides)| *slides && (way.is_nan() || way.abs() > LONG))
+    }
+}
+
+impl Attempt<'_> {
+    /// Adds the answers of one formulation; whether it can be trusted to have found all.
+    fn run(&self, displacement: &Rigid, search: &mut Search) -> bool {
+        let known = search.answers.count;
+        let deepest = if self.size > 0.0 { DEEPEST } else { BLURRED };
+        let Some(candidates) = Candidates::new(self.chain, displacement, self.number, deepest) else { return false };
+        let mut tally = Tally { own: Distinct::NONE, lost: 0, worst: 0.0 };
+        for candidate in candidates.as_slice() {
+            self.follow(candidate, search, &mut tally);
+        }
+        let count = search.answers.count;
+        let is_unreachable = candidates.as_slice().is_empty() && candidates.conditioning >= CLEAR;
+        let is_clear = tally.lost == 0 && count.is_multiple_of(2) && !candidates.is_crowded;
+        let is_clear = is_clear && (count > 0 || is_unreachable);
+        let nothing_lost = search.lost.as_slice().is_empty();
+        let is_confirmed = self.number > 0 && known == count && tally.own.count == count && nothing_lost;
+        let is_sound = tally.worst <= ACCURATE && candidates.conditioning >= SOUND;
+        is_clear && (is_confirmed || is_sound && (self.size == 0.0 || nothing_lost))
+    }
+
+    /// Polishes a candidate, and keeps or remembers it.
+    fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
+        let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
+        let is_far = deep > FAR_OFF * accuracy;
+        if (is_far && self.size <= 0.0) || self.chain.is_infinite(&candidate.q) {
+            return;
+        }
+        let mut q = candidate.q;
+        q[self.missing] = self.chain.closing(&q, self.missing, &self.near);
+        let first = q;
+        if is_far {
+            search.far.remember(first);
+            return;
+        }
+        let (start, mut residual) = self.chain.polish(&mut q, &self.near);
+        let mut last = q;
+        if self.size > 0.0 {
+            (q, last, residual) = self.brought(q);
+        }
+        if self.size > 0.0 && (residual > ACCEPT || candidate.depth > 0.0) {
+            search.far.remember(first);
+        }
+        if residual <= ACCEPT {
+            tally.worst = if candidate.depth == 0.0 { f64::max(tally.worst, start) } else { tally.worst };
+            let q = wrapped(&q, &self.chain.slides);
+            search.answers.keep(q, residual, &self.chain.slides);
+            if self.number > 0 {
+                tally.own.keep(q, residual, &self.chain.slides);
+            }
+        } else if deep <= OFF * accuracy {
+            tally.lost += 1;
+            search.lose(last);
+        }
+    }
+
+    /// Joints that reach the target aside brought to the target: at once, or in stages; the last ones that were reached, and the residual.
+    fn brought(&self, near: [f64; 6]) -> ([f64; 6], [f64; 6], f64) {
+        let mut q = near;
+        let residual = self.chain.polish(&mut q, self.target).1;
+        if residual <= ACCEPT {
+            return (q, near, residual);
+        }
+        q = near;
+        let (last, residual) = self.led(&mut q);
+        (q, last, residual)
+    }
+
+    /// Leads joints that reach the target aside to the target in stages, each a quarter of the way from it that the one before was: next to a
+    /// self-motion it is as flat as the target is near, and a step must be no longer. The joints of the last stage that succeeded, and the residual at the
+    /// target.
+    fn led(&self, q: &mut [f64; 6]) -> ([f64; 6], f64) {
+        let (mut last, mut residual, mut size) = (*q, 1.0, self.size);
+        for stage in 0..STAGES {
+            size = if stage + 1 < STAGES { 0.25 * size } else { 0.0 };
+            let target = aside(size, self.number).after(self.goal).after(&self.chain.last);
+            residual = self.chain.polish(q, &target).1;
+            if residual > ACCEPT {
+                break;
+            }
+            last = *q;
+        }
+        (last, residual)
+    }
+}

@@ -1,0 +1,239 @@
+//! What a mechanism's solver offers: [`Solve`].
+
+use crate::answers::Answers;
+use crate::batch::solve_widest;
+use crate::conditions::conform;
+use crate::joints::place;
+use crate::limits::{self, strides_within, turned_within};
+use crate::mechanism::{Answered, Inputs, Joint, Joints, Mechanism, Reached};
+use crate::problem::Problem;
+use crate::solution::{Error, Pairs, Solution};
+use crate::storage::Array;
+use crate::trigonometry::{angle, cosine, sine};
+
+/// Inverse kinematics of a mechanism.
+///
+/// A target is the pose of the tip in the base frame as twelve numbers, its position and its rotation by rows, or what else the task is; metres and
+/// radians, unless the mechanism's file says so. Angles of solutions lie in (-pi, pi].
+pub trait Solve: Mechanism {
+    /// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach. A branch keeps its number
+    /// from target to target. With room for fewer than the target has, the best of them.
+    ///
+    /// # Errors
+    /// As [`Error`] says; the content of `out` has no meaning then.
+    fn solve(&self, target: &Inputs<Self>, out: &mut [Solution<Self>]) -> Result<usize, Error> {
+        let mut target = target.clone();
+        conform(self.facts().conditions, target.as_mut())?;
+        let p = self.parameters(&target);
+        let mut answers = Answers::new(Problem::new(self, &p), out, None);
+        self.walk(&p, &mut answers);
+        answers.flush();
+        if let Some(number) = answers.open {
+            return Err(Error::OpenStratum(number));
+        }
+        answers.unite();
+        answers.sort();
+        answers.mark_choice();
+        Ok(answers.count)
+    }
+
+    /// As [`Solve::solve`]; where there is no solution, the joint values that missed the equations by the least share of their size, if polishing led to
+    /// some: no solution, and marked as such by its residual.
+    ///
+    /// # Errors
+    /// As [`Solve::solve`].
+    fn solve_or_nearest(
+        &self,
+        target: &Inputs<Self>,
+        out: &mut [Solution<Self>],
+    ) -> Result<(usize, Option<Solution<Self>>), Error> {
+        let mut target = target.clone();
+        conform(self.facts().conditions, target.as_mut())?;
+        let p = self.parameters(&target);
+        let mut answers = Answers::new(Problem::new(self, &p), out, None);
+        self.walk(&p, &mut answers);
+        answers.flush();
+        if let Some(number) = answers.open {
+            return Err(Error::OpenStratum(number));
+        }
+        answers.unite();
+        answers.sort();
+        answers.mark_choice();
+        let nearest = answers.nearest.take().filter(|_| answers.count == 0);
+        let solution = |(q, fit): (Joints<Self>, crate::problem::Fit)| Solution {
+            q,
+            residual: fit.residual,
+            relative: fit.relative,
+            branch: 0,
+            chosen: false,
+            free: 0,
+        };
+        Ok((answers.count, nearest.map(solution)))
+    }
+
+    /// As [`Solve::solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
+    /// two are next to each other, the cosines and sines are those of the angles that [`Solve::solve`] finds.
+    ///
+    /// # Errors
+    /// As [`Solve::solve`].
+    fn solve_pairs(&self, target: &Inputs<Self>, out: &mut [Pairs<Self>]) -> Result<usize, Error> {
+        let mut conforming = target.clone();
+        conform(self.facts().conditions, conforming.as_mut())?;
+        let p = self.parameters(&conforming);
+        let mut answers = Answers::new(Problem::new(self, &p), &mut [], Some(&mut *out));
+        self.walk(&p, &mut answers);
+        answers.flush();
+        if let Some(number) = answers.open {
+            return Err(Error::OpenStratum(number));
+        }
+        let (count, are_all) = (answers.count, answers.are_all_pairs());
+        if are_all {
+            out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+            return Ok(count);
+        }
+        let mut list: Answered<Self, Solution<Self>> = Array::by(self.facts().capacity, |_| Solution::empty(self));
+        let count = self.solve(target, list.as_mut())?.min(out.len());
+        for (pairs, solution) in out.iter_mut().zip(list.as_ref()).take(count) {
+            *pairs = self.pairs_of(solution);
+        }
+        Ok(count)
+    }
+
+    /// A solution by cosines and sines.
+    fn pairs_of(&self, solution: &Solution<Self>) -> Pairs<Self> {
+        let facts = self.facts();
+        let joints = Array::by(facts.joints.len(), |i| {
+            let value = solution.q.as_ref()[i];
+            if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
+        });
+        Pairs { joints, residual: solution.residual, branch: solution.branch, free: solution.free }
+    }
+
+    /// As [`Solve::solve`], for many targets, of which the lanes of a vector register take several at once. The solutions of a target stand in `out`
+    /// behind those of the target before, and `counts` says how many they are, or why there are none. Returns how many targets were solved:
+    /// all, unless `counts` is shorter or `out` has no room for the solutions of the next one.
+    ///
+    /// Each solution is that of [`Solve::solve`] to the last bit, which solves all targets that are not ordinary here too.
+    fn solve_batch(
+        &self,
+        targets: &[Inputs<Self>],
+        out: &mut [Solution<Self>],
+        counts: &mut [Result<usize, Error>],
+    ) -> usize {
+        solve_widest(self, targets, out, counts)
+    }
+
+    /// As [`Solve::solve_batch`], by cosines and sines: those of [`Solve::solve_pairs`] to the last bit.
+    fn solve_pairs_batch(
+        &self,
+        targets: &[Inputs<Self>],
+        out: &mut [Pairs<Self>],
+        counts: &mut [Result<usize, Error>],
+    ) -> usize {
+        solve_widest(self, targets, out, counts)
+    }
+
+    /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`. Not a number when a number of the target is
+    /// not finite, a condition does not hold or an equation's value is not a number, and where equations read what follows from no joint.
+    fn residual(&self, target: &Inputs<Self>, q: &Joints<Self>) -> f64 {
+        let (mut target, facts) = (target.clone(), self.facts());
+        if facts.has_extras || conform(facts.conditions, target.as_mut()).is_err() {
+            return f64::NAN;
+        }
+        let values = self.values(&self.parameters(&target), &place::<Self>(&facts, q, None));
+        let larger = |largest: f64, value: &f64| if largest >= value.abs() { largest } else { value.abs() };
+        let are_numbers = !values.as_ref().iter().any(|value| value.is_nan());
+        if are_numbers { values.as_ref().iter().fold(0.0, larger) } else { f64::NAN }
+    }
+
+    /// The target that joint values `q` reach; none for equations that do not compare the tip with the target.
+    fn forward(&self, q: &Joints<Self>) -> Option<Inputs<Self>> {
+        let facts = self.facts();
+        let tip = self.tip(&place::<Self>(&facts, q, None));
+        let number = |i: usize| match facts.reached[i] {
+            Reached::Value(value) => tip.as_ref()[value],
+            Reached::Angle([cosine, sine]) => angle(tip.as_ref()[cosine], tip.as_ref()[sine]),
+            Reached::Joint(joint) => q.as_ref()[joint],
+        };
+        (facts.reached.len() == facts.inputs).then(|| Array::by(facts.inputs, number))
+    }
+
+    /// As [`Solve::solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
+    /// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+    ///
+    /// # Errors
+    /// As [`Solve::solve`].
+    fn solve_within(
+        &self,
+        target: &Inputs<Self>,
+        limits: &Joints<Self, [f64; 2]>,
+        out: &mut [Solution<Self>],
+    ) -> Result<usize, Error> {
+        let count = self.solve(target, out)?;
+        let (mut target, facts) = (target.clone(), self.facts());
+        conform(facts.conditions, target.as_mut())?;
+        let p = self.parameters(&target);
+        let problem = Problem::new(self, &p);
+        let mut kept = 0;
+        for k in 0..count {
+            if let Some(q) = turned_within::<Self>(&facts, &out[k].q, limits) {
+                out[k].q = q;
+            } else if let (false, Some((q, residual))) = (facts.has_extras, strides_within(&problem, &out[k], limits)) {
+                (out[k].q, out[k].residual) = (q, residual);
+            } else {
+                continue;
+            }
+            out.swap(kept, k);
+            kept += 1;
+        }
+        Ok(kept)
+    }
+
+    /// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
+    /// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
+    /// within `limits`; at most [`limits::MOST_TURNS`].
+    fn count_turns(&self, q: &Joints<Self>, limits: &Joints<Self, [f64; 2]>) -> usize {
+        limits::count_turns(&self.facts(), q.as_ref(), limits.as_ref())
+    }
+
+    /// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
+    fn turn(&self, q: &Joints<Self>, limits: &Joints<Self, [f64; 2]>, index: usize) -> Joints<Self> {
+        let mut turned = q.clone();
+        limits::turn(&self.facts(), turned.as_mut(), limits.as_ref(), index);
+        turned
+    }
+
+    /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
+    /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
+    /// its weight, which is not negative.
+    fn nearest(
+        &self,
+        list: &[Solution<Self>],
+        reference: &Joints<Self>,
+        weights: &Joints<Self>,
+        limits: &Joints<Self, [f64; 2]>,
+    ) -> Option<(usize, Joints<Self>)> {
+        limits::nearest(&self.facts(), list, reference, weights, limits)
+    }
+}
+
+impl<M: Mechanism> Solve for M {}
+
+/// A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. The target, its first 12 numbers, with which the
+/// tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: `base^-1 pose tool^-1`.
+pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
+    let mut target = [0.0; 12];
+    for i in 0..3 {
+        for j in 0..3 {
+            for k in 0..9 {
+                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
+            }
+        }
+    }
+    for i in 0..3 {
+        for k in 0..3 {
+            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
+        }
+    }
+    target
+}

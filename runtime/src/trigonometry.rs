@@ -1,0 +1,172 @@
+//! Angles, cosines and sines by operations that round alike everywhere.
+//!
+//! Those of C libraries are slow, and differ in the last digit from one library to the next. Polynomials here interpolate at Chebyshev points, found
+//! with 60 digits: the arc tangent of `|z| <= tan(pi/8)` is `z + z^3 P(z^2)`, the share of the angle that is off 7e-18; sine and cosine of `|x| <= pi/4`
+//! are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, off by shares of 2e-17 and 1e-18.
+
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+use crate::arithmetic::Arithmetic;
+use crate::number::{Number, With};
+
+/// Coefficients of `P`, constant term first.
+pub const SERIES: [f64; 11] = [
+    -0.3333333333333333,
+    0.1999999999999552,
+    -0.14285714284666542,
+    0.11111111015256361,
+    -0.09090904578123903,
+    0.07692183190826087,
+    -0.06664511447381948,
+    0.0585814891280221,
+    -0.05085449737940259,
+    0.03923165829558718,
+    -0.019176887119062243,
+];
+/// Coefficients of `S`.
+pub const SINE: [f64; 6] = [
+    -0.16666666666666666,
+    0.008333333333330948,
+    -0.00019841269836758574,
+    2.755731610255244e-06,
+    -2.5051131845003624e-08,
+    1.5918129294866608e-10,
+];
+/// Coefficients of `C`.
+pub const COSINE: [f64; 6] = [
+    0.041666666666666664,
+    -0.0013888888888887398,
+    2.480158729876569e-05,
+    -2.7557317271729793e-07,
+    2.08761462684032e-09,
+    -1.1382632425521717e-11,
+];
+/// `tan(pi/8)`.
+pub const EIGHTH: f64 = 0.41421356237309503;
+/// What the double nearest to `pi/4` lacks.
+pub const REST: f64 = 3.061616997868383e-17;
+/// What those of `pi/2` and `pi` lack.
+const REST_OF: [f64; 2] = [2.0 * REST, 4.0 * REST];
+/// `pi/2` in parts, of which the first two have 33 bits.
+pub const QUARTER: [f64; 3] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21];
+/// Beyond so many rad an angle first loses whole turns, and with each of them some 2e-16 rad.
+const FAR: f64 = 1e6;
+
+/// The angle in [0, pi/2] of a cosine and a sine that are not negative; not a number where both are zero.
+#[inline(always)]
+pub fn acute<N: Number>(across: N, up: N) -> N
+where
+    f64: With<N>,
+{
+    let steep = up.exceeds(across);
+    let (low, high) = (across.or(up, steep), up.or(across, steep));
+    let far = low.exceeds(EIGHTH * high);
+    let z = (low - high).or(low, far) / (low + high).or(high, far);
+    let angle = z + z * (z * z) * series(z * z);
+    let angle = (FRAC_PI_4 + (angle + REST)).or(angle, far);
+    (FRAC_PI_2 - (angle - REST_OF[0])).or(angle, steep)
+}
+
+/// The angle in (-pi, pi] of a cosine and a sine, given the one of their magnitudes; zero is not negative.
+#[inline(always)]
+pub fn unfold<N: Number>(acute: N, cosine: N, sine: N) -> N
+where
+    f64: With<N>,
+{
+    let angle = (PI - (acute - REST_OF[1])).or(acute, N::of(0.0).exceeds(cosine)).each(sine, f64::copysign);
+    (angle + TAU).or(angle, angle.at_most(N::of(-PI))) + 0.0
+}
+
+/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad, and zero never negative; not a number where both are zero.
+#[inline]
+pub fn angle<N: Number>(cosine: N, sine: N) -> N
+where
+    f64: With<N>,
+{
+    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
+}
+
+/// `P(u)`.
+#[inline(always)]
+fn series<N: Number>(u: N) -> N
+where
+    f64: With<N>,
+{
+    let c = &SERIES;
+    let (square, fourth) = (u * u, u * u * (u * u));
+    let first = c[0] + c[1] * u + (c[2] + c[3] * u) * square;
+    let second = c[4] + c[5] * u + (c[6] + c[7] * u) * square;
+    let third = c[8] + c[9] * u + c[10] * square;
+    first + (second + third * fourth) * fourth
+}
+
+/// The angle moved by whole turns into (-pi, pi].
+#[inline]
+pub fn wrap(angle: f64) -> f64 {
+    half_open(angle - TAU * Arithmetic::round(angle / TAU))
+}
+
+/// The same for one that seldom is out of it.
+#[inline(always)]
+pub(crate) fn in_turn(angle: f64) -> f64 {
+    if angle.abs() < PI { angle } else { wrap(angle) }
+}
+
+fn half_open(angle: f64) -> f64 {
+    if angle <= -PI { angle + TAU } else { angle }
+}
+
+/// The cosine of an angle in rad, within one unit of its last place up to a million rad.
+pub fn cosine(angle: f64) -> f64 {
+    let (quarters, x, rest) = reduced(angle);
+    match quarters & 3 {
+        0 => cosine_of(x, rest),
+        1 => -sine_of(x, rest),
+        2 => -cosine_of(x, rest),
+        _ => sine_of(x, rest),
+    }
+}
+
+/// The sine of an angle in rad, within one unit of its last place up to a million rad.
+pub fn sine(angle: f64) -> f64 {
+    let (quarters, x, rest) = reduced(angle);
+    match quarters & 3 {
+        0 => sine_of(x, rest),
+        1 => cosine_of(x, rest),
+        2 => -sine_of(x, rest),
+        _ => -cosine_of(x, rest),
+    }
+}
+
+/// The number of quarter turns nearest to an angle, and what is left, in two numbers.
+#[inline]
+fn reduced(angle: f64) -> (i64, f64, f64) {
+    let angle = if angle.abs() > FAR { angle % TAU } else { angle };
+    let quarters = Arithmetic::round(angle * FRAC_2_PI);
+    // Products of the first two parts are exact, and so is the first difference.
+    let (first, second) = (angle - quarters * QUARTER[0], quarters * QUARTER[1]);
+    let sum = first - second;
+    let lost = first - sum;
+    let lost = (first - (sum + lost)) + (lost - second);
+    let third = lost - quarters * QUARTER[2];
+    let x = sum + third;
+    (quarters as i64, x, (sum - x) + third)
+}
+
+/// The sine of `x + rest` for `|x| <= pi/4`.
+#[inline]
+fn sine_of(x: f64, rest: f64) -> f64 {
+    let (u, c) = (x * x, &SINE);
+    let high = c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5])));
+    x + (x * u * (c[0] + u * high) + rest * (1.0 - 0.5 * u))
+}
+
+/// The cosine of `x + rest` for `|x| <= pi/4`.
+#[inline]
+fn cosine_of(x: f64, rest: f64) -> f64 {
+    let (u, c) = (x * x, &COSINE);
+    let high = c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * (c[4] + u * c[5]))));
+    let half = 0.5 * u;
+    let first = 1.0 - half;
+    first + (((1.0 - first) - half) + (u * u * high - x * rest))
+}

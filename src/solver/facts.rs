@@ -1,0 +1,176 @@
+//! What holds for all targets of a program, in the run time's terms. Main type: [`Facts`].
+
+use serde::Serialize;
+
+use super::forward::{Forward, Reached};
+use super::instruction::Operand;
+use super::layout::Layout;
+use super::mirror;
+use super::program::{Block, Case, Condition, Program, Step, square};
+use super::rule::Rule;
+
+/// The most candidates that wait to be measured together.
+const MOST: usize = 16;
+
+/// What holds for all targets.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Facts {
+    pub inputs: usize,
+    /// By joint: where its cosine and its sine, or its value, stand among the numbers that the equations read.
+    pub joints: Vec<Vec<usize>>,
+    pub last_first: Vec<usize>,
+    pub places: usize,
+    pub has_extras: bool,
+    pub equations: usize,
+    pub size_of: Vec<usize>,
+    /// The sizes that equations have, each once.
+    #[serde(skip)]
+    pub sizes: Vec<Operand>,
+    pub shorts: usize,
+    /// By equation: the parameter that it compares with the tip; empty where one does not.
+    pub compared: Vec<usize>,
+    pub turned: Vec<usize>,
+    pub candidates: usize,
+    pub twins: usize,
+    /// By joint and candidate, joint by joint; empty where several targets are not solved at once.
+    pub first: Vec<usize>,
+    pub scale: f64,
+    pub capacity: usize,
+    pub isolated: Option<usize>,
+    pub freed: Vec<usize>,
+    /// A kind and the first number.
+    pub conditions: Vec<(&'static str, usize)>,
+    /// A kind and its numbers.
+    pub reached: Vec<(&'static str, Vec<usize>)>,
+    pub nearby: bool,
+    /// The place, and whether the greatest value is preferred.
+    pub preference: Option<(usize, bool)>,
+}
+
+impl Facts {
+    /// Those of a program.
+    pub fn new(layout: &Layout<'_>) -> Self {
+        let program = layout.program;
+        let places = layout.places();
+        let turned = layout
+            .mirror
+            .as_ref()
+            .map_or_else(Vec::new, |mirror| (0..places.len()).filter(|&place| mirror.odd[places[place]]).collect());
+        let forward = program.forward().filter(|forward| !forward.inputs.is_empty());
+        let parameter = |equation: &Option<(Operand, usize)>| equation.map(|(_, parameter)| parameter);
+        let compared = forward.as_ref().and_then(|forward| forward.equations.iter().map(parameter).collect());
+        let sizes = once(&program.checks.scales);
+        let size_of = |size: &Operand| sizes.iter().position(|other| other == size).unwrap_or(0);
+        let keeps = || layout.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
+        let is_abreast = is_solved_abreast(program);
+        let row = |joint| first(layout, joint);
+        Facts {
+            inputs: program.inputs.len(),
+            joints: layout.stands(),
+            last_first: layout.last_first(),
+            places: places.len(),
+            has_extras: !layout.extra.is_empty(),
+            equations: program.checks.residuals.len(),
+            size_of: program.checks.scales.iter().map(size_of).collect(),
+            shorts: if program.nearby { program.checks.short.len() } else { 0 },
+            compared: compared.unwrap_or_default(),
+            turned,
+            candidates: room(program),
+            twins: if is_abreast && keeps() { 2 } else { 1 },
+            first: if is_abreast { (0..program.joints.len()).flat_map(row).collect() } else { Vec::new() },
+            scale: program.scale,
+            capacity: program.capacity,
+            isolated: program.isolated,
+            freed: program.freed().collect(),
+            conditions: program.conditions.iter().map(condition).collect(),
+            reached: forward.map_or_else(Vec::new, |forward| reached(&forward)),
+            nearby: program.nearby,
+            preference: program.preference.and_then(|preference| {
+                let place = places.iter().position(|&unknown| unknown == preference.unknown)?;
+                Some((place, preference.greatest))
+            }),
+            sizes,
+        }
+    }
+}
+
+/// Each operand once, in the order of their first places.
+fn once(operands: &[Operand]) -> Vec<Operand> {
+    let mut unique: Vec<Operand> = Vec::new();
+    for operand in operands {
+        if !unique.contains(operand) {
+            unique.push(*operand);
+        }
+    }
+    unique
+}
+
+fn condition(condition: &Condition) -> (&'static str, usize) {
+    match *condition {
+        Condition::Rotation(first) => ("Rotation", first),
+        Condition::Unit(first) => ("Unit", first),
+    }
+}
+
+fn reached(forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
+    let compares = |value: Operand| move |other: &Option<(Operand, usize)>| other.is_some_and(|other| other.0 == value);
+    let at = |value| forward.equations.iter().position(compares(value)).expect("an equation compares what is reached");
+    let input = |input: &Reached| match *input {
+        Reached::Value(value) => ("Value", vec![at(value)]),
+        Reached::Angle { cosine, sine } => ("Angle", vec![at(cosine), at(sine)]),
+        Reached::Joint(joint) => ("Joint", vec![joint]),
+    };
+    forward.inputs.iter().map(input).collect()
+}
+
+/// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.
+pub(crate) fn room(program: &Program) -> usize {
+    let often = |block: &Block| block.cases.iter().filter(|case| !Case::is_rare(case)).map(Program::branches).max();
+    let candidates = program.blocks.iter().filter_map(often).fold(1_usize, usize::saturating_mul);
+    candidates.next_multiple_of(2).clamp(2, MOST)
+}
+
+/// Whether all candidates of an ordinary target come from one case of each block, by square roots alone; other cases lie on strata that
+/// a guard tells. What else a file may hold is printed for one number only.
+pub(crate) fn is_solved_abreast(program: &Program) -> bool {
+    let only_roots = program.cases().flat_map(|case| &case.steps).all(|step| match step {
+        Step::Roots { polynomials, .. } => square(polynomials).is_some(),
+        Step::SixAxes(_) => false,
+        _ => true,
+    });
+    let is_known = |rule: &Rule| matches!(rule, Rule::Input(_) | Rule::Root { .. });
+    let fits = |candidates: usize| candidates <= MOST && program.isolated.is_none_or(|most| candidates <= most);
+    program.compares_tip()
+        && program.preference.is_none()
+        && only_roots
+        && program.parameters.iter().all(|parameter| is_known(&parameter.rule))
+        && program.blocks.iter().all(|block| usual(block).is_some())
+        && fits(candidates(program, 0))
+        && candidates(program, 0) <= program.capacity
+}
+
+/// The case of a block that runs at ordinary targets, if that is one and guards tell where others do.
+fn usual(block: &Block) -> Option<&Case> {
+    let is_told = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
+    let mut usual = block.cases.iter().filter(|case| !case.is_rare());
+    let first = usual.next().filter(|_| usual.next().is_none() && block.cases.iter().all(is_told))?;
+    let samples = first.steps.iter().any(|step| matches!(step, Step::Sample { .. }));
+    (!samples).then_some(first)
+}
+
+/// How many candidates the blocks from this one on make of each of those before.
+pub(crate) fn candidates(program: &Program, block: usize) -> usize {
+    program.blocks[block..].iter().filter_map(usual).map(Program::branches).fold(1, usize::saturating_mul)
+}
+
+/// By candidate: the first one in which an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and
+/// the two of a root that turns signs of the cosine and the sine.
+pub(crate) fn first(layout: &Layout<'_>, joint: usize) -> Vec<usize> {
+    let (program, block) = (layout.program, layout.finder(joint));
+    let unknowns = program.joints[joint].value.unknowns();
+    let later = candidates(program, block + 1);
+    let is_mirrored = usual(&program.blocks[block]).is_some_and(|case| mirror::turns(program, case, &unknowns));
+    let is_behind = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
+    let row = if is_mirrored || is_behind { 2 * later } else { later };
+    (0..candidates(program, 0)).map(|candidate| candidate - candidate % row).collect()
+}

@@ -1,0 +1,143 @@
+//! Candidates that come in pairs: behind a root step `x^2 + constant` nothing else may branch, and all that follows from the root may
+//! keep its value or turn its sign with it. Then the second root's candidate is the first one's with some signs turned, to the last bit:
+//! negation is exact. (Only the sign of a zero may differ, which neither the equations nor angles see.)
+
+use std::collections::HashMap;
+
+use super::instruction::{Instruction, Operand, Operation};
+use super::joint::JointValue;
+use super::program::{Block, Case, Program, Step, square};
+
+/// What a value does when the root turns its sign.
+#[derive(Clone, Copy, PartialEq)]
+enum Parity {
+    /// It stays.
+    Even,
+    /// It turns its sign too.
+    Odd,
+    /// Something else.
+    Mixed,
+}
+
+/// The case whose two roots give a pair of candidates each.
+pub(crate) struct Mirror {
+    /// The index of its block.
+    pub block: usize,
+    /// The index of the case in the block.
+    pub case: usize,
+    /// By unknown: whether it turns its sign.
+    pub odd: Vec<bool>,
+}
+
+impl Mirror {
+    /// That of a program, if it has one; `wanted` are the unknowns that candidates consist of.
+    pub fn of(program: &Program, wanted: &[usize]) -> Option<Self> {
+        let block = (0..program.blocks.len()).rev().find(|&block| !is_straight(&program.blocks[block]))?;
+        let mut often = program.blocks[block].cases.iter().enumerate().filter(|(_, case)| !case.is_rare());
+        let (index, case) = often.next().filter(|(_, case)| case.pivot.is_none() && !case.open)?;
+        if often.next().is_some() {
+            return None;
+        }
+        let mut unknowns = vec![Parity::Even; program.unknowns.len()];
+        if !behind_root(case, &mut unknowns) {
+            return None;
+        }
+        for later in &program.blocks[block + 1..] {
+            let mut registers = HashMap::new();
+            run(&later.code, &unknowns, &mut registers);
+            later.cases[0].steps.iter().for_each(|step| follow(step, &mut unknowns, &mut registers));
+        }
+        let is_length = |unknown: usize| program.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown));
+        let is_clear = |&unknown: &usize| match unknowns[unknown] {
+            Parity::Even => true,
+            Parity::Odd => !is_length(unknown),
+            Parity::Mixed => false,
+        };
+        let odd = unknowns.iter().map(|parity| *parity == Parity::Odd).collect();
+        wanted.iter().all(is_clear).then_some(Mirror { block, case: index, odd })
+    }
+
+    /// Whether both candidates of a pair miss the equations by the same: none of these turns its sign with the root.
+    pub fn keeps_misses(&self, program: &Program) -> bool {
+        let parity = |odd: &bool| if *odd { Parity::Odd } else { Parity::Even };
+        let unknowns: Vec<Parity> = self.odd.iter().map(parity).collect();
+        let mut registers = HashMap::new();
+        run(&program.checks.code, &unknowns, &mut registers);
+        let mut read = program.checks.residuals.iter().chain(&program.checks.scales);
+        read.all(|&operand| self::parity(operand, &unknowns, &registers) == Parity::Even)
+    }
+}
+
+/// Whether the only root step of a case keeps the sizes of these unknowns, which the case finds.
+pub(crate) fn turns(program: &Program, case: &Case, found: &[usize]) -> bool {
+    let mut unknowns = vec![Parity::Even; program.unknowns.len()];
+    behind_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
+}
+
+/// Whether a block has one solution, by code without any condition.
+fn is_straight(block: &Block) -> bool {
+    let is_code = |step: &Step| matches!(step, Step::Compute(_) | Step::Set { .. });
+    let [case] = block.cases.as_slice() else { return false };
+    let is_plain = case.guards.is_empty() && case.pivot.is_none() && case.free.is_empty() && !case.open;
+    is_plain && case.first_branch == 0 && case.steps.iter().all(is_code)
+}
+
+/// Follows a case whose only root step is `x^2 + constant`; false for any other.
+fn behind_root(case: &Case, unknowns: &mut [Parity]) -> bool {
+    let mut registers = HashMap::new();
+    let mut roots = 0;
+    for step in &case.steps {
+        match step {
+            Step::Roots { unknown, polynomials, .. } if square(polynomials).is_some() => {
+                unknowns[*unknown] = Parity::Odd;
+                roots += 1;
+            }
+            Step::Compute(_) | Step::Set { .. } => follow(step, unknowns, &mut registers),
+            _ => return false,
+        }
+    }
+    roots == 1
+}
+
+fn follow(step: &Step, unknowns: &mut [Parity], registers: &mut HashMap<usize, Parity>) {
+    match step {
+        Step::Compute(code) => run(code, unknowns, registers),
+        Step::Set { unknown, value } => unknowns[*unknown] = parity(*value, unknowns, registers),
+        _ => {}
+    }
+}
+
+fn run(code: &[Instruction], unknowns: &[Parity], registers: &mut HashMap<usize, Parity>) {
+    for instruction in code {
+        let value = result(instruction.operation, unknowns, registers);
+        registers.insert(instruction.target, value);
+    }
+}
+
+/// Registers that are not listed were computed before the root.
+fn parity(operand: Operand, unknowns: &[Parity], registers: &HashMap<usize, Parity>) -> Parity {
+    match operand {
+        Operand::Unknown(unknown) => unknowns[unknown],
+        Operand::Register(register) => registers.get(&register).copied().unwrap_or(Parity::Even),
+        Operand::Constant(_) | Operand::Parameter(_) | Operand::Magnitude => Parity::Even,
+    }
+}
+
+fn result(operation: Operation, unknowns: &[Parity], registers: &HashMap<usize, Parity>) -> Parity {
+    let parity = |operand| parity(operand, unknowns, registers);
+    let is_zero = |operand| matches!(operand, Operand::Constant(0.0));
+    match operation {
+        Operation::Add(a, b) | Operation::Sub(a, b) if is_zero(a) => parity(b),
+        Operation::Add(a, b) | Operation::Sub(a, b) if is_zero(b) => parity(a),
+        Operation::Add(a, b) | Operation::Sub(a, b) if parity(a) == parity(b) => parity(a),
+        Operation::Add(..) | Operation::Sub(..) => Parity::Mixed,
+        Operation::Mul(a, b) | Operation::Div(a, b) => match (parity(a), parity(b)) {
+            (Parity::Mixed, _) | (_, Parity::Mixed) => Parity::Mixed,
+            (a, b) if a == b => Parity::Even,
+            _ => Parity::Odd,
+        },
+        Operation::Abs(a) if parity(a) != Parity::Mixed => Parity::Even,
+        Operation::Sqrt(a) if parity(a) == Parity::Even => Parity::Even,
+        Operation::Abs(_) | Operation::Sqrt(_) => Parity::Mixed,
+    }
+}

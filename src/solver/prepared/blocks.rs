@@ -1,0 +1,239 @@
+//! Blocks, cases and steps with their operands as places of the memory. Main type: [`Blocks`].
+
+use groebot_runtime::six_axes::Chain;
+
+use super::code::{Assembler, Code, Memory};
+use crate::solver::{Block, Case, Demand, JointValue, Layout, Operand, Program, Step, square};
+
+/// All blocks of a program.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    pub memory: Memory,
+    pub list: Vec<Prepared>,
+    /// Where the numbers that the equations read stand.
+    pub places: Vec<u32>,
+    /// Whether what squares of unknowns follow from is less exact.
+    pub grazing: bool,
+}
+
+/// A block.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared {
+    pub code: Code,
+    /// Number of branch numbers.
+    pub radix: usize,
+    pub turns: Vec<Turn>,
+}
+
+/// Cases of which one runs.
+#[derive(Clone, Debug)]
+pub(super) enum Turn {
+    /// One that its guards tell.
+    Told(Told),
+    /// The best conditioned of several, each with its pivot.
+    Elected(Vec<(u32, Told)>),
+    /// A gap, with its number.
+    Open(usize, Told),
+}
+
+/// A case.
+#[derive(Clone, Debug)]
+pub(super) struct Told {
+    pub code: Code,
+    pub guards: Vec<Guard>,
+    pub applies: Applies,
+    pub steps: Vec<Way>,
+    pub first_branch: usize,
+    /// The end of its branch numbers.
+    pub last: usize,
+    /// Joints that are free: bit `j` for joint `j`.
+    pub free: u32,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Guard {
+    pub value: u32,
+    pub scale: u32,
+    pub near: bool,
+}
+
+/// When a case whose guards hold applies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Applies {
+    Usually,
+    Rarely,
+    Near,
+}
+
+/// A step.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
+    Compute(Code),
+    Set { unknown: u32, value: u32 },
+    Square { unknown: u32, constant: u32, typical: u32, stride: usize, is_pair: bool },
+    Roots { unknown: u32, polynomials: Vec<Vec<u32>>, typical: u32, stride: usize },
+    Sample { unknowns: Vec<u32>, rows: Vec<Vec<f64>> },
+    SixAxes(Box<Six>),
+}
+
+/// A step that finds six joints.
+#[derive(Clone, Debug)]
+pub(super) struct Six {
+    pub chain: Chain,
+    pub target: [u32; 12],
+    pub joints: [JointPlace; 6],
+    /// By joint, its bit among the free ones.
+    pub bits: [u32; 6],
+    pub stride: usize,
+}
+
+/// Where a joint's value goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum JointPlace {
+    Angle([u32; 2]),
+    Length(u32),
+}
+
+impl Blocks {
+    pub fn new(layout: &Layout<'_>) -> Self {
+        let program = layout.program;
+        let registers = program.blocks.iter().map(Block::registers).sum();
+        let mut assembler = Assembler::new(program.parameters.len(), (0..program.unknowns.len()).collect(), registers);
+        let mut preparing = Preparing { layout, assembler: &mut assembler };
+        let list = (0..program.blocks.len()).map(|index| preparing.block(index)).collect();
+        let places = layout.places().into_iter().map(|unknown| assembler.place(Operand::Unknown(unknown))).collect();
+        Blocks { memory: assembler.memory(), list, places, grazing: program.degree() > 2 }
+    }
+}
+
+struct Preparing<'a> {
+    layout: &'a Layout<'a>,
+    assembler: &'a mut Assembler,
+}
+
+impl Preparing<'_> {
+    fn block(&mut self, index: usize) -> Prepared {
+        let (layout, block) = (self.layout, &self.layout.program.blocks[index]);
+        let is_last = index + 1 == layout.program.blocks.len();
+        let wanted = if is_last { layout.wanted() } else { layout.wanted_of(index) };
+        let demand = Demand::of_block(layout.program, block, &wanted);
+        let code = self.assembler.code(&block.code, &demand);
+        let first = (0..block.cases.len()).filter(|&case| block.opens_group(case));
+        let turns = first.map(|first| self.turn(block, first, &wanted)).collect();
+        self.assembler.base += block.registers();
+        Prepared { code, radix: block.branches(), turns }
+    }
+
+    fn turn(&mut self, block: &Block, first: usize, wanted: &[usize]) -> Turn {
+        let case = &block.cases[first];
+        let Some(pivot) = case.pivot else {
+            let told = self.told(case, wanted);
+            return if case.open { Turn::Open(self.number(case), told) } else { Turn::Told(told) };
+        };
+        let mut members = Vec::new();
+        for case in &block.cases {
+            if let Some(own) = case.pivot.filter(|own| own.group == pivot.group) {
+                members.push((self.assembler.place(own.value), self.told(case, wanted)));
+            }
+        }
+        Turn::Elected(members)
+    }
+
+    /// The number of an open case among all, from 1.
+    fn number(&self, case: &Case) -> usize {
+        let mut open = self.layout.program.cases().filter(|case| case.open);
+        1 + open.position(|other| std::ptr::eq(other, case)).unwrap_or(0)
+    }
+
+    fn told(&mut self, case: &Case, wanted: &[usize]) -> Told {
+        let program = self.layout.program;
+        let (mut demand, claim) = (Demand::of_case(program, case, wanted), Demand::of_claim(case));
+        demand.add(&claim);
+        let code = self.assembler.code(&case.guard_code, &demand);
+        let guard = |guard: &crate::solver::Guard| Guard {
+            value: self.assembler.place(guard.value),
+            scale: self.assembler.place(guard.scale),
+            near: guard.near,
+        };
+        let guards = case.guards.iter().map(guard).collect();
+        let applies = match () {
+            () if case.is_of_stratum() => Applies::Near,
+            () if case.is_rare() => Applies::Rarely,
+            () => Applies::Usually,
+        };
+        let steps = if case.open { Vec::new() } else { self.steps(case, &demand) };
+        let last = case.first_branch + Program::branches(case);
+        let free = case.free.iter().fold(0, |free, joint| free | 1 << joint);
+        Told { code, guards, applies, steps, first_branch: case.first_branch, last, free }
+    }
+
+    fn steps(&mut self, case: &Case, demand: &Demand) -> Vec<Way> {
+        let is_mirror = self.layout.is_mirror(case);
+        let mut ways = Vec::new();
+        for (index, step) in case.steps.iter().enumerate() {
+            let stride: usize = case.steps[index + 1..].iter().map(Step::slots).product();
+            match step {
+                Step::Compute(code) => ways.push(Way::Compute(self.assembler.code(code, demand))),
+                Step::Set { unknown, value } if demand.wants_unknown(*unknown) => {
+                    ways.push(Way::Set { unknown: self.unknown(*unknown), value: self.assembler.place(*value) });
+                }
+                Step::Set { .. } => {}
+                Step::Roots { unknown, polynomials, typical } => {
+                    ways.push(self.roots((*unknown, polynomials, *typical), stride, is_mirror));
+                }
+                Step::Sample { joint, values } => {
+                    let unknowns = joint.unknowns().into_iter().map(|unknown| self.unknown(unknown)).collect();
+                    let row = |value: &f64| match joint {
+                        JointValue::Angle { .. } => vec![value.cos(), value.sin()],
+                        JointValue::Plain(_) => vec![*value],
+                    };
+                    ways.push(Way::Sample { unknowns, rows: values.iter().map(row).collect() });
+                }
+                Step::SixAxes(six) => ways.push(self.six_axes(six, stride)),
+            }
+        }
+        ways
+    }
+
+    fn unknown(&mut self, unknown: usize) -> u32 {
+        self.assembler.place(Operand::Unknown(unknown))
+    }
+
+    fn roots(
+        &mut self,
+        (unknown, polynomials, typical): (usize, &[Vec<Operand>], Option<Operand>),
+        stride: usize,
+        is_pair: bool,
+    ) -> Way {
+        let is_plain = self.layout.program.is_plain(unknown);
+        let usual = if is_plain { Operand::Magnitude } else { Operand::Constant(1.0) };
+        let typical = self.assembler.place(typical.unwrap_or(usual));
+        let place = self.unknown(unknown);
+        if let Some(constant) = square(polynomials) {
+            let constant = self.assembler.place(constant);
+            return Way::Square { unknown: place, constant, typical, stride, is_pair };
+        }
+        let mut list = |list: &Vec<Operand>| list.iter().map(|&operand| self.assembler.place(operand)).collect();
+        Way::Roots { unknown: place, polynomials: polynomials.iter().map(&mut list).collect(), typical, stride }
+    }
+
+    fn six_axes(&mut self, six: &crate::solver::eigenvalue::SixAxes, stride: usize) -> Way {
+        let joints = &self.layout.program.joints;
+        let bit =
+            |joint: JointValue| joints.iter().position(|other| other.value == joint).map_or(0, |index| 1 << index);
+        let parts = six.parts();
+        let place = |joint: JointValue, assembler: &mut Assembler| match joint {
+            JointValue::Angle { cosine, sine } => {
+                JointPlace::Angle([cosine, sine].map(|unknown| assembler.place(Operand::Unknown(unknown))))
+            }
+            JointValue::Plain(unknown) => JointPlace::Length(assembler.place(Operand::Unknown(unknown))),
+        };
+        Way::SixAxes(Box::new(Six {
+            chain: six.chain(),
+            target: parts.target.map(|operand| self.assembler.place(operand)),
+            joints: parts.joints.map(|joint| place(joint, self.assembler)),
+            bits: parts.joints.map(bit),
+            stride,
+        }))
+    }
+}

@@ -1,0 +1,57 @@
+//! The equations of a program as prepared code. Main type: [`Equations`].
+
+use groebot_runtime::storage::Array;
+use groebot_runtime::{Number, With};
+
+use super::code::{Assembler, Code, Memory};
+use crate::solver::{Demand, Layout, Operand};
+
+/// Values that code computes from parameters and from what the equations read of joints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Equations {
+    memory: Memory,
+    code: Code,
+    results: Vec<u32>,
+}
+
+impl Equations {
+    /// Those of the checks' code with these results.
+    pub fn new<'a>(layout: &Layout<'_>, results: impl IntoIterator<Item = &'a Operand> + Clone) -> Self {
+        let program = layout.program;
+        let code = &program.checks.code;
+        let places = layout.places();
+        let place_of = |unknown| places.iter().position(|&other| other == unknown).unwrap_or(0);
+        let place_of = (0..program.unknowns.len()).map(place_of).collect();
+        let mut assembler = Assembler::new(program.parameters.len(), place_of, code.len());
+        let demand = Demand::of_code(code, results.clone());
+        let code = assembler.code(code, &demand);
+        let results = results.into_iter().map(|&result| assembler.place(result)).collect();
+        Equations { memory: assembler.memory(), code, results }
+    }
+
+    /// How many results there are.
+    pub fn len(&self) -> usize {
+        self.results.len()
+    }
+
+    /// The results.
+    #[inline]
+    pub fn values<N: Number>(&self, parameters: &[N], at: &[N]) -> impl Fn(usize) -> N
+    where
+        f64: With<N>,
+    {
+        let mut memory = self.memory.with(parameters);
+        memory[self.memory.unknowns..self.memory.unknowns + at.len()].copy_from_slice(at);
+        self.code.run(&mut memory);
+        move |index| memory[self.results[index] as usize]
+    }
+
+    /// All results as a row.
+    #[inline]
+    pub fn row<N: Number, A: Array<N>>(&self, parameters: &[N], at: &[N]) -> A
+    where
+        f64: With<N>,
+    {
+        A::by(self.len(), self.values(parameters, at))
+    }
+}

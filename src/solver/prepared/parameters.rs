@@ -1,0 +1,77 @@
+//! Parameters from the numbers of a target. Main type: [`Parameters`].
+
+use groebot_runtime::{Number, With};
+
+use super::code::{Assembler, Code, Memory};
+use crate::solver::{Demand, Program, Rule};
+
+/// The rules of all parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Parameters {
+    scale: f64,
+    rules: Vec<Computed>,
+}
+
+#[derive(Clone, Debug)]
+enum Computed {
+    /// It follows from the target.
+    Rule(Rule),
+    /// The square root of what code leaves at a place.
+    Root { code: Code, memory: Memory, value: u32 },
+}
+
+impl Parameters {
+    pub fn new(program: &Program) -> Self {
+        let computed = |(index, parameter): (usize, &crate::solver::ParameterRule)| match &parameter.rule {
+            Rule::Root { code, value } => {
+                let mut assembler = Assembler::new(index, Vec::new(), code.len());
+                let prepared = assembler.code(code, &Demand::of_code(code, [value]));
+                let value = assembler.place(*value);
+                Computed::Root { code: prepared, memory: assembler.memory(), value }
+            }
+            rule => Computed::Rule(rule.clone()),
+        };
+        Parameters { scale: program.scale, rules: program.parameters.iter().enumerate().map(computed).collect() }
+    }
+
+    /// How many values there are, the magnitude too.
+    pub fn len(&self) -> usize {
+        self.rules.len() + 1
+    }
+
+    /// The values, and the magnitude behind them.
+    pub fn values<N: Number>(&self, target: &[N]) -> Vec<N>
+    where
+        f64: With<N>,
+    {
+        let mut values: Vec<N> = Vec::with_capacity(self.rules.len() + 1);
+        for rule in &self.rules {
+            values.push(match rule {
+                Computed::Rule(rule) => of_target(rule, target),
+                Computed::Root { code, memory, value } => {
+                    let magnitude = [values.as_slice(), &[N::of(0.0)]].concat();
+                    let mut memory = memory.with(&magnitude);
+                    code.run(&mut memory);
+                    memory[*value as usize].root()
+                }
+            });
+        }
+        values.push(N::largest(self.scale, &values));
+        values
+    }
+}
+
+fn of_target<N: Number>(rule: &Rule, target: &[N]) -> N
+where
+    f64: With<N>,
+{
+    match rule {
+        Rule::Input(index) => target[*index],
+        Rule::Cosine(index) => target[*index].cos(),
+        Rule::Sine(index) => target[*index].sin(),
+        Rule::Following(law) => law.factor * target[law.input] + law.offset,
+        Rule::CosineFollowing(law) => (law.factor * target[law.input] + law.offset).cos(),
+        Rule::SineFollowing(law) => (law.factor * target[law.input] + law.offset).sin(),
+        Rule::Root { .. } => N::of(f64::NAN),
+    }
+}

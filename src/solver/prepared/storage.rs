@@ -1,0 +1,54 @@
+//! Rows of a prepared program: as long as the program asks for, in place where they are short. Main type: [`Dynamic`].
+
+use groebot_runtime::storage::{Array, Storage};
+use smallvec::SmallVec;
+
+/// A row of values, up to so many of them in place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<T, const L: usize>(SmallVec<[T; L]>)
+where
+    [T; L]: smallvec::Array<Item = T>;
+
+macro_rules! rows {
+    ($($length:literal)*) => {
+        $(
+            impl<T> AsRef<[T]> for Row<T, $length> {
+                #[inline(always)]
+                fn as_ref(&self) -> &[T] {
+                    &self.0
+                }
+            }
+            impl<T> AsMut<[T]> for Row<T, $length> {
+                #[inline(always)]
+                fn as_mut(&mut self) -> &mut [T] {
+                    &mut self.0
+                }
+            }
+            impl<T: Clone> Array<T> for Row<T, $length> {
+                #[inline(always)]
+                fn by(length: usize, value: impl FnMut(usize) -> T) -> Self {
+                    Row((0..length).map(value).collect())
+                }
+            }
+        )*
+    };
+}
+
+rows!(2 8 12 16);
+
+/// Rows whose lengths a program tells.
+#[derive(Clone, Copy, Debug)]
+pub struct Dynamic;
+
+impl Storage for Dynamic {
+    type Inputs<T: Clone> = Row<T, 12>;
+    type Parameters<T: Clone> = Row<T, 16>;
+    type Joints<T: Clone> = Row<T, 8>;
+    type Places<T: Clone> = Row<T, 12>;
+    type Equations<T: Clone> = Row<T, 12>;
+    type Sizes<T: Clone> = Row<T, 2>;
+    type Shorts<T: Clone> = Row<T, 8>;
+    type Candidates<T: Clone> = Row<T, 8>;
+    type Answers<T: Clone> = Row<T, 8>;
+    type Triangle = Row<f64, 16>;
+}

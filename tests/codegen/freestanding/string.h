@@ -1,0 +1,12 @@
+/* All that a printed solver needs of <string.h>, for a compiler without a C library: whoever links it gives these functions. */
+#ifndef FREESTANDING_STRING_H
+#define FREESTANDING_STRING_H
+
+#include <stddef.h>
+
+void *memcpy(void *, const void *, size_t);
+void *memmove(void *, const void *, size_t);
+int memcmp(const void *, const void *, size_t);
+void *memset(void *, int, size_t);
+
+#endif
