@@ -1,7 +1,7 @@
 //! Printing a [`Program`] as source code: [`rust::emit`], [`c99::Pair`] and [`ikfast::emit`].
 //!
 //! A printed file holds what is particular to a robot: its program as straight-line code in nested loops, its equations, and its
-//! [facts](crate::solver::Facts). All else is called from the run time `groebot-runtime`, which [`Program::solver`](crate::solver::Program::solver) calls
+//! facts. All else is called from the run time `groebot-runtime`, which [`Program::solver`](crate::solver::Program::solver) calls
 //! too; [`single_file`] puts both together. A language prints expressions (`language::Expressions`) and statements (`dialect::Dialect`), and has the skeleton
 //! of a file (`skeleton/`), filled from one `outline::Outline`.
 
