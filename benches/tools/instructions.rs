@@ -51,8 +51,9 @@ fn folder(name: &str) -> PathBuf {
 
 fn solve(name: &str, q: &[f64]) -> Result<Call> {
     let program = Program::from_json(&fs::read_to_string(folder(name).join("5_program.json"))?)?;
-    let target = program.reached(q).ok_or("the program has forward kinematics")?;
-    Ok(Box::new(move || drop(black_box(program.solve_numbers(black_box(&target))))))
+    let solver = program.solver();
+    let target = solver.reached(q).ok_or("the program has forward kinematics")?;
+    Ok(Box::new(move || drop(black_box(solver.solve_numbers(black_box(&target))))))
 }
 
 fn screws() -> Result<Call> {

@@ -17,7 +17,7 @@ pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 use crate::derive::Source;
 use crate::kinematics::Solution;
 use crate::kinematics::oracle::Oracle;
-use crate::solver::Program;
+use crate::solver::{Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 use model::{EXACT, Model, ORDINARY, RESIDUAL};
 use screws::Screws;
@@ -59,6 +59,7 @@ impl Default for Options {
 pub struct Check<'a> {
     source: &'a Source,
     program: &'a Program,
+    solver: Solver,
     model: &'a Model<'a>,
     screws: Option<Screws>,
     options: Options,
@@ -82,7 +83,7 @@ impl<'a> Check<'a> {
         let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
         let model = Model::new(system, unit);
         let screws = source.chain.as_ref().and_then(Screws::new);
-        let check = Check { source, program, model: &model, screws, options: *options, watch };
+        let check = Check { source, program, solver: program.solver(), model: &model, screws, options: *options, watch };
         let mut targets = Targets::new(&model, program, options.seed);
         let mut rows = Vec::with_capacity(options.targets);
         for number in 0..options.targets {
@@ -105,7 +106,7 @@ impl<'a> Check<'a> {
 
     fn row(&self, number: usize, target: Target) -> Result<Row> {
         let Target { kind, inputs: target, joints } = target;
-        let answers = match self.program.solve_numbers(&target) {
+        let answers = match self.solver.solve_numbers(&target) {
             Ok(answers) => Some(answers),
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             Err(error) => return Err(error),
