@@ -83,7 +83,8 @@ impl<'a> Check<'a> {
         let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
         let model = Model::new(system, unit);
         let screws = source.chain.as_ref().and_then(Screws::new);
-        let check = Check { source, program, solver: program.solver(), model: &model, screws, options: *options, watch };
+        let check =
+            Check { source, program, solver: program.solver(), model: &model, screws, options: *options, watch };
         let mut targets = Targets::new(&model, program, options.seed);
         let mut rows = Vec::with_capacity(options.targets);
         for number in 0..options.targets {
