@@ -4,7 +4,7 @@ use crate::approach::{LANES, Ways, abreast};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
 use crate::number::{Guard, Lanes, Number};
 use crate::problem::{End, Fit, Problem, everywhere, fit};
-use crate::solution::{Pairs, Solution};
+use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 use crate::trigonometry::{acute, unfold};
@@ -120,6 +120,23 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     fn suffice_since(&mut self, candidates: usize) -> bool {
         self.flush();
         self.candidates > candidates && self.unsound <= candidates
+    }
+
+    /// Walks through the blocks, and takes in all candidates.
+    #[inline(always)]
+    pub fn find(&mut self) -> Result<(), Error> {
+        let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
+        mechanism.walk(parameters, self);
+        self.flush();
+        self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
+    }
+
+    /// Brings all answers into the form that callers see.
+    #[inline(always)]
+    pub fn conclude(&mut self) {
+        self.unite();
+        self.sort();
+        self.mark_choice();
     }
 
     /// Whether all candidates could be written as pairs.

@@ -26,14 +26,8 @@ pub trait Solve: Mechanism {
         conform(self.facts().conditions, target.as_mut())?;
         let p = self.parameters(&target);
         let mut answers = Answers::new(Problem::new(self, &p), out, None);
-        self.walk(&p, &mut answers);
-        answers.flush();
-        if let Some(number) = answers.open {
-            return Err(Error::OpenStratum(number));
-        }
-        answers.unite();
-        answers.sort();
-        answers.mark_choice();
+        answers.find()?;
+        answers.conclude();
         Ok(answers.count)
     }
 
@@ -51,14 +45,8 @@ pub trait Solve: Mechanism {
         conform(self.facts().conditions, target.as_mut())?;
         let p = self.parameters(&target);
         let mut answers = Answers::new(Problem::new(self, &p), out, None);
-        self.walk(&p, &mut answers);
-        answers.flush();
-        if let Some(number) = answers.open {
-            return Err(Error::OpenStratum(number));
-        }
-        answers.unite();
-        answers.sort();
-        answers.mark_choice();
+        answers.find()?;
+        answers.conclude();
         let nearest = answers.nearest.take().filter(|_| answers.count == 0);
         let solution = |(q, fit): (Joints<Self>, crate::problem::Fit)| Solution {
             q,
@@ -81,11 +69,7 @@ pub trait Solve: Mechanism {
         conform(self.facts().conditions, conforming.as_mut())?;
         let p = self.parameters(&conforming);
         let mut answers = Answers::new(Problem::new(self, &p), &mut [], Some(&mut *out));
-        self.walk(&p, &mut answers);
-        answers.flush();
-        if let Some(number) = answers.open {
-            return Err(Error::OpenStratum(number));
-        }
+        answers.find()?;
         let (count, are_all) = (answers.count, answers.are_all_pairs());
         if are_all {
             out[..count].sort_unstable_by_key(|pairs| pairs.branch);

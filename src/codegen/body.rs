@@ -17,19 +17,22 @@ pub(super) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// A printer for code in which all that is known is local, with registers from `base` on.
-    pub fn local_printer(&self, demand: Demand, base: usize) -> Printer<'_> {
-        self.printer(demand).among_parameters(base)
+    /// A printer for code with registers from `base` on.
+    pub fn printer(&self, demand: Demand, base: usize) -> Printer<'_> {
+        Printer::new(self.language, &self.names, demand, base)
     }
 
-    /// As [`Scene::checks`], in a language of its own, for a function in which parameters are local.
-    pub fn local_checks(&self, language: &dyn Expressions, rows: &[&[Operand]]) -> (Vec<String>, Vec<Vec<String>>) {
-        let demand = Demand::of_code(&self.program.checks.code, rows.iter().copied().flatten());
-        self.checks_by(Printer::new(language, &self.names, demand).among_parameters(0), language, rows)
-    }
-
-    fn printer(&self, demand: Demand) -> Printer<'_> {
-        Printer::new(self.language, &self.names, demand)
+    /// Code of the checks in a language of its own as far as `rows` ask for it, and the rows themselves as lists of expressions.
+    pub fn checks(&self, language: &dyn Expressions, rows: &[&[Operand]]) -> (Vec<String>, Vec<Vec<String>>) {
+        let code = &self.program.checks.code;
+        let demand = Demand::of_code(code, rows.iter().copied().flatten());
+        let mut printer = Printer::new(language, &self.names, demand, 0);
+        let name =
+            |unknown: usize| printer.demand().wants_unknown(unknown).then_some(self.names.unknowns[unknown].as_str());
+        let mut lines = language.declare_places(&self.layout.places().into_iter().map(name).collect::<Vec<_>>());
+        lines.extend(printer.code(code));
+        let rows = rows.iter().map(|row| row.iter().map(|&operand| printer.operand(operand)).collect()).collect();
+        (lines, rows)
     }
 
     /// Declarations of the parameters that are computed.
@@ -45,7 +48,7 @@ impl Scene<'_> {
                 Rule::CosineFollowing(law) => self.language.call("cos", &format!("({})", following(law))),
                 Rule::SineFollowing(law) => self.language.call("sin", &format!("({})", following(law))),
                 Rule::Root { code, value } => {
-                    let mut printer = self.printer(Demand::of_code(code, [value])).among_parameters(registers);
+                    let mut printer = self.printer(Demand::of_code(code, [value]), registers);
                     lines.extend(printer.code(code));
                     registers += code.len();
                     let square = printer.operand(*value);
@@ -55,21 +58,6 @@ impl Scene<'_> {
             lines.push(self.language.declare(&self.names.parameters[index], &value));
         }
         lines
-    }
-
-    fn checks_by(
-        &self,
-        mut printer: Printer<'_>,
-        language: &dyn Expressions,
-        rows: &[&[Operand]],
-    ) -> (Vec<String>, Vec<Vec<String>>) {
-        let code = &self.program.checks.code;
-        let name =
-            |unknown: usize| printer.demand().wants_unknown(unknown).then_some(self.names.unknowns[unknown].as_str());
-        let mut lines = language.declare_places(&self.layout.places().into_iter().map(name).collect::<Vec<_>>());
-        lines.extend(printer.code(code));
-        let rows = rows.iter().map(|row| row.iter().map(|&operand| printer.operand(operand)).collect()).collect();
-        (lines, rows)
     }
 }
 

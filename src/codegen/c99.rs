@@ -73,24 +73,8 @@ impl Expressions for C {
             || RESERVED_PREFIXES.iter().any(|prefix| word.starts_with(prefix))
     }
 
-    fn field(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn known(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn shared(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
     fn call(&self, function: &str, argument: &str) -> String {
         format!("GB_({function})({argument})")
-    }
-
-    fn greater(&self, a: &str, b: &str) -> String {
-        format!("GB_(max)({a}, {b})")
     }
 
     fn root(&self, square: &str) -> String {

@@ -4,20 +4,10 @@
 pub(super) trait Expressions {
     /// Whether the language or its library keeps this word for itself.
     fn is_reserved(&self, word: &str) -> bool;
-    /// A field of the parameters `p`.
-    fn field(&self, name: &str) -> String;
-    /// A field of what earlier blocks found.
-    fn known(&self, name: &str) -> String;
-    /// A field of what the cases of a block share.
-    fn shared(&self, name: &str) -> String;
     /// `function` (`abs`, `sqrt`, `cos` or `sin`) of an expression; the argument of all but `abs` is typed.
     fn call(&self, function: &str, argument: &str) -> String;
-    /// The greater of two typed expressions.
-    fn greater(&self, a: &str, b: &str) -> String;
     /// The square root of a typed expression, zero of a number below zero.
-    fn root(&self, square: &str) -> String {
-        self.call("sqrt", &self.greater(square, "0.0"))
-    }
+    fn root(&self, square: &str) -> String;
     /// A constant.
     fn literal(&self, value: f64) -> String {
         number(value)

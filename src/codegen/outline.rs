@@ -96,7 +96,7 @@ impl Outline {
         let place = |parameter: &usize| parameters.iter().position(|name| *name == scene.names.parameters[*parameter]);
         facts.compared = facts.compared.iter().filter_map(place).collect();
         let text = |language: &dyn Expressions, rows: &[&[Operand]]| {
-            let (lines, rows) = scene.local_checks(language, rows);
+            let (lines, rows) = scene.checks(language, rows);
             Body::new(lines, rows, &parameters)
         };
         let checks = &program.checks;
@@ -204,8 +204,6 @@ fn demanded(scene: &Scene<'_>, has_answers: bool) -> ParameterDemand {
     readers.push(Demand::of_code(&checks.code, &checks.residuals));
     if has_answers {
         readers.push(Demand::of_code(&checks.code, &checks.scales));
-    }
-    if has_answers {
         readers.push(Demand::of_code(&checks.code, checks.jacobian.iter().flatten()));
         readers.push(Demand::of_code(&checks.code, checks.short.iter().flat_map(Short::operands)));
     }

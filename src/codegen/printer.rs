@@ -68,28 +68,10 @@ fn packed(items: &[String]) -> Vec<String> {
     lines
 }
 
-/// The filter of that name: lists, the last comma left out, on lines that begin with `lead` but for the first. Behind each item stands
-/// `suffix`; items that are lists themselves stand in `brackets`.
-pub(super) fn packed_lines(
-    items: Vec<minijinja::Value>,
-    lead: &str,
-    suffix: Option<&str>,
-    brackets: Option<&str>,
-) -> Result<String, minijinja::Error> {
-    let mut texts = Vec::with_capacity(items.len());
-    for item in items {
-        let text = match (item.kind(), brackets) {
-            (minijinja::value::ValueKind::Seq, Some(brackets)) => {
-                let inner: Vec<String> = item.try_iter()?.map(|entry| entry.to_string()).collect();
-                let (open, close) = brackets.split_at(brackets.len() / 2);
-                format!("{open}{}{close}", inner.join(", "))
-            }
-            _ => item.to_string(),
-        };
-        texts.push(text + suffix.unwrap_or_default());
-    }
-    let lines = packed(&texts).join(&format!("\n{lead}"));
-    Ok(lines.strip_suffix(',').unwrap_or(&lines).to_owned())
+/// The filter of that name: lists, the last comma left out, on lines that begin with `lead` but for the first.
+pub(super) fn packed_lines(items: Vec<String>, lead: &str) -> String {
+    let lines = packed(&items).join(&format!("\n{lead}"));
+    lines.strip_suffix(',').unwrap_or(&lines).to_owned()
 }
 
 /// Prints code of one function.
@@ -97,31 +79,16 @@ pub(super) struct Printer<'a> {
     language: &'a dyn Expressions,
     names: &'a Names,
     demand: Demand,
-    /// Parameters are local variables, not fields.
-    local_parameters: bool,
     /// Number of register 0.
     first_register: usize,
-    /// By unknown: whether an earlier block found it.
-    known: Vec<bool>,
-    /// Registers below this number are shared by the block's cases.
-    shared: usize,
-    /// Whether constants that stand alone are told from others.
-    tells: bool,
     /// Registers that are read once, until they are.
     waiting: HashMap<usize, Expression>,
 }
 
 impl<'a> Printer<'a> {
-    pub fn new(language: &'a dyn Expressions, names: &'a Names, demand: Demand) -> Self {
-        let (known, shared, waiting) = (Vec::new(), 0, HashMap::new());
-        let (local_parameters, tells, first_register) = (false, false, 0);
-        Printer { language, names, demand, local_parameters, first_register, known, shared, tells, waiting }
-    }
-
-    /// For code in which parameters are local variables and the registers count from `first_register`.
-    pub fn among_parameters(mut self, first_register: usize) -> Self {
-        (self.local_parameters, self.first_register, self.tells) = (true, first_register, true);
-        self
+    /// For code whose registers count from `first_register`.
+    pub fn new(language: &'a dyn Expressions, names: &'a Names, demand: Demand, first_register: usize) -> Self {
+        Printer { language, names, demand, first_register, waiting: HashMap::new() }
     }
 
     pub fn names(&self) -> &'a Names {
@@ -160,15 +127,14 @@ impl<'a> Printer<'a> {
     /// An operand that stands alone, as an expression.
     pub fn operand(&mut self, operand: Operand) -> String {
         match operand {
-            Operand::Constant(value) if self.tells => self.language.alone(self.language.literal(value)),
+            Operand::Constant(value) => self.language.alone(self.language.literal(value)),
             _ => self.expression(operand).text,
         }
     }
 
-    /// An unknown: a local variable, or a field of what earlier blocks found.
+    /// An unknown: a local variable.
     pub fn unknown(&self, index: usize) -> String {
-        let name = &self.names.unknowns[index];
-        if self.known.get(index).copied().unwrap_or(false) { self.language.known(name) } else { name.clone() }
+        self.names.unknowns[index].clone()
     }
 
     fn register(&self, index: usize) -> String {
@@ -181,16 +147,12 @@ impl<'a> Printer<'a> {
                 Expression { text: self.language.literal(value), binding: Binding::Sign }
             }
             Operand::Constant(value) => Expression::atom(self.language.literal(value)),
-            Operand::Parameter(index) if self.local_parameters => Expression::atom(&self.names.parameters[index]),
-            Operand::Parameter(index) => Expression::atom(self.language.field(&self.names.parameters[index])),
+            Operand::Parameter(index) => Expression::atom(&self.names.parameters[index]),
             Operand::Unknown(index) => Expression::atom(self.unknown(index)),
-            Operand::Register(index) if index < self.shared => {
-                Expression::atom(self.language.shared(&self.register(index)))
-            }
             Operand::Register(index) => {
                 self.waiting.remove(&index).unwrap_or_else(|| Expression::atom(self.register(index)))
             }
-            Operand::Magnitude => Expression::atom(self.language.field("magnitude")),
+            Operand::Magnitude => Expression::atom("magnitude"),
         }
     }
 

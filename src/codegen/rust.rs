@@ -34,24 +34,8 @@ impl Expressions for Rust {
         RESERVED.split_whitespace().any(|reserved| reserved == word)
     }
 
-    fn field(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn known(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn shared(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
     fn call(&self, function: &str, argument: &str) -> String {
         format!("{}::{function}({argument})", self.kind)
-    }
-
-    fn greater(&self, a: &str, b: &str) -> String {
-        format!("{}::max({a}, {b})", self.kind)
     }
 
     fn root(&self, square: &str) -> String {

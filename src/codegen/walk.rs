@@ -114,7 +114,7 @@ impl<'a> Walk<'a> {
             self.push([count]);
         }
         let demand = Demand::of_block(scene.program, block, &scene.layout.wanted_of(index));
-        let lines = scene.local_printer(demand, base).code(&block.code);
+        let lines = scene.printer(demand, base).code(&block.code);
         self.push(lines);
         let behind = base + block.registers();
         for first in (0..block.cases.len()).filter(|&case| block.opens_group(case)) {
@@ -148,7 +148,7 @@ impl<'a> Walk<'a> {
         let first = self.claims;
         for &member in &members {
             let case = &block.cases[member];
-            let mut printer = scene.local_printer(Demand::of_claim(case), base);
+            let mut printer = scene.printer(Demand::of_claim(case), base);
             let lines = printer.code(&case.guard_code);
             let guards = guards(case, &mut printer);
             let condition = (!guards.is_empty()).then(|| self.dialect.guard(&guards));
@@ -178,7 +178,7 @@ impl<'a> Walk<'a> {
         let (scene, dialect) = (self.scene, self.dialect);
         let is_last = index + 1 == scene.program.blocks.len();
         let wanted = if is_last { scene.layout.wanted() } else { scene.layout.wanted_of(index) };
-        let mut printer = scene.local_printer(Demand::of_case(scene.program, case, &wanted), base);
+        let mut printer = scene.printer(Demand::of_case(scene.program, case, &wanted), base);
         let lines = printer.code(&case.guard_code);
         self.push(lines);
         let guards = guards(case, &mut printer);
