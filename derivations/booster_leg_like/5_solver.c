@@ -139,62 +139,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
-    const T r3 = c1 * c2, r4 = c1 * c3, r5 = s3 * r0, r6 = c2 * s3, r7 = s1 * c3, r8 = s3 * r1, r11 = c2 * c3;
-    const T r14 = r4 + r5, r19 = r7 - r8, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r6, r25 = s2 * c4;
-    const T r26 = s4 * r19, r27 = c4 * r3, r28 = c4 * r14 - s4 * r2, r29 = c5 * r28, r30 = r22 + r23;
-    const T r31 = s5 * r30, r32 = c4 * r6 + s2 * s4, r34 = r24 - r25, r36 = c4 * r19 + s4 * r3, r37 = c5 * r36;
-    const T r38 = r26 - r27, r39 = s5 * r38, r40 = s5 * r28, r41 = c5 * r30, r42 = s5 * r32, r43 = c5 * r34;
-    const T r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * s3 - c3 * r0, r48 = r40 + r41, r51 = r42 + r43;
-    const T r53 = s1 * s3 + c3 * r1, r55 = r44 + r45, r57 = s6 * r46, r58 = c6 * r48, r59 = s6 * r11;
-    const T r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r64 = R(0.014) * r6, r66 = R(0.28) * r24;
-    const T r68 = R(0.28) * r25, r70 = R(0.012) * r42, r72 = R(0.012) * r43, r74 = R(0.03) * r59;
-    const T r75 = R(0.195) * s2 - r64 - r66 + r68 - r70 - r72 + r74, r76 = R(0.03) * r60, r77 = r75 - r76;
-    const T r78 = R(0.195) * r2, r79 = R(0.014) * r4, r80 = R(0.014) * r5, r81 = R(0.28) * r22;
-    const T r82 = R(0.28) * r23, r83 = R(0.012) * r40, r84 = R(0.012) * r41, r85 = R(0.03) * r57;
-    const T r86 = R(0.03) * r58, r87 = R(0.195) * r3, r88 = R(0.014) * r7, r89 = R(0.014) * r8;
-    const T r90 = R(0.28) * r26, r91 = R(0.28) * r27, r92 = R(0.012) * r44, r93 = R(0.012) * r45;
-    const T r94 = R(0.03) * r61, r95 = R(0.03) * r62, r96 = c5 * r32 - s5 * r34, r97 = r61 + r62;
-    const T r98 = r57 + r58, r99 = r29 - r31, r105 = r91 + (r89 + (r87 + R(0.02) * c1 - r88) - r90);
-    const T r115 = r82 + (r81 + (r80 + (r79 + (r78 + R(0.02) * s1)))), r128 = c6 * r11 + s6 * r51;
-    const T r129 = c6 * r53 - s6 * r55, r146 = r78 + r79 + r80 + r81 + r82 + r83 + r84 + r85;
-    const T r155 = r87 - r88 + r89 - r90 + r91 - r92 - r93 - r94;
-    const T r164 = r91 + (r89 + (R(0.134) * r3 - r88) - r90) - r92, r167 = r164 - r93 - r94 - r95;
-    const T r174 = r68 + (R(0.134) * s2 - r64 - r66) - r70 - r72, r176 = r74 + r174 - r76;
-    const T r183 = r83 + (r82 + (r81 + (r80 + (r79 + R(0.134) * r2)))), r186 = r86 + (r85 + (r84 + r183));
-    const T r195 = r95 + (r94 + (r93 + (r92 + (r90 - r91)))), r201 = r76 + (r72 + (r70 + (r66 - r68)) - r74);
-    const T r207 = r86 + (r85 + (r84 + (r83 + (r81 + r82)))), r214 = r95 + (r94 + (r92 + r93));
-    const T r218 = r76 + (r70 + r72 - r74), r222 = r86 + (r85 + (r83 + r84)), r228 = r37 - r39;
-    const T r229 = r59 - r60, r231 = r228 * r98, r232 = r97 * r99, r238 = r96 * r97 + r228 * r229;
-    const T r249 = r229 * r99 + r96 * r98, r251 = c6 * r46 - s6 * r48;
-    const T r270 = R(0.0) - (r11 * r228 + r53 * r96), r273 = r53 * r99 - r46 * r228;
-    const T r277 = R(0.0) - (r46 * r96 + r11 * r99), r302 = r11 * r129 - r53 * r128;
-    const T r307 = r46 * r129 - r53 * r251, r310 = r11 * r251 - r46 * r128, r330 = r53 * r229 - r11 * r97;
-    const T r334 = r53 * r98 - r46 * r97, r339 = r46 * r229 - r11 * r98;
-    const gb_real all[] = {
-        r95 - (r105 - r92 - r93 - r94), s1 * r77, s2 * r167 - r3 * r176, r11 * r195 + r53 * r201, r11 * r214 + r53 * r218, R(0.03) * r238,
-        R(0.0), s1 * (r146 + r86) + c1 * (r155 - r95), r2 * r167 - r3 * r186, r46 * r195 - r53 * r207, r46 * r214 - r53 * r222, R(0.03) * (r231 - r232),
-        r86 + (r85 + (r84 + (r83 + r115))), c1 * r77, r2 * r176 - s2 * r186, r46 * r201 + r11 * r207, r46 * r218 + r11 * r222, R(0.03) * r249,
-        r39 - r37, s1 * r96, s2 * r228 - r3 * r96, r270, r270, R(0.0),
-        R(0.0), c1 * r228 - s1 * r99, r3 * r99 + r2 * r228, r273, r273, R(0.0),
-        r31 - r29, c1 * r96, r2 * r96 + s2 * r99, r277, r277, R(0.0),
-        r129, s1 * r128, R(0.0) - (s2 * r129 + r3 * r128), r302, r302, r96 * r129 + r228 * r128,
-        R(0.0), s1 * r251 - c1 * r129, R(0.0) - (r3 * r251 + r2 * r129), r307, r307, r228 * r251 - r99 * r129,
-        r251, c1 * r128, r2 * r128 - s2 * r251, r310, r310, r99 * r128 + r96 * r251,
-        R(0.0) - r97, R(0.0) - s1 * r229, s2 * r97 + r3 * r229, r330, r330, R(0.0) - r238,
-        R(0.0), c1 * r97 - s1 * r98, r3 * r98 + r2 * r97, r334, r334, r232 - r231,
-        R(0.0) - r98, R(0.0) - c1 * r229, s2 * r98 - r2 * r229, r339, r339, R(0.0) - r249,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -100,10 +100,6 @@ impl Mechanism for Solver {
 
         [N::of(0.5377293583447944), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: all joints.
@@ -158,58 +154,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r57 + r58,
         r60 - r59,
         0.0 - (r61 + r62),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c1 * c3; let r5 = s3 * r0;
-    let r6 = c2 * s3; let r7 = s1 * c3; let r8 = s3 * r1; let r11 = c2 * c3; let r14 = r4 + r5;
-    let r19 = r7 - r8; let r22 = s4 * r14; let r23 = c4 * r2; let r24 = s4 * r6; let r25 = s2 * c4;
-    let r26 = s4 * r19; let r27 = c4 * r3; let r28 = c4 * r14 - s4 * r2; let r29 = c5 * r28;
-    let r30 = r22 + r23; let r31 = s5 * r30; let r32 = c4 * r6 + s2 * s4; let r34 = r24 - r25;
-    let r36 = c4 * r19 + s4 * r3; let r37 = c5 * r36; let r38 = r26 - r27; let r39 = s5 * r38;
-    let r40 = s5 * r28; let r41 = c5 * r30; let r42 = s5 * r32; let r43 = c5 * r34; let r44 = s5 * r36;
-    let r45 = c5 * r38; let r46 = c1 * s3 - c3 * r0; let r48 = r40 + r41; let r51 = r42 + r43;
-    let r53 = s1 * s3 + c3 * r1; let r55 = r44 + r45; let r57 = s6 * r46; let r58 = c6 * r48;
-    let r59 = s6 * r11; let r60 = c6 * r51; let r61 = s6 * r53; let r62 = c6 * r55; let r64 = 0.014 * r6;
-    let r66 = 0.28 * r24; let r68 = 0.28 * r25; let r70 = 0.012 * r42; let r72 = 0.012 * r43;
-    let r74 = 0.03 * r59; let r75 = 0.195 * s2 - r64 - r66 + r68 - r70 - r72 + r74; let r76 = 0.03 * r60;
-    let r77 = r75 - r76; let r78 = 0.195 * r2; let r79 = 0.014 * r4; let r80 = 0.014 * r5;
-    let r81 = 0.28 * r22; let r82 = 0.28 * r23; let r83 = 0.012 * r40; let r84 = 0.012 * r41;
-    let r85 = 0.03 * r57; let r86 = 0.03 * r58; let r87 = 0.195 * r3; let r88 = 0.014 * r7;
-    let r89 = 0.014 * r8; let r90 = 0.28 * r26; let r91 = 0.28 * r27; let r92 = 0.012 * r44;
-    let r93 = 0.012 * r45; let r94 = 0.03 * r61; let r95 = 0.03 * r62; let r96 = c5 * r32 - s5 * r34;
-    let r97 = r61 + r62; let r98 = r57 + r58; let r99 = r29 - r31;
-    let r106 = r91 + (r89 + (r87 + 0.02 * c1 - r88) - r90) - r92;
-    let r115 = r82 + (r81 + (r80 + (r79 + (r78 + 0.02 * s1)))); let r128 = c6 * r11 + s6 * r51;
-    let r129 = c6 * r53 - s6 * r55; let r146 = r78 + r79 + r80 + r81 + r82 + r83 + r84 + r85;
-    let r155 = r87 - r88 + r89 - r90 + r91 - r92 - r93 - r94;
-    let r165 = r91 + (r89 + (0.134 * r3 - r88) - r90) - r92 - r93; let r167 = r165 - r94 - r95;
-    let r175 = r74 + (r68 + (0.134 * s2 - r64 - r66) - r70 - r72); let r176 = r175 - r76;
-    let r183 = r83 + (r82 + (r81 + (r80 + (r79 + 0.134 * r2)))); let r186 = r86 + (r85 + (r84 + r183));
-    let r195 = r95 + (r94 + (r93 + (r92 + (r90 - r91)))); let r201 = r76 + (r72 + (r70 + (r66 - r68)) - r74);
-    let r207 = r86 + (r85 + (r84 + (r83 + (r81 + r82)))); let r214 = r95 + (r94 + (r92 + r93));
-    let r218 = r76 + (r70 + r72 - r74); let r222 = r86 + (r85 + (r83 + r84)); let r228 = r37 - r39;
-    let r229 = r59 - r60; let r231 = r228 * r98; let r232 = r97 * r99; let r238 = r96 * r97 + r228 * r229;
-    let r249 = r229 * r99 + r96 * r98; let r251 = c6 * r46 - s6 * r48;
-    let r270 = 0.0 - (r11 * r228 + r53 * r96); let r273 = r53 * r99 - r46 * r228;
-    let r277 = 0.0 - (r46 * r96 + r11 * r99); let r302 = r11 * r129 - r53 * r128;
-    let r307 = r46 * r129 - r53 * r251; let r310 = r11 * r251 - r46 * r128; let r330 = r53 * r229 - r11 * r97;
-    let r334 = r53 * r98 - r46 * r97; let r339 = r46 * r229 - r11 * r98;
-    [
-        [r95 - (r106 - r93 - r94), s1 * r77, s2 * r167 - r3 * r176, r11 * r195 + r53 * r201, r11 * r214 + r53 * r218, 0.03 * r238],
-        [0.0, s1 * (r146 + r86) + c1 * (r155 - r95), r2 * r167 - r3 * r186, r46 * r195 - r53 * r207, r46 * r214 - r53 * r222, 0.03 * (r231 - r232)],
-        [r86 + (r85 + (r84 + (r83 + r115))), c1 * r77, r2 * r176 - s2 * r186, r46 * r201 + r11 * r207, r46 * r218 + r11 * r222, 0.03 * r249],
-        [r39 - r37, s1 * r96, s2 * r228 - r3 * r96, r270, r270, 0.0],
-        [0.0, c1 * r228 - s1 * r99, r3 * r99 + r2 * r228, r273, r273, 0.0],
-        [r31 - r29, c1 * r96, r2 * r96 + s2 * r99, r277, r277, 0.0],
-        [r129, s1 * r128, 0.0 - (s2 * r129 + r3 * r128), r302, r302, r96 * r129 + r228 * r128],
-        [0.0, s1 * r251 - c1 * r129, 0.0 - (r3 * r251 + r2 * r129), r307, r307, r228 * r251 - r99 * r129],
-        [r251, c1 * r128, r2 * r128 - s2 * r251, r310, r310, r99 * r128 + r96 * r251],
-        [0.0 - r97, 0.0 - s1 * r229, s2 * r97 + r3 * r229, r330, r330, 0.0 - r238],
-        [0.0, c1 * r97 - s1 * r98, r3 * r98 + r2 * r97, r334, r334, r232 - r231],
-        [0.0 - r98, 0.0 - c1 * r229, s2 * r98 - r2 * r229, r339, r339, 0.0 - r249],
     ]
 }

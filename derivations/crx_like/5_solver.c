@@ -135,52 +135,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r16 = s1 * c4, r17 = s3 * r0 + c3 * r2, r18 = s4 * r17, r19 = c1 * c4, r20 = s3 * r1 + c3 * r3;
-    const T r21 = s4 * r20, r22 = s2 * s3 - c2 * c3, r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5;
-    const T r30 = c5 * r29, r31 = s1 * s4 + c4 * r17, r32 = s5 * r31, r33 = r6 - r7, r34 = c5 * r33;
-    const T r35 = c1 * s4 - c4 * r20, r36 = s5 * r35, r37 = r8 + r9, r38 = c5 * r37, r39 = s5 * r28;
-    const T r46 = r16 - r18, r47 = c6 * r46, r48 = s5 * r29 + c5 * r31, r49 = s6 * r48, r50 = r19 + r21;
-    const T r52 = s5 * r33 - c5 * r35, r55 = s5 * r37 + c5 * r28, r64 = R(0.54) * r8, r66 = R(0.54) * r9;
-    const T r68 = R(0.15) * r23, r70 = R(0.16) * r38, r72 = R(0.16) * r39;
-    const T r73 = R(0.54) * c2 - r64 - r66 + r68 - r70 + r72, r75 = R(0.54) * r6, r77 = R(0.54) * r7;
-    const T r79 = R(0.15) * r19, r81 = R(0.15) * r21, r83 = R(0.16) * r34, r85 = R(0.16) * r36;
-    const T r86 = R(0.54) * r3 + r75 - r77 - r79 - r81 + r83 + r85, r88 = R(0.54) * r4, r90 = R(0.54) * r5;
-    const T r92 = R(0.15) * r16, r94 = R(0.15) * r18, r96 = R(0.16) * r30, r98 = R(0.16) * r32;
-    const T r99 = R(0.54) * r2 + r88 - r90 + r92 - r94 + r96 - r98, r100 = r34 + r36, r101 = r30 - r32;
-    const T r109 = c6 * r23 + s6 * r55, r110 = c6 * r50 + s6 * r52, r116 = s6 * r23 - c6 * r55;
-    const T r117 = s6 * r46 + c6 * r48, r129 = r70 + (r64 + r66 - r68) - r72;
-    const T r136 = r85 + (r83 + (r75 - r77 - r79 - r81)), r142 = r96 + (r92 + (r88 - r90) - r94) - r98;
-    const T r151 = r72 + (r68 - r70), r155 = r79 + r81 - r83 - r85, r159 = r96 + (r92 - r94) - r98;
-    const T r164 = r38 - r39, r178 = r47 - r49, r179 = s6 * r50 - c6 * r52, r197 = R(0.0) - c1 * r164;
-    const T r200 = R(0.0) - s1 * r164, r205 = R(0.0) - (s1 * r100 + c1 * r101), r232 = R(0.0) - c1 * r109;
-    const T r236 = R(0.0) - s1 * r109, r240 = c1 * r178 - s1 * r110, r244 = c1 * r116, r245 = s1 * r116;
-    const T r274 = s1 * r179 - c1 * r117;
-    const gb_real all[] = {
-        R(0.0) - r86, c1 * r73, R(0.0) - c1 * r129, r37 * r136 - r33 * r129, r50 * r151 - r23 * r155, R(0.0),
-        r99, s1 * r73, R(0.0) - s1 * r129, r29 * r129 - r37 * r142, r46 * r151 - r23 * r159, R(0.0),
-        R(0.0), R(0.0) - (s1 * r86 + c1 * r99), R(0.0) - (s1 * r136 + c1 * r142), r29 * r136 - r33 * r142, r46 * r155 - r50 * r159, R(0.0),
-        R(0.0) - r100, r197, r197, r37 * r100 - r33 * r164, r23 * r100 - r50 * r164, R(0.0),
-        r101, r200, r200, r29 * r164 - r37 * r101, R(0.0) - (r23 * r101 + r46 * r164), R(0.0),
-        R(0.0), r205, r205, r29 * r100 - r33 * r101, R(0.0) - (r46 * r100 + r50 * r101), R(0.0),
-        R(0.0) - r110, r232, r232, r37 * r110 - r33 * r109, r23 * r110 - r50 * r109, r164 * r110 - r100 * r109,
-        r49 - r47, r236, r236, r37 * r178 + r29 * r109, r23 * r178 - r46 * r109, r164 * r178 + r101 * r109,
-        R(0.0), r240, r240, r29 * r110 + r33 * r178, r50 * r178 - r46 * r110, r101 * r110 + r100 * r178,
-        r179, r244, r244, r33 * r116 - r37 * r179, r50 * r116 - r23 * r179, r100 * r116 - r164 * r179,
-        r117, r245, r245, R(0.0) - (r37 * r117 + r29 * r116), r46 * r116 - r23 * r117, R(0.0) - (r164 * r117 + r101 * r116),
-        R(0.0), r274, r274, R(0.0) - (r29 * r179 + r33 * r117), r46 * r179 - r50 * r117, R(0.0) - (r101 * r179 + r100 * r117),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

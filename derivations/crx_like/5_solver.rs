@@ -100,10 +100,6 @@ impl Mechanism for Solver {
 
         [N::of(1.39), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: all joints.
@@ -152,46 +148,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         s6 * r46 + c6 * r48,
         c6 * r52 - s6 * r50,
         s6 * r23 - c6 * r55,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = s1 * c4;
-    let r17 = s3 * r0 + c3 * r2; let r18 = s4 * r17; let r19 = c1 * c4; let r20 = s3 * r1 + c3 * r3;
-    let r21 = s4 * r20; let r22 = s2 * s3 - c2 * c3; let r23 = s4 * r22; let r28 = c4 * r22; let r29 = r4 - r5;
-    let r30 = c5 * r29; let r31 = s1 * s4 + c4 * r17; let r32 = s5 * r31; let r33 = r6 - r7;
-    let r34 = c5 * r33; let r35 = c1 * s4 - c4 * r20; let r36 = s5 * r35; let r37 = r8 + r9;
-    let r38 = c5 * r37; let r39 = s5 * r28; let r46 = r16 - r18; let r47 = c6 * r46;
-    let r48 = s5 * r29 + c5 * r31; let r49 = s6 * r48; let r50 = r19 + r21; let r52 = s5 * r33 - c5 * r35;
-    let r55 = s5 * r37 + c5 * r28; let r64 = 0.54 * r8; let r66 = 0.54 * r9; let r68 = 0.15 * r23;
-    let r70 = 0.16 * r38; let r72 = 0.16 * r39; let r73 = 0.54 * c2 - r64 - r66 + r68 - r70 + r72;
-    let r75 = 0.54 * r6; let r77 = 0.54 * r7; let r79 = 0.15 * r19; let r81 = 0.15 * r21; let r83 = 0.16 * r34;
-    let r85 = 0.16 * r36; let r86 = 0.54 * r3 + r75 - r77 - r79 - r81 + r83 + r85; let r88 = 0.54 * r4;
-    let r90 = 0.54 * r5; let r92 = 0.15 * r16; let r94 = 0.15 * r18; let r96 = 0.16 * r30;
-    let r98 = 0.16 * r32; let r99 = 0.54 * r2 + r88 - r90 + r92 - r94 + r96 - r98; let r100 = r34 + r36;
-    let r101 = r30 - r32; let r109 = c6 * r23 + s6 * r55; let r110 = c6 * r50 + s6 * r52;
-    let r116 = s6 * r23 - c6 * r55; let r117 = s6 * r46 + c6 * r48; let r129 = r70 + (r64 + r66 - r68) - r72;
-    let r136 = r85 + (r83 + (r75 - r77 - r79 - r81)); let r142 = r96 + (r92 + (r88 - r90) - r94) - r98;
-    let r151 = r72 + (r68 - r70); let r155 = r79 + r81 - r83 - r85; let r159 = r96 + (r92 - r94) - r98;
-    let r164 = r38 - r39; let r178 = r47 - r49; let r179 = s6 * r50 - c6 * r52; let r197 = 0.0 - c1 * r164;
-    let r200 = 0.0 - s1 * r164; let r205 = 0.0 - (s1 * r100 + c1 * r101); let r232 = 0.0 - c1 * r109;
-    let r236 = 0.0 - s1 * r109; let r240 = c1 * r178 - s1 * r110; let r244 = c1 * r116; let r245 = s1 * r116;
-    let r274 = s1 * r179 - c1 * r117;
-    [
-        [0.0 - r86, c1 * r73, 0.0 - c1 * r129, r37 * r136 - r33 * r129, r50 * r151 - r23 * r155, 0.0],
-        [r99, s1 * r73, 0.0 - s1 * r129, r29 * r129 - r37 * r142, r46 * r151 - r23 * r159, 0.0],
-        [0.0, 0.0 - (s1 * r86 + c1 * r99), 0.0 - (s1 * r136 + c1 * r142), r29 * r136 - r33 * r142, r46 * r155 - r50 * r159, 0.0],
-        [0.0 - r100, r197, r197, r37 * r100 - r33 * r164, r23 * r100 - r50 * r164, 0.0],
-        [r101, r200, r200, r29 * r164 - r37 * r101, 0.0 - (r23 * r101 + r46 * r164), 0.0],
-        [0.0, r205, r205, r29 * r100 - r33 * r101, 0.0 - (r46 * r100 + r50 * r101), 0.0],
-        [0.0 - r110, r232, r232, r37 * r110 - r33 * r109, r23 * r110 - r50 * r109, r164 * r110 - r100 * r109],
-        [r49 - r47, r236, r236, r37 * r178 + r29 * r109, r23 * r178 - r46 * r109, r164 * r178 + r101 * r109],
-        [0.0, r240, r240, r29 * r110 + r33 * r178, r50 * r178 - r46 * r110, r101 * r110 + r100 * r178],
-        [r179, r244, r244, r33 * r116 - r37 * r179, r50 * r116 - r23 * r179, r100 * r116 - r164 * r179],
-        [r117, r245, r245, 0.0 - (r37 * r117 + r29 * r116), r46 * r116 - r23 * r117, 0.0 - (r164 * r117 + r101 * r116)],
-        [0.0, r274, r274, 0.0 - (r29 * r179 + r33 * r117), r46 * r179 - r50 * r117, 0.0 - (r101 * r179 + r100 * r117)],
     ]
 }

@@ -148,33 +148,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c4 = at[3], s4 = at[4], c5 = at[5], s5 = at[6], c6 = at[7], s6 = at[8], r5 = c4 * c5, r6 = s4 * c5;
-    const T r7 = c4 * s5, r8 = s4 * s5, r11 = c6 * r6, r12 = c4 * s6, r13 = s5 * c6, r14 = s6 * r5;
-    const T r15 = s4 * c6, r18 = s5 * s6, r30 = r11 - r12, r31 = c6 * r5 + s4 * s6, r36 = s6 * r6 + c4 * c6;
-    const T r55 = s4 * r8 + c4 * r7, r57 = r14 - r15;
-    const gb_real all[] = {
-        R(1.0), R(0.0), R(0.0), R(0.12) * r8, R(0.0) - R(0.12) * r5, R(0.0),
-        R(0.0), R(1.0), R(0.0), R(0.0) - R(0.12) * r7, R(0.0) - R(0.12) * r6, R(0.0),
-        R(0.0), R(0.0), R(1.0), R(0.0), R(0.12) * r55, R(0.0),
-        R(0.0), R(0.0), R(0.0), r12 - r11, R(0.0) - c4 * r13, r8 * r13 + c5 * r30,
-        R(0.0), R(0.0), R(0.0), r31, R(0.0) - s4 * r13, R(0.0) - (c5 * r31 + r7 * r13),
-        R(0.0), R(0.0), R(0.0), R(0.0), R(0.0) - (s4 * r30 + c4 * r31), r8 * r31 - r7 * r30,
-        R(0.0), R(0.0), R(0.0), r36, c4 * r18, R(0.0) - (r8 * r18 + c5 * r36),
-        R(0.0), R(0.0), R(0.0), r15 - r14, s4 * r18, c5 * r57 + r7 * r18,
-        R(0.0), R(0.0), R(0.0), R(0.0), s4 * r36 + c4 * r57, r7 * r36 - r8 * r57,
-        R(0.0), R(0.0), R(0.0), r8, R(0.0) - r5, R(0.0),
-        R(0.0), R(0.0), R(0.0), R(0.0) - r7, R(0.0) - r6, R(0.0),
-        R(0.0), R(0.0), R(0.0), R(0.0), r55, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

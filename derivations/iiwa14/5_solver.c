@@ -247,53 +247,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3_ = at[4], s3_ = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], c7 = at[12], s7 = at[13], r0 = c1 * c2;
-    const T r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r8 = s2 * c3_, r13 = s2 * s3_, r14 = c3_ * r0 - s1 * s3_;
-    const T r17 = c3_ * r1 + c1 * s3_, r22 = s4 * r14, r23 = c4 * r2, r24 = s4 * r17, r25 = c4 * r3;
-    const T r26 = s4 * r8, r27 = c2 * c4, r28 = c4 * r14 + s4 * r2, r30 = s3_ * r0 + s1 * c3_;
-    const T r32 = c4 * r17 + s4 * r3, r34 = s3_ * r1 - c1 * c3_, r36 = c4 * r8 - c2 * s4;
-    const T r45 = c5 * r28 - s5 * r30, r47 = r22 - r23, r49 = c5 * r32 - s5 * r34, r51 = r24 - r25;
-    const T r53 = c5 * r36 - s5 * r13, r55 = r26 + r27, r57 = s6 * r45, r58 = c6 * r47, r59 = s6 * r49;
-    const T r60 = c6 * r51, r61 = s6 * r53, r62 = c6 * r55, r63 = c6 * r45 + s6 * r47;
-    const T r65 = s5 * r28 + c5 * r30, r67 = c6 * r49 + s6 * r51, r68 = c7 * r67, r69 = s5 * r32 + c5 * r34;
-    const T r70 = s7 * r69, r71 = c6 * r53 + s6 * r55, r73 = s5 * r36 + c5 * r13, r82 = R(0.4) * r26;
-    const T r84 = R(0.4) * r27, r86 = R(0.126) * r61, r88 = R(0.126) * r62;
-    const T r89 = R(0.42) * c2 + r82 + r84 - r86 + r88, r91 = R(0.4) * r24, r93 = R(0.4) * r25;
-    const T r95 = R(0.126) * r59, r96 = R(0.42) * r3 - r91 + r93 + r95, r97 = R(0.126) * r60, r98 = r96 - r97;
-    const T r100 = R(0.4) * r22, r102 = R(0.4) * r23, r104 = R(0.126) * r57, r106 = R(0.126) * r58;
-    const T r107 = R(0.42) * r2 - r100 + r102 + r104 - r106, r108 = r59 - r60, r109 = r57 - r58;
-    const T r114 = r68 - r70, r115 = c7 * r63 - s7 * r65, r120 = s7 * r71 + c7 * r73;
-    const T r121 = s7 * r67 + c7 * r69, r122 = s7 * r63 + c7 * r65, r146 = r88 + (r82 + r84 - r86);
-    const T r150 = r97 + (r91 - r93 - r95), r154 = r106 + (r100 - r102 - r104), r159 = r61 - r62;
-    const T r164 = r47 * r108, r165 = r51 * r109, r170 = r65 * r108, r171 = r69 * r109;
-    const T r175 = r51 * r159 - r55 * r108, r177 = r69 * r159 - r73 * r108, r181 = r55 * r109 - r47 * r159;
-    const T r183 = r73 * r109 - r65 * r159, r195 = c7 * r71 - s7 * r73;
-    const gb_real all[] = {
-        r97 - r96, c1 * r89, r3 * r89 - c2 * r98, r34 * r146 - r13 * r150, R(0.126) * r175, R(0.126) * r177, R(0.0),
-        r107, s1 * r89, c2 * r107 - r2 * r89, r13 * r154 - r30 * r146, R(0.126) * r181, R(0.126) * r183, R(0.0),
-        R(0.0), R(0.0) - (s1 * r98 + c1 * r107), r2 * r98 - r3 * r107, r34 * r154 - r30 * r150, R(0.0) - R(0.126) * (r164 - r165), R(0.0) - R(0.126) * (r170 - r171), R(0.0),
-        r70 - r68, R(0.0) - c1 * r195, R(0.0) - (r3 * r195 + c2 * r114), r13 * r114 - r34 * r195, r51 * r195 - r55 * r114, r69 * r195 - r73 * r114, r159 * r114 - r108 * r195,
-        r115, R(0.0) - s1 * r195, c2 * r115 + r2 * r195, r30 * r195 - r13 * r115, r55 * r115 - r47 * r195, r73 * r115 - r65 * r195, r109 * r195 - r159 * r115,
-        R(0.0), R(0.0) - (s1 * r114 + c1 * r115), r2 * r114 - r3 * r115, r30 * r114 - r34 * r115, r51 * r115 - r47 * r114, r69 * r115 - r65 * r114, r109 * r114 - r108 * r115,
-        r121, c1 * r120, r3 * r120 + c2 * r121, r34 * r120 - r13 * r121, r55 * r121 - r51 * r120, r73 * r121 - r69 * r120, r108 * r120 - r159 * r121,
-        R(0.0) - r122, s1 * r120, R(0.0) - (c2 * r122 + r2 * r120), r13 * r122 - r30 * r120, r47 * r120 - r55 * r122, r65 * r120 - r73 * r122, r159 * r122 - r109 * r120,
-        R(0.0), s1 * r121 + c1 * r122, r3 * r122 - r2 * r121, r34 * r122 - r30 * r121, r47 * r121 - r51 * r122, r65 * r121 - r69 * r122, r108 * r122 - r109 * r121,
-        r60 - r59, R(0.0) - c1 * r159, R(0.0) - (r3 * r159 + c2 * r108), r13 * r108 - r34 * r159, r175, r177, R(0.0),
-        r109, R(0.0) - s1 * r159, c2 * r109 + r2 * r159, r30 * r159 - r13 * r109, r181, r183, R(0.0),
-        R(0.0), R(0.0) - (s1 * r108 + c1 * r109), r2 * r108 - r3 * r109, r30 * r108 - r34 * r109, r165 - r164, r171 - r170, R(0.0),
-        R(0.0), R(0.0), R(0.0) - s3_, R(0.0), R(0.0), R(0.0), R(0.0),
-        R(0.0), R(0.0), c3_, R(0.0), R(0.0), R(0.0), R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -244,54 +244,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3;
-    const T r17 = r10 + r11, r20 = r12 + r13, r22 = r14 - r15, r23 = s4 * r22, r28 = c4 * r22, r29 = r4 - r5;
-    const T r31 = s1 * s4 + c4 * r17, r33 = r6 - r7, r35 = c1 * s4 - c4 * r20, r37 = r8 + r9, r40 = s5 * r29;
-    const T r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r35, r44 = s5 * r37, r45 = c5 * r28;
-    const T r46 = c5 * r29 - s5 * r31, r48 = s1 * c4 - s4 * r17, r50 = c5 * r33 + s5 * r35;
-    const T r52 = c1 * c4 + s4 * r20, r54 = c5 * r37 - s5 * r28, r64 = R(0.07) * r14, r66 = R(0.07) * r15;
-    const T r68 = R(0.302) * r8, r70 = R(0.302) * r9, r72 = R(0.16) * r44, r74 = R(0.16) * r45;
-    const T r75 = R(0.27) * c2 - r64 + r66 - r68 - r70 + r72 + r74, r77 = R(0.07) * r12, r79 = R(0.07) * r13;
-    const T r81 = R(0.302) * r6, r83 = R(0.302) * r7, r85 = R(0.16) * r42, r87 = R(0.16) * r43;
-    const T r88 = R(0.27) * r3 + r77 + r79 + r81 - r83 - r85 + r87, r90 = R(0.07) * r10, r92 = R(0.07) * r11;
-    const T r94 = R(0.302) * r4, r96 = R(0.302) * r5, r98 = R(0.16) * r40, r100 = R(0.16) * r41;
-    const T r101 = R(0.27) * r2 + r90 + r92 + r94 - r96 - r98 - r100, r102 = r44 + r45, r103 = r40 + r41;
-    const T r108 = c6 * r54 - s6 * r23, r109 = c6 * r46 + s6 * r48, r115 = s6 * r54 + c6 * r23;
-    const T r116 = s6 * r50 + c6 * r52, r117 = s6 * r46 - c6 * r48;
-    const T r135 = r70 + (r68 + (r64 - r66)) - r72 - r74, r151 = r42 - r43, r155 = r29 * r151;
-    const T r156 = r33 * r103, r165 = r33 * r102 - r37 * r151, r167 = r52 * r102 - r23 * r151;
-    const T r170 = r37 * r103 - r29 * r102, r172 = r23 * r103 + r48 * r102;
-    const T r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
-    const T r181 = r48 * r151 + r52 * r103, r183 = c6 * r50 - s6 * r52, r184 = c1 * r108, r185 = s1 * r108;
-    const T r212 = s1 * r183 + c1 * r109, r239 = R(0.0) - c1 * r115, r243 = R(0.0) - s1 * r115;
-    const T r249 = R(0.0) - (s1 * r116 + c1 * r117), r254 = c1 * r102, r255 = s1 * r102;
-    const T r258 = s1 * r151 + c1 * r103;
-    const gb_real all[] = {
-        R(0.0) - r88, c1 * r75, R(0.0) - c1 * r135, R(0.16) * r165, R(0.16) * r167, R(0.0),
-        r101, s1 * r75, R(0.0) - s1 * r135, R(0.16) * r170, R(0.16) * r172, R(0.0),
-        R(0.0), R(0.0) - (s1 * r88 + c1 * r101), R(0.0) - r176, R(0.0) - R(0.16) * (r155 - r156), R(0.16) * r181, R(0.0),
-        r183, r184, r184, r33 * r108 - r37 * r183, r52 * r108 - r23 * r183, r102 * r183 - r151 * r108,
-        R(0.0) - r109, r185, r185, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109,
-        R(0.0), r212, r212, r33 * r109 - r29 * r183, r48 * r183 + r52 * r109, r103 * r183 - r151 * r109,
-        R(0.0) - r116, r239, r239, r37 * r116 - r33 * r115, r23 * r116 - r52 * r115, r151 * r115 - r102 * r116,
-        r117, r243, r243, r29 * r115 - r37 * r117, R(0.0) - (r23 * r117 + r48 * r115), r102 * r117 - r103 * r115,
-        R(0.0), r249, r249, r29 * r116 - r33 * r117, R(0.0) - (r48 * r116 + r52 * r117), r151 * r117 - r103 * r116,
-        r151, r254, r254, r165, r167, R(0.0),
-        R(0.0) - r103, r255, r255, r170, r172, R(0.0),
-        R(0.0), r258, r258, r156 - r155, r181, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(1.0300064515457703), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: Axis5.
@@ -237,48 +233,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         0.0 - (r40 + r41),
         r43 - r42,
         r44 + r45,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
-    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
-    let r17 = r10 + r11; let r20 = r12 + r13; let r22 = r14 - r15; let r23 = s4 * r22; let r28 = c4 * r22;
-    let r29 = r4 - r5; let r31 = s1 * s4 + c4 * r17; let r33 = r6 - r7; let r35 = c1 * s4 - c4 * r20;
-    let r37 = r8 + r9; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33; let r43 = c5 * r35;
-    let r44 = s5 * r37; let r45 = c5 * r28; let r46 = c5 * r29 - s5 * r31; let r48 = s1 * c4 - s4 * r17;
-    let r50 = c5 * r33 + s5 * r35; let r52 = c1 * c4 + s4 * r20; let r54 = c5 * r37 - s5 * r28;
-    let r64 = 0.07 * r14; let r66 = 0.07 * r15; let r68 = 0.302 * r8; let r70 = 0.302 * r9;
-    let r72 = 0.16 * r44; let r74 = 0.16 * r45; let r75 = 0.27 * c2 - r64 + r66 - r68 - r70 + r72 + r74;
-    let r77 = 0.07 * r12; let r79 = 0.07 * r13; let r81 = 0.302 * r6; let r83 = 0.302 * r7;
-    let r85 = 0.16 * r42; let r87 = 0.16 * r43; let r88 = 0.27 * r3 + r77 + r79 + r81 - r83 - r85 + r87;
-    let r90 = 0.07 * r10; let r92 = 0.07 * r11; let r94 = 0.302 * r4; let r96 = 0.302 * r5;
-    let r98 = 0.16 * r40; let r100 = 0.16 * r41; let r101 = 0.27 * r2 + r90 + r92 + r94 - r96 - r98 - r100;
-    let r102 = r44 + r45; let r103 = r40 + r41; let r108 = c6 * r54 - s6 * r23; let r109 = c6 * r46 + s6 * r48;
-    let r115 = s6 * r54 + c6 * r23; let r116 = s6 * r50 + c6 * r52; let r117 = s6 * r46 - c6 * r48;
-    let r135 = r70 + (r68 + (r64 - r66)) - r72 - r74; let r151 = r42 - r43; let r155 = r29 * r151;
-    let r156 = r33 * r103; let r165 = r33 * r102 - r37 * r151; let r167 = r52 * r102 - r23 * r151;
-    let r170 = r37 * r103 - r29 * r102; let r172 = r23 * r103 + r48 * r102;
-    let r176 = s1 * (r87 + (r81 + (r77 + r79) - r83 - r85)) + c1 * (r94 + (r90 + r92) - r96 - r98 - r100);
-    let r181 = r48 * r151 + r52 * r103; let r183 = c6 * r50 - s6 * r52; let r184 = c1 * r108;
-    let r185 = s1 * r108; let r212 = s1 * r183 + c1 * r109; let r239 = 0.0 - c1 * r115;
-    let r243 = 0.0 - s1 * r115; let r249 = 0.0 - (s1 * r116 + c1 * r117); let r254 = c1 * r102;
-    let r255 = s1 * r102; let r258 = s1 * r151 + c1 * r103;
-    [
-        [0.0 - r88, c1 * r75, 0.0 - c1 * r135, 0.16 * r165, 0.16 * r167, 0.0],
-        [r101, s1 * r75, 0.0 - s1 * r135, 0.16 * r170, 0.16 * r172, 0.0],
-        [0.0, 0.0 - (s1 * r88 + c1 * r101), 0.0 - r176, 0.0 - 0.16 * (r155 - r156), 0.16 * r181, 0.0],
-        [r183, r184, r184, r33 * r108 - r37 * r183, r52 * r108 - r23 * r183, r102 * r183 - r151 * r108],
-        [0.0 - r109, r185, r185, r37 * r109 - r29 * r108, r23 * r109 + r48 * r108, r103 * r108 - r102 * r109],
-        [0.0, r212, r212, r33 * r109 - r29 * r183, r48 * r183 + r52 * r109, r103 * r183 - r151 * r109],
-        [0.0 - r116, r239, r239, r37 * r116 - r33 * r115, r23 * r116 - r52 * r115, r151 * r115 - r102 * r116],
-        [r117, r243, r243, r29 * r115 - r37 * r117, 0.0 - (r23 * r117 + r48 * r115), r102 * r117 - r103 * r115],
-        [0.0, r249, r249, r29 * r116 - r33 * r117, 0.0 - (r48 * r116 + r52 * r117), r151 * r117 - r103 * r116],
-        [r151, r254, r254, r165, r167, 0.0],
-        [0.0 - r103, r255, r255, r170, r172, 0.0],
-        [0.0, r258, r258, r156 - r155, r181, 0.0],
     ]
 }

@@ -114,20 +114,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c2 = at[0], s2 = at[1], c4 = at[2], s4 = at[3];
-    const gb_real all[] = {
-        R(0.0) - R(105.0) * s2, R(113.7) * c4,
-        R(105.0) * c2, R(0.0) - R(113.7) * s4,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

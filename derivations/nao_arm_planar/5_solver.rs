@@ -88,10 +88,6 @@ impl Mechanism for Solver {
 
         [N::abs(pz) + 218.7, N::abs(py) + 218.7]
     }
-
-    fn jacobian(&self, p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: nao_arm_planar.
@@ -136,14 +132,5 @@ fn tip<N: Number>(at: &[N; 4]) -> [N; 2] where f64: With<N> {
     [
         105.0 * c2 + 113.7 * s4,
         105.0 * s2 + 113.7 * c4,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-    let [c2, s2, c4, s4] = *at;
-    [
-        [0.0 - 105.0 * s2, 113.7 * c4],
-        [105.0 * c2, 0.0 - 113.7 * s4],
     ]
 }

@@ -97,10 +97,6 @@ impl Mechanism for Solver {
 
         [N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 3] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 2: HeadPitch.
@@ -143,16 +139,5 @@ fn tip<N: Number>(at: &[N; 4]) -> [N; 3] where f64: With<N> {
         c1 * c2,
         s1 * c2,
         0.0 - s2,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 3] {
-    let [c1, s1, c2, s2] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2;
-    [
-        [0.0 - r1, 0.0 - c1 * s2],
-        [r0, 0.0 - s1 * s2],
-        [0.0, 0.0 - (s1 * r1 + c1 * r0)],
     ]
 }

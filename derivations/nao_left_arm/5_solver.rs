@@ -97,10 +97,6 @@ impl Mechanism for Solver {
 
         [N::of(0.3610777288643948), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 7], at: &[f64; 10]) -> [[f64; 5]; 6] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 6: ElbowRoll.
@@ -271,32 +267,5 @@ fn tip<N: Number>(at: &[N; 10]) -> [N; 6] where f64: With<N> {
         r14 - r16,
         r17 + r18,
         r21 - r19,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 7], at: &[f64; 10]) -> [[f64; 5]; 6] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r6 = c2 * c3;
-    let r11 = c2 * s3; let r14 = c4 * r0; let r15 = c3 * r2 - s1 * s3; let r16 = s4 * r15; let r17 = s2 * c4;
-    let r18 = s4 * r6; let r19 = c4 * r1; let r20 = c3 * r3 + c1 * s3; let r21 = s4 * r20;
-    let r29 = s3 * r2 + s1 * c3; let r32 = s3 * r3 - c1 * c3; let r42 = 0.1137 * r17; let r44 = 0.1137 * r18;
-    let r46 = 0.01231 * (s5 * (s2 * s4 - c4 * r6)); let r48 = 0.01231 * (c5 * r11);
-    let r49 = 0.015 * c2 + 0.105 * s2 + r42 + r44 - r46 + r48; let r53 = 0.1137 * r14; let r55 = 0.1137 * r16;
-    let r57 = 0.01231 * (s5 * (s4 * r0 + c4 * r15)); let r59 = 0.01231 * (c5 * r29);
-    let r60 = 0.015 * r2 - 0.105 * r0 - r53 + r55 + r57 + r59; let r64 = 0.1137 * r19; let r66 = 0.1137 * r21;
-    let r68 = 0.01231 * (s5 * (s4 * r1 + c4 * r20)); let r70 = 0.01231 * (c5 * r32);
-    let r71 = 0.015 * r3 - 0.105 * r1 - r64 + r66 + r68 + r70; let r72 = r17 + r18; let r73 = r14 - r16;
-    let r90 = r64 - r66 - r68 - r70; let r94 = r48 + (r42 + r44 - r46); let r98 = r53 - r55 - r57 - r59;
-    let r113 = 0.05775 * r19 - 0.05775 * r21 - r68 - r70; let r115 = r19 - r21;
-    let r120 = r48 + (0.05775 * r17 + 0.05775 * r18 - r46);
-    let r126 = 0.05775 * r14 - 0.05775 * r16 - r57 - r59;
-    [
-        [r71, 0.0 - c1 * r49, r1 * r94 - s2 * r90, r11 * r90 + r32 * r94, r115 * r120 - r72 * r113],
-        [0.0, 0.0 - (c1 * r60 + s1 * r71), r0 * r90 - r1 * r98, r29 * r90 - r32 * r98, r113 * r73 - r115 * r126],
-        [r60, s1 * r49, r0 * r94 - s2 * r98, r29 * r94 + r11 * r98, r120 * r73 - r72 * r126],
-        [r21 - r19, 0.0 - c1 * r72, r1 * r72 - s2 * r115, r11 * r115 + r32 * r72, 0.0],
-        [0.0, c1 * r73 + s1 * r115, r0 * r115 - r1 * r73, r29 * r115 - r32 * r73, 0.0],
-        [r16 - r14, s1 * r72, r0 * r72 - s2 * r73, r29 * r72 + r11 * r73, 0.0],
     ]
 }

@@ -88,21 +88,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c3 = at[0], s3 = at[1], c4 = at[2], s4 = at[3], r0 = R(102.9) * c4, r4 = R(102.9) * (c3 * s4);
-    const T r9 = R(102.9) * (s4 * s3);
-    const gb_real all[] = {
-        c3 * (r0 + R(100.0)) - r9, R(102.9) * (c4 * c3) - r9,
-        s3 * (R(0.0) - r0 - R(100.0)) - r4, R(0.0) - R(102.9) * (c4 * s3) - r4,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -86,10 +86,6 @@ impl Mechanism for Solver {
 
         [N::abs(px) + 305.8, N::abs(pz) + 305.8]
     }
-
-    fn jacobian(&self, p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: nao_leg_sagittal.
@@ -120,15 +116,5 @@ fn values<N: Number>(p: &[N; 3], at: &[N; 4]) -> [N; 2] where f64: With<N> {
     [
         s3 * r1 + (102.9 * (c3 * s4) - px),
         c3 * r1 - (pz + 102.9 * (s4 * s3)),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-    let [c3, s3, c4, s4] = *at;
-    let r0 = 102.9 * c4; let r4 = 102.9 * (c3 * s4); let r9 = 102.9 * (s4 * s3);
-    [
-        [c3 * (r0 + 100.0) - r9, 102.9 * (c4 * c3) - r9],
-        [s3 * (0.0 - r0 - 100.0) - r4, 0.0 - 102.9 * (c4 * s3) - r4],
     ]
 }

@@ -281,39 +281,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r6 = c2 * c3;
-    const T r11 = c2 * s3, r14 = c4 * r0, r15 = c3 * r2 - s1 * s3, r16 = s4 * r15, r17 = s2 * c4;
-    const T r18 = s4 * r6, r19 = c4 * r1, r20 = c3 * r3 + c1 * s3, r21 = s4 * r20, r29 = s3 * r2 + s1 * c3;
-    const T r32 = s3 * r3 - c1 * c3, r42 = R(0.1137) * r17, r44 = R(0.1137) * r18;
-    const T r46 = R(0.01231) * (s5 * (s2 * s4 - c4 * r6));
-    const T r47 = R(0.015) * c2 - R(0.105) * s2 - r42 - r44 + r46, r48 = R(0.01231) * (c5 * r11);
-    const T r49 = r47 - r48, r53 = R(0.1137) * r14, r55 = R(0.1137) * r16;
-    const T r57 = R(0.01231) * (s5 * (s4 * r0 + c4 * r15));
-    const T r58 = R(0.015) * r2 + R(0.105) * r0 + r53 - r55 - r57, r59 = R(0.01231) * (c5 * r29);
-    const T r64 = R(0.1137) * r19, r66 = R(0.1137) * r21, r68 = R(0.01231) * (s5 * (s4 * r1 + c4 * r20));
-    const T r69 = R(0.015) * r3 + R(0.105) * r1 + r64 - r66 - r68, r70 = R(0.01231) * (c5 * r32);
-    const T r72 = r17 + r18, r73 = r14 - r16, r90 = r64 - r66 - r68 - r70, r94 = r48 + (r42 + r44 - r46);
-    const T r98 = r53 - r55 - r57 - r59, r113 = R(0.05775) * r19 - R(0.05775) * r21 - r68 - r70;
-    const T r115 = r19 - r21, r120 = r48 + (R(0.05775) * r17 + R(0.05775) * r18 - r46);
-    const T r126 = R(0.05775) * r14 - R(0.05775) * r16 - r57 - r59;
-    const gb_real all[] = {
-        r70 - r69, c1 * r49, r1 * r94 - s2 * r90, r11 * r90 + r32 * r94, r115 * r120 - r72 * r113,
-        R(0.0), c1 * (r58 - r59) + s1 * (r69 - r70), r0 * r90 - r1 * r98, r29 * r90 - r32 * r98, r113 * r73 - r115 * r126,
-        r59 - r58, R(0.0) - s1 * r49, r0 * r94 - s2 * r98, r29 * r94 + r11 * r98, r120 * r73 - r72 * r126,
-        r21 - r19, R(0.0) - c1 * r72, r1 * r72 - s2 * r115, r11 * r115 + r32 * r72, R(0.0),
-        R(0.0), c1 * r73 + s1 * r115, r0 * r115 - r1 * r73, r29 * r115 - r32 * r73, R(0.0),
-        r16 - r14, s1 * r72, r0 * r72 - s2 * r73, r29 * r72 + r11 * r73, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -194,33 +194,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3_ = at[4], s3_ = at[5], c4 = at[6], s4 = at[7];
-    const T r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2, r3 = s1 * s2, r9 = s3_ * r2, r10 = s1 * c3_;
-    const T r11 = c2 * s3_, r12 = s3_ * r3, r13 = c1 * c3_, r25 = R(0.1137) * (s2 * c4);
-    const T r27 = R(0.1137) * (s4 * (c2 * c3_)), r29 = R(0.01231) * r11;
-    const T r30 = R(0.015) * c2 - R(0.105) * s2 - r25 - r27 - r29, r34 = R(0.1137) * (c4 * r0);
-    const T r36 = R(0.1137) * (s4 * (c3_ * r2 - s1 * s3_)), r38 = R(0.01231) * r9;
-    const T r39 = R(0.015) * r2 + R(0.105) * r0 + r34 - r36 - r38, r40 = R(0.01231) * r10;
-    const T r45 = R(0.1137) * (c4 * r1), r47 = R(0.1137) * (s4 * (c3_ * r3 + c1 * s3_));
-    const T r49 = R(0.01231) * r12, r50 = R(0.015) * r3 + R(0.105) * r1 + r45 - r47 - r49;
-    const T r51 = R(0.01231) * r13, r52 = r50 + r51, r67 = r51 + (r45 - r47 - r49), r70 = r29 + (r25 + r27);
-    const T r74 = r34 - r36 - r38 - r40, r80 = r12 - r13, r83 = r9 + r10;
-    const gb_real all[] = {
-        R(0.0) - r52, c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80,
-        R(0.0), c1 * (r39 - r40) + s1 * r52, r0 * r67 - r1 * r74, r67 * r83 - r74 * r80,
-        r40 - r39, R(0.0) - s1 * r30, r0 * r70 - s2 * r74, r70 * r83 + r11 * r74,
-        R(0.0), R(0.0), R(0.0) - s3_, R(0.0),
-        R(0.0), R(0.0), c3_, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

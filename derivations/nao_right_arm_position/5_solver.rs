@@ -96,10 +96,6 @@ impl Mechanism for Solver {
 
         [N::of(0.36044474637583046), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 6], at: &[f64; 8]) -> [[f64; 4]; 5] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 4: ShoulderRoll.
@@ -195,26 +191,5 @@ fn tip<N: Number>(at: &[N; 8]) -> [N; 5] where f64: With<N> {
         0.1 - r52,
         c3_,
         s3_,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 6], at: &[f64; 8]) -> [[f64; 4]; 5] {
-    let [c1, s1, c2, s2, c3_, s3_, c4, s4] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r9 = s3_ * r2;
-    let r10 = s1 * c3_; let r11 = c2 * s3_; let r12 = s3_ * r3; let r13 = c1 * c3_;
-    let r25 = 0.1137 * (s2 * c4); let r27 = 0.1137 * (s4 * (c2 * c3_)); let r29 = 0.01231 * r11;
-    let r30 = 0.015 * c2 - 0.105 * s2 - r25 - r27 - r29; let r34 = 0.1137 * (c4 * r0);
-    let r36 = 0.1137 * (s4 * (c3_ * r2 - s1 * s3_)); let r38 = 0.01231 * r9;
-    let r39 = 0.015 * r2 + 0.105 * r0 + r34 - r36 - r38; let r40 = 0.01231 * r10; let r45 = 0.1137 * (c4 * r1);
-    let r47 = 0.1137 * (s4 * (c3_ * r3 + c1 * s3_)); let r49 = 0.01231 * r12; let r51 = 0.01231 * r13;
-    let r52 = 0.015 * r3 + 0.105 * r1 + r45 - r47 - r49 + r51; let r67 = r51 + (r45 - r47 - r49);
-    let r70 = r29 + (r25 + r27); let r74 = r34 - r36 - r38 - r40; let r80 = r12 - r13; let r83 = r9 + r10;
-    [
-        [0.0 - r52, c1 * r30, r1 * r70 - s2 * r67, r11 * r67 + r70 * r80],
-        [0.0, c1 * (r39 - r40) + s1 * r52, r0 * r67 - r1 * r74, r67 * r83 - r74 * r80],
-        [r40 - r39, 0.0 - s1 * r30, r0 * r70 - s2 * r74, r70 * r83 + r11 * r74],
-        [0.0, 0.0, 0.0 - s3_, 0.0],
-        [0.0, 0.0, c3_, 0.0],
     ]
 }

@@ -237,63 +237,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r16 = r4 - r5, r17 = c4 * r16, r18 = s3 * r0 + c3 * r2, r19 = s4 * r18, r20 = r6 - r7;
-    const T r21 = c4 * r20, r22 = s3 * r1 + c3 * r3, r23 = s4 * r22, r24 = r8 + r9, r25 = c4 * r24;
-    const T r26 = s2 * s3 - c2 * c3, r27 = s4 * r26, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20;
-    const T r31 = c4 * r22, r32 = s4 * r24, r33 = c4 * r26, r34 = r17 - r19, r35 = c5 * r34, r36 = s1 * s5;
-    const T r37 = r21 - r23, r38 = c5 * r37, r39 = c1 * s5, r40 = r25 - r27, r41 = c5 * r40, r42 = s5 * r34;
-    const T r43 = s1 * c5, r44 = s5 * r37, r45 = c1 * c5, r46 = s5 * r40, r47 = R(0.05) * c1;
-    const T r48 = R(0.4) * r0, r50 = R(0.35) * r4, r52 = R(0.35) * r5, r54 = R(0.06) * r17;
-    const T r56 = R(0.06) * r19, r58 = R(0.125) * s1;
-    const T r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - R(0.86) * r35, r64 = R(0.125) * r42;
-    const T r66 = R(0.125) * r43, r69 = r61 + R(0.86) * r36 - r64 - r66 - R(0.18) * r28, r72 = R(0.05) * s1;
-    const T r73 = R(0.4) * r1, r75 = R(0.35) * r6, r77 = R(0.35) * r7, r79 = R(0.06) * r21;
-    const T r81 = R(0.06) * r23, r83 = R(0.125) * c1;
-    const T r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - R(0.86) * r38, r89 = R(0.125) * r44;
-    const T r91 = R(0.125) * r45, r94 = r86 - R(0.86) * r39 - r89 + r91 - R(0.18) * r30, r97 = r42 + r43;
-    const T r98 = c6 * r97, r99 = r28 + r29, r100 = s6 * r99, r101 = r44 - r45, r103 = r30 + r31;
-    const T r106 = r32 + r33, r115 = R(0.35) * r8, r117 = R(0.35) * r9, r119 = R(0.06) * r25;
-    const T r121 = R(0.06) * r27, r123 = R(0.125) * r32, r124 = R(0.4) * s2 + r115 + r117 + r119 - r121 - r123;
-    const T r125 = R(0.125) * r33, r127 = R(0.125) * r41, r128 = r124 - r125 + r127;
-    const T r132 = r89 + (r94 - R(0.18) * r31) - r91 + R(0.055) * r30;
-    const T r138 = r132 + R(0.055) * r31 + R(0.985) * r38 + R(0.985) * r39;
-    const T r142 = r66 + (r64 + (r69 - R(0.18) * r29)) + R(0.055) * r28;
-    const T r148 = r142 + R(0.055) * r29 + R(0.985) * r35 - R(0.985) * r36, r149 = r38 + r39, r150 = r35 - r36;
-    const T r155 = s6 * r46 + c6 * r106, r156 = s6 * r101 + c6 * r103, r157 = s6 * r97 + c6 * r99;
-    const T r163 = c6 * r46 - s6 * r106, r175 = r138 - r72, r177 = r148 - r47;
-    const T r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125), r187 = r175 - r73, r189 = r177 - r48;
-    const T r194 = r127 + (r119 - r121 - r123 - r125), r198 = r77 + (r187 - r75), r201 = r52 + (r189 - r50);
-    const T r205 = r56 + (r201 - r54) - r58, r208 = r83 + (r81 + (r198 - r79)), r209 = r106 - r41;
-    const T r227 = R(0.0) - (r106 * r205 + R(0.125) * (r99 * r209)), r235 = c6 * r101 - s6 * r103;
-    const T r236 = r98 - r100, r237 = c1 * r155, r238 = s1 * r155, r257 = s1 * r156 + c1 * r157;
-    const T r260 = c1 * r163, r261 = s1 * r163, r280 = s1 * r235 + c1 * r236, r294 = R(0.0) - c1 * r41;
-    const T r296 = R(0.0) - s1 * r41, r299 = R(0.0) - (s1 * r149 + c1 * r150);
-    const gb_real all[] = {
-        R(0.0) - r138, R(0.0) - c1 * r128, R(0.0) - c1 * r184, R(0.0) - c1 * r194, r106 * r208 + R(0.125) * (r103 * r209), R(0.0),
-        r148, R(0.0) - s1 * r128, R(0.0) - s1 * r184, R(0.0) - s1 * r194, r227, R(0.0),
-        R(0.0), R(0.0) - (s1 * r175 + c1 * r177), R(0.0) - (s1 * r187 + c1 * r189), R(0.0) - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, R(0.0),
-        r156, r237, r237, r237, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156,
-        R(0.0) - r157, r238, r238, r238, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155,
-        R(0.0), r257, r257, r257, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156,
-        r235, r260, r260, r260, r103 * r163 - r106 * r235, r149 * r163 - r41 * r235,
-        r100 - r98, r261, r261, r261, r106 * r236 - r99 * r163, r41 * r236 - r150 * r163,
-        R(0.0), r280, r280, r280, r103 * r236 - r99 * r235, r149 * r236 - r150 * r235,
-        R(0.0) - r149, r294, r294, r294, r106 * r149 - r41 * r103, R(0.0),
-        r150, r296, r296, r296, r41 * r99 - r106 * r150, R(0.0),
-        R(0.0), r299, r299, r299, r99 * r149 - r103 * r150, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

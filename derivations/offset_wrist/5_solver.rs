@@ -100,10 +100,6 @@ impl Mechanism for Solver {
 
         [N::of(1.3254696631613145), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 6: Wrist1.
@@ -233,56 +229,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r35 - r36,
         r38 + r39,
         0.0 - r41,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
-    let r17 = c4 * r16; let r18 = s3 * r0 + c3 * r2; let r19 = s4 * r18; let r20 = r6 - r7; let r21 = c4 * r20;
-    let r22 = s3 * r1 + c3 * r3; let r23 = s4 * r22; let r24 = r8 + r9; let r25 = c4 * r24;
-    let r26 = s2 * s3 - c2 * c3; let r27 = s4 * r26; let r28 = s4 * r16; let r29 = c4 * r18;
-    let r30 = s4 * r20; let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = r17 - r19;
-    let r35 = c5 * r34; let r36 = s1 * s5; let r37 = r21 - r23; let r38 = c5 * r37; let r39 = c1 * s5;
-    let r40 = r25 - r27; let r41 = c5 * r40; let r42 = s5 * r34; let r43 = s1 * c5; let r44 = s5 * r37;
-    let r45 = c1 * c5; let r46 = s5 * r40; let r47 = 0.05 * c1; let r48 = 0.4 * r0; let r50 = 0.35 * r4;
-    let r52 = 0.35 * r5; let r54 = 0.06 * r17; let r56 = 0.06 * r19; let r58 = 0.125 * s1;
-    let r61 = r47 + r48 + r50 - r52 + r54 - r56 + r58 - 0.86 * r35; let r64 = 0.125 * r42;
-    let r66 = 0.125 * r43; let r71 = r61 + 0.86 * r36 - r64 - r66 - 0.18 * r28 - 0.18 * r29;
-    let r72 = 0.05 * s1; let r73 = 0.4 * r1; let r75 = 0.35 * r6; let r77 = 0.35 * r7; let r79 = 0.06 * r21;
-    let r81 = 0.06 * r23; let r83 = 0.125 * c1; let r86 = r72 + r73 + r75 - r77 + r79 - r81 - r83 - 0.86 * r38;
-    let r89 = 0.125 * r44; let r91 = 0.125 * r45;
-    let r96 = r86 - 0.86 * r39 - r89 + r91 - 0.18 * r30 - 0.18 * r31; let r97 = r42 + r43; let r98 = c6 * r97;
-    let r99 = r28 + r29; let r100 = s6 * r99; let r101 = r44 - r45; let r103 = r30 + r31; let r106 = r32 + r33;
-    let r115 = 0.35 * r8; let r117 = 0.35 * r9; let r119 = 0.06 * r25; let r121 = 0.06 * r27;
-    let r123 = 0.125 * r32; let r125 = 0.125 * r33;
-    let r126 = 0.4 * s2 + r115 + r117 + r119 - r121 - r123 - r125; let r127 = 0.125 * r41;
-    let r128 = r126 + r127; let r136 = r89 + r96 - r91 + 0.055 * r30 + 0.055 * r31 + 0.985 * r38;
-    let r138 = r136 + 0.985 * r39; let r144 = r66 + (r64 + r71) + 0.055 * r28 + 0.055 * r29;
-    let r148 = r144 + 0.985 * r35 - 0.985 * r36; let r149 = r38 + r39; let r150 = r35 - r36;
-    let r155 = s6 * r46 + c6 * r106; let r156 = s6 * r101 + c6 * r103; let r157 = s6 * r97 + c6 * r99;
-    let r163 = c6 * r46 - s6 * r106; let r175 = r138 - r72; let r177 = r148 - r47;
-    let r184 = r127 + (r119 + (r115 + r117) - r121 - r123 - r125); let r187 = r175 - r73;
-    let r189 = r177 - r48; let r194 = r127 + (r119 - r121 - r123 - r125); let r198 = r77 + (r187 - r75);
-    let r201 = r52 + (r189 - r50); let r205 = r56 + (r201 - r54) - r58; let r208 = r83 + (r81 + (r198 - r79));
-    let r209 = r106 - r41; let r235 = c6 * r101 - s6 * r103; let r236 = r98 - r100; let r237 = c1 * r155;
-    let r238 = s1 * r155; let r257 = s1 * r156 + c1 * r157; let r260 = c1 * r163; let r261 = s1 * r163;
-    let r280 = s1 * r235 + c1 * r236; let r294 = 0.0 - c1 * r41; let r296 = 0.0 - s1 * r41;
-    let r299 = 0.0 - (s1 * r149 + c1 * r150);
-    [
-        [0.0 - r138, 0.0 - c1 * r128, 0.0 - c1 * r184, 0.0 - c1 * r194, r106 * r208 + 0.125 * (r103 * r209), 0.0],
-        [r148, 0.0 - s1 * r128, 0.0 - s1 * r184, 0.0 - s1 * r194, 0.0 - (r106 * r205 + 0.125 * (r99 * r209)), 0.0],
-        [0.0, 0.0 - (s1 * r175 + c1 * r177), 0.0 - (s1 * r187 + c1 * r189), 0.0 - (s1 * r198 + c1 * r201), r99 * r208 - r103 * r205, 0.0],
-        [r156, r237, r237, r237, r103 * r155 - r106 * r156, r149 * r155 - r41 * r156],
-        [0.0 - r157, r238, r238, r238, r106 * r157 - r99 * r155, r41 * r157 - r150 * r155],
-        [0.0, r257, r257, r257, r103 * r157 - r99 * r156, r149 * r157 - r150 * r156],
-        [r235, r260, r260, r260, r103 * r163 - r106 * r235, r149 * r163 - r41 * r235],
-        [r100 - r98, r261, r261, r261, r106 * r236 - r99 * r163, r41 * r236 - r150 * r163],
-        [0.0, r280, r280, r280, r103 * r236 - r99 * r235, r149 * r236 - r150 * r235],
-        [0.0 - r149, r294, r294, r294, r106 * r149 - r41 * r103, 0.0],
-        [r150, r296, r296, r296, r41 * r99 - r106 * r150, 0.0],
-        [0.0, r299, r299, r299, r99 * r149 - r103 * r150, 0.0],
     ]
 }

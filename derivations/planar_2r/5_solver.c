@@ -119,21 +119,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], r0 = c1 * c2, r1 = s1 * s2, r2 = s1 * c2;
-    const T r3 = c1 * s2, r16 = R(0.0) - (R(0.5) * s1 + R(0.4) * r2 + R(0.4) * r3);
-    const gb_real all[] = {
-        r16, R(0.0) - R(0.4) * (r2 + r3),
-        R(0.5) * c1 + R(0.4) * r0 - R(0.4) * r1, R(0.4) * (r0 - r1),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

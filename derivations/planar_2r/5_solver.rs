@@ -96,10 +96,6 @@ impl Mechanism for Solver {
 
         [N::of(0.9)]
     }
-
-    fn jacobian(&self, p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: Elbow.
@@ -138,15 +134,5 @@ fn tip<N: Number>(at: &[N; 4]) -> [N; 2] where f64: With<N> {
     [
         0.5 * c1 + 0.4 * (c1 * c2) - 0.4 * (s1 * s2),
         0.5 * s1 + 0.4 * (s1 * c2) + 0.4 * (c1 * s2),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 3], at: &[f64; 4]) -> [[f64; 2]; 2] {
-    let [c1, s1, c2, s2] = *at;
-    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2;
-    [
-        [0.0 - (0.5 * s1 + 0.4 * r2 + 0.4 * r3), 0.0 - 0.4 * (r2 + r3)],
-        [0.5 * c1 + 0.4 * r0 - 0.4 * r1, 0.4 * (r0 - r1)],
     ]
 }

@@ -134,26 +134,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], r0 = c1 * c2, r1 = s1 * s2;
-    const T r2 = s1 * c2, r3 = c1 * s2, r5 = c3 * (r0 - r1), r6 = r2 + r3, r7 = s3 * r6, r8 = c3 * r6;
-    const T r10 = s3 * (r1 - r0), r12 = R(0.4) * r2, r14 = R(0.4) * r3, r16 = R(0.15) * r8;
-    const T r18 = R(0.15) * r10, r22 = R(0.4) * r0, r24 = R(0.4) * r1, r26 = R(0.15) * r5, r28 = R(0.15) * r7;
-    const T r31 = r5 - r7, r45 = r10 - r8;
-    const gb_real all[] = {
-        r18 - (R(0.5) * s1 + r12 + r14 + r16), r18 - (r16 + (r12 + r14)), R(0.0) - R(0.15) * (r8 - r10),
-        R(0.5) * c1 + r22 - r24 + r26 - r28, r26 + (r22 - r24) - r28, R(0.15) * r31,
-        r45, r45, r45,
-        r31, r31, r31,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -95,10 +95,6 @@ impl Mechanism for Solver {
 
         [N::of(1.05), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 5], at: &[f64; 6]) -> [[f64; 3]; 4] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 3: Wrist.
@@ -154,20 +150,5 @@ fn tip<N: Number>(at: &[N; 6]) -> [N; 4] where f64: With<N> {
         r19,
         r5 - r7,
         r8 - r10,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 5], at: &[f64; 6]) -> [[f64; 3]; 4] {
-    let [c1, s1, c2, s2, c3, s3] = *at;
-    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = c3 * (r0 - r1);
-    let r6 = r2 + r3; let r7 = s3 * r6; let r8 = c3 * r6; let r10 = s3 * (r1 - r0); let r12 = 0.4 * r2;
-    let r14 = 0.4 * r3; let r16 = 0.15 * r8; let r18 = 0.15 * r10; let r22 = 0.4 * r0; let r24 = 0.4 * r1;
-    let r26 = 0.15 * r5; let r28 = 0.15 * r7; let r31 = r5 - r7; let r45 = r10 - r8;
-    [
-        [r18 - (0.5 * s1 + r12 + r14 + r16), r18 - (r16 + (r12 + r14)), 0.0 - 0.15 * (r8 - r10)],
-        [0.5 * c1 + r22 - r24 + r26 - r28, r26 + (r22 - r24) - r28, 0.15 * r31],
-        [r45, r45, r45],
-        [r31, r31, r31],
     ]
 }

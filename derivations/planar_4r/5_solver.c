@@ -146,29 +146,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1_ = at[0], s1_ = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T r2 = c1_ * c2 - s1_ * s2, r5 = s1_ * c2 + c1_ * s2, r11 = R(0.4) * (c1_ - r2) + R(0.75) * r2;
-    const T r13 = R(0.4) * (s1_ - r5) + R(0.75) * r5, r16 = c3 * r2 - s3 * r5, r19 = c3 * r5 + s3 * r2;
-    const T r25 = r11 - R(0.75) * r16 + R(1.05) * r16, r27 = r13 - R(0.75) * r19 + R(1.05) * r19;
-    const T r30 = c4 * r16 - s4 * r19, r33 = c4 * r19 + s4 * r16, r39 = r25 - R(1.05) * r30 + R(1.15) * r30;
-    const T r41 = r27 - R(1.05) * r33 + R(1.15) * r33, r48 = R(0.0) - r33;
-    const gb_real all[] = {
-        R(0.0) - r41, R(0.4) * s1_ - r41, r13 - r41, r27 - r41,
-        r39, r39 - R(0.4) * c1_, r39 - r11, r39 - r25,
-        r48, r48, r48, r48,
-        r30, r30, r30, r30,
-        R(0.0) - s1_, R(0.0), R(0.0), R(0.0),
-        c1_, R(0.0), R(0.0), R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -96,10 +96,6 @@ impl Mechanism for Solver {
 
         [N::of(1.15), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 7], at: &[f64; 8]) -> [[f64; 4]; 6] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 4: Wrist.
@@ -158,23 +154,5 @@ fn tip<N: Number>(at: &[N; 8]) -> [N; 6] where f64: With<N> {
         r33,
         c1_,
         s1_,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 7], at: &[f64; 8]) -> [[f64; 4]; 6] {
-    let [c1_, s1_, c2, s2, c3, s3, c4, s4] = *at;
-    let r2 = c1_ * c2 - s1_ * s2; let r5 = s1_ * c2 + c1_ * s2; let r11 = 0.4 * (c1_ - r2) + 0.75 * r2;
-    let r13 = 0.4 * (s1_ - r5) + 0.75 * r5; let r16 = c3 * r2 - s3 * r5; let r19 = c3 * r5 + s3 * r2;
-    let r25 = r11 - 0.75 * r16 + 1.05 * r16; let r27 = r13 - 0.75 * r19 + 1.05 * r19;
-    let r30 = c4 * r16 - s4 * r19; let r33 = c4 * r19 + s4 * r16; let r39 = r25 - 1.05 * r30 + 1.15 * r30;
-    let r41 = r27 - 1.05 * r33 + 1.15 * r33; let r48 = 0.0 - r33;
-    [
-        [0.0 - r41, 0.4 * s1_ - r41, r13 - r41, r27 - r41],
-        [r39, r39 - 0.4 * c1_, r39 - r11, r39 - r25],
-        [r48, r48, r48, r48],
-        [r30, r30, r30, r30],
-        [0.0 - s1_, 0.0, 0.0, 0.0],
-        [c1_, 0.0, 0.0, 0.0],
     ]
 }

@@ -157,22 +157,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], r0 = c1 * c2, r1 = s1 * c2;
-    const T r8 = s2 * d3 + R(0.2) * s2, r10 = d3 * r0 + R(0.2) * r0, r12 = d3 * r1 + R(0.2) * r1;
-    const gb_real all[] = {
-        R(0.0) - r12, R(0.0) - c1 * r8, r0,
-        R(0.0), c1 * r10 + s1 * r12, s2,
-        R(0.0) - r10, s1 * r8, R(0.0) - r1,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -97,10 +97,6 @@ impl Mechanism for Solver {
         let [_, _, _, _, d3] = *at;
         [N::abs(d3) + 0.8600000000000001]
     }
-
-    fn jacobian(&self, p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 3] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 3: Slide.
@@ -170,17 +166,5 @@ fn tip<N: Number>(at: &[N; 5]) -> [N; 3] where f64: With<N> {
         d3 * r0 + 0.2 * r0,
         s2 * d3 + 0.2 * s2 + 0.66,
         0.0 - (d3 * r1 + 0.2 * r1),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 3] {
-    let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r8 = s2 * d3 + 0.2 * s2; let r10 = d3 * r0 + 0.2 * r0;
-    let r12 = d3 * r1 + 0.2 * r1;
-    [
-        [0.0 - r12, 0.0 - c1 * r8, r0],
-        [0.0, c1 * r10 + s1 * r12, s2],
-        [0.0 - r10, s1 * r8, 0.0 - r1],
     ]
 }

@@ -91,24 +91,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c2 = at[1], s2 = at[2], c3 = at[3], s3 = at[4], r1 = c2 * c3, r2 = s2 * s3, r3 = s2 * c3;
-    const T r4 = c2 * s3, r11 = R(0.0) - (R(0.45) * c2 - R(0.3) * r2 + R(0.3) * r1), r19 = r3 + r4;
-    const T r21 = r1 - r2, r29 = R(0.0) - r19;
-    const gb_real all[] = {
-        R(1.0), r11, R(0.3) * (r2 - r1),
-        R(0.0), R(0.3) * r3 + (R(0.45) * s2 + R(0.3) * r4), R(0.3) * r19,
-        R(0.0), r29, r29,
-        R(0.0), r21, r21,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -86,10 +86,6 @@ impl Mechanism for Solver {
         let [d1, _, _, _, _] = *at;
         [N::abs(d1) + 0.75, N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 4] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: Rail.
@@ -122,18 +118,5 @@ fn tip<N: Number>(at: &[N; 5]) -> [N; 4] where f64: With<N> {
         0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1),
         r1 - r2,
         r3 + r4,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 4] {
-    let [_, c2, s2, c3, s3] = *at;
-    let r1 = c2 * c3; let r2 = s2 * s3; let r3 = s2 * c3; let r4 = c2 * s3; let r19 = r3 + r4;
-    let r21 = r1 - r2; let r29 = 0.0 - r19;
-    [
-        [1.0, 0.0 - (0.45 * c2 - 0.3 * r2 + 0.3 * r1), 0.3 * (r2 - r1)],
-        [0.0, 0.3 * r3 + (0.45 * s2 + 0.3 * r4), 0.3 * r19],
-        [0.0, r29, r29],
-        [0.0, r21, r21],
     ]
 }

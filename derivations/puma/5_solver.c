@@ -240,51 +240,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
-    const T r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2, r6 = c2 * c3, r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3;
-    const T r17 = s3 * r0 - c3 * r2, r19 = c2 * s3 + s2 * c3, r20 = s4 * r19, r22 = s3 * r1 - c3 * r3;
-    const T r26 = c4 * r19, r29 = r4 + r5, r31 = c1 * s4 - c4 * r17, r33 = r6 - r7, r36 = r8 + r9;
-    const T r38 = s1 * s4 + c4 * r22, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26;
-    const T r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31;
-    const T r51 = c5 * r33 - s5 * r26, r53 = s1 * c4 - s4 * r22, r54 = c6 * r53, r55 = c5 * r36 - s5 * r38;
-    const T r56 = s6 * r55, r64 = R(0.432) * r6, r66 = R(0.432) * r7, r68 = R(0.15) * r42, r70 = R(0.15) * r43;
-    const T r71 = R(0.432) * c2 + r64 - r66 - r68 - r70, r73 = R(0.432) * r4, r75 = R(0.432) * r5;
-    const T r77 = R(0.15) * r40, r79 = R(0.15) * r41, r80 = R(0.432) * r0 + r73 + r75 - r77 + r79;
-    const T r82 = R(0.432) * r8, r84 = R(0.432) * r9, r86 = R(0.15) * r44, r88 = R(0.15) * r45;
-    const T r89 = R(0.432) * r1 + r82 + r84 - r86 - r88, r90 = r44 + r45, r91 = r42 + r43;
-    const T r96 = c6 * r20 + s6 * r51, r97 = c6 * r46 + s6 * r48, r102 = s6 * r53 + c6 * r55;
-    const T r120 = r64 - r66 - r68 - r70, r131 = r33 * r90, r132 = r36 * r91, r133 = r40 - r41;
-    const T r134 = r36 * r133, r135 = r29 * r90, r136 = r29 * r91, r137 = r33 * r133, r142 = r46 * r91;
-    const T r143 = r20 * r133, r147 = r20 * r90 + r53 * r91;
-    const T r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
-    const T r157 = r53 * r133 + r46 * r90, r166 = r54 - r56, r167 = s6 * r20 - c6 * r51;
-    const T r168 = s6 * r46 - c6 * r48, r169 = s1 * r96, r172 = c1 * r96, r195 = c1 * r166 - s1 * r97;
-    const T r226 = R(0.0) - s1 * r167, r231 = s1 * r168 - c1 * r102, r236 = R(0.0) - c1 * r167;
-    const T r244 = R(0.0) - s1 * r91, r247 = s1 * r133 + c1 * r90, r249 = R(0.0) - c1 * r91;
-    const gb_real all[] = {
-        r89, s1 * r71, s1 * r120, R(0.0) - R(0.15) * (r131 - r132), R(0.0) - R(0.15) * r147, R(0.0),
-        R(0.0), R(0.0) - (s1 * r80 + c1 * r89), R(0.0) - r152, R(0.0) - R(0.15) * (r134 - r135), R(0.15) * r157, R(0.0),
-        R(0.0) - r80, c1 * r71, c1 * r120, R(0.0) - R(0.15) * (r136 - r137), R(0.0) - R(0.15) * (r142 - r143), R(0.0),
-        r56 - r54, r169, r169, R(0.0) - (r33 * r166 + r36 * r96), r53 * r96 - r20 * r166, r91 * r166 + r90 * r96,
-        R(0.0), r195, r195, r36 * r97 + r29 * r166, r46 * r166 - r53 * r97, R(0.0) - (r90 * r97 + r133 * r166),
-        R(0.0) - r97, r172, r172, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96,
-        r102, r226, r226, r33 * r102 + r36 * r167, r20 * r102 - r53 * r167, R(0.0) - (r91 * r102 + r90 * r167),
-        R(0.0), r231, r231, R(0.0) - (r36 * r168 + r29 * r102), r53 * r168 - r46 * r102, r90 * r168 + r133 * r102,
-        r168, r236, r236, r33 * r168 - r29 * r167, r20 * r168 - r46 * r167, r133 * r167 - r91 * r168,
-        R(0.0) - r90, r244, r244, r132 - r131, R(0.0) - r147, R(0.0),
-        R(0.0), r247, r247, r135 - r134, r157, R(0.0),
-        r133, r249, r249, r137 - r136, r143 - r142, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

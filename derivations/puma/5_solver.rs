@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(1.674), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: WristPitch.
@@ -233,46 +229,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r41 - r40,
         0.0 - (r42 + r43),
         0.0 - (r44 + r45),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c2 * c3; let r7 = s2 * s3; let r8 = c3 * r1; let r9 = s3 * r3; let r17 = s3 * r0 - c3 * r2;
-    let r19 = c2 * s3 + s2 * c3; let r20 = s4 * r19; let r22 = s3 * r1 - c3 * r3; let r26 = c4 * r19;
-    let r29 = r4 + r5; let r31 = c1 * s4 - c4 * r17; let r33 = r6 - r7; let r36 = r8 + r9;
-    let r38 = s1 * s4 + c4 * r22; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33;
-    let r43 = c5 * r26; let r44 = s5 * r36; let r45 = c5 * r38; let r46 = c1 * c4 + s4 * r17;
-    let r48 = c5 * r29 + s5 * r31; let r51 = c5 * r33 - s5 * r26; let r53 = s1 * c4 - s4 * r22;
-    let r54 = c6 * r53; let r55 = c5 * r36 - s5 * r38; let r56 = s6 * r55; let r64 = 0.432 * r6;
-    let r66 = 0.432 * r7; let r68 = 0.15 * r42; let r70 = 0.15 * r43;
-    let r71 = 0.432 * c2 + r64 - r66 - r68 - r70; let r73 = 0.432 * r4; let r75 = 0.432 * r5;
-    let r77 = 0.15 * r40; let r79 = 0.15 * r41; let r80 = 0.432 * r0 + r73 + r75 - r77 + r79;
-    let r82 = 0.432 * r8; let r84 = 0.432 * r9; let r86 = 0.15 * r44; let r88 = 0.15 * r45;
-    let r89 = 0.432 * r1 + r82 + r84 - r86 - r88; let r90 = r44 + r45; let r91 = r42 + r43;
-    let r96 = c6 * r20 + s6 * r51; let r97 = c6 * r46 + s6 * r48; let r102 = s6 * r53 + c6 * r55;
-    let r120 = r64 - r66 - r68 - r70; let r131 = r33 * r90; let r132 = r36 * r91; let r133 = r40 - r41;
-    let r134 = r36 * r133; let r135 = r29 * r90; let r136 = r29 * r91; let r137 = r33 * r133;
-    let r142 = r46 * r91; let r143 = r20 * r133; let r147 = r20 * r90 + r53 * r91;
-    let r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88);
-    let r157 = r53 * r133 + r46 * r90; let r166 = r54 - r56; let r167 = s6 * r20 - c6 * r51;
-    let r168 = s6 * r46 - c6 * r48; let r169 = s1 * r96; let r172 = c1 * r96; let r195 = c1 * r166 - s1 * r97;
-    let r226 = 0.0 - s1 * r167; let r231 = s1 * r168 - c1 * r102; let r236 = 0.0 - c1 * r167;
-    let r244 = 0.0 - s1 * r91; let r247 = s1 * r133 + c1 * r90; let r249 = 0.0 - c1 * r91;
-    [
-        [r89, s1 * r71, s1 * r120, 0.0 - 0.15 * (r131 - r132), 0.0 - 0.15 * r147, 0.0],
-        [0.0, 0.0 - (s1 * r80 + c1 * r89), 0.0 - r152, 0.0 - 0.15 * (r134 - r135), 0.15 * r157, 0.0],
-        [0.0 - r80, c1 * r71, c1 * r120, 0.0 - 0.15 * (r136 - r137), 0.0 - 0.15 * (r142 - r143), 0.0],
-        [r56 - r54, r169, r169, 0.0 - (r33 * r166 + r36 * r96), r53 * r96 - r20 * r166, r91 * r166 + r90 * r96],
-        [0.0, r195, r195, r36 * r97 + r29 * r166, r46 * r166 - r53 * r97, 0.0 - (r90 * r97 + r133 * r166)],
-        [0.0 - r97, r172, r172, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96],
-        [r102, r226, r226, r33 * r102 + r36 * r167, r20 * r102 - r53 * r167, 0.0 - (r91 * r102 + r90 * r167)],
-        [0.0, r231, r231, 0.0 - (r36 * r168 + r29 * r102), r53 * r168 - r46 * r102, r90 * r168 + r133 * r102],
-        [r168, r236, r236, r33 * r168 - r29 * r167, r20 * r168 - r46 * r167, r133 * r167 - r91 * r168],
-        [0.0 - r90, r244, r244, r132 - r131, 0.0 - r147, 0.0],
-        [0.0, r247, r247, r135 - r134, r157, 0.0],
-        [r133, r249, r249, r137 - r136, r143 - r142, 0.0],
     ]
 }

@@ -217,49 +217,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3;
-    const T r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22;
-    const T r29 = c4 * r16 - s1 * s4, r31 = r10 + r11, r33 = c4 * r19 + c1 * s4, r35 = r12 + r13;
-    const T r38 = r14 - r15, r46 = c5 * r29 - s5 * r31, r48 = s4 * r16 + s1 * c4, r50 = c5 * r33 - s5 * r35;
-    const T r51 = c6 * r50, r52 = s4 * r19 - c1 * c4, r53 = s6 * r52, r54 = c5 * r23 - s5 * r38;
-    const T r64 = R(0.0203) * r8, r66 = R(0.0203) * r9, r68 = R(0.4318) * r14, r70 = R(0.4318) * r15;
-    const T r71 = R(0.4318) * s2 + r64 + r66 - r68 + r70, r73 = R(0.0203) * r6, r75 = R(0.0203) * r7;
-    const T r77 = R(0.15005) * c1, r79 = R(0.4318) * r12, r80 = R(0.4318) * r1 + r73 - r75 - r77 - r79;
-    const T r81 = R(0.4318) * r13, r84 = R(0.0203) * r4, r86 = R(0.0203) * r5, r88 = R(0.15005) * s1;
-    const T r90 = R(0.4318) * r10, r92 = R(0.4318) * r11, r93 = R(0.4318) * r0 + r84 - r86 + r88 - r90 - r92;
-    const T r97 = c6 * r54 - s6 * r28, r98 = r51 - r53, r99 = c6 * r46 - s6 * r48, r100 = s5 * r33 + c5 * r35;
-    const T r101 = s5 * r23 + c5 * r38, r102 = s5 * r29 + c5 * r31, r106 = s6 * r54 + c6 * r28;
-    const T r107 = s6 * r50 + c6 * r52, r108 = s6 * r46 + c6 * r48, r127 = r70 + (r64 + r66 - r68);
-    const T r146 = s1 * (r73 - r75 - r77 - r79 - r81) + c1 * (r88 + (r84 - r86) - r90 - r92);
-    const T r170 = R(0.0) - c1 * r97, r174 = R(0.0) - s1 * r97, r178 = s1 * r98 + c1 * r99, r182 = c1 * r106;
-    const T r183 = s1 * r106, r211 = R(0.0) - (s1 * r107 + c1 * r108), r215 = c1 * r101, r216 = s1 * r101;
-    const T r236 = R(0.0) - (s1 * r100 + c1 * r102);
-    const gb_real all[] = {
-        r81 - r80, R(0.0) - c1 * r71, R(0.0) - c1 * r127, R(0.0), R(0.0), R(0.0),
-        r93, R(0.0) - s1 * r71, R(0.0) - s1 * r127, R(0.0), R(0.0), R(0.0),
-        R(0.0), s1 * (r80 - r81) + c1 * r93, r146, R(0.0), R(0.0), R(0.0),
-        r53 - r51, r170, r170, r38 * r98 - r35 * r97, r52 * r97 - r28 * r98, r98 * r101 - r97 * r100,
-        r99, r174, r174, r31 * r97 - r38 * r99, r28 * r99 - r48 * r97, r97 * r102 - r99 * r101,
-        R(0.0), r178, r178, r35 * r99 - r31 * r98, r48 * r98 - r52 * r99, r99 * r100 - r98 * r102,
-        r107, r182, r182, r35 * r106 - r38 * r107, r28 * r107 - r52 * r106, r100 * r106 - r101 * r107,
-        R(0.0) - r108, r183, r183, r38 * r108 - r31 * r106, r48 * r106 - r28 * r108, r101 * r108 - r102 * r106,
-        R(0.0), r211, r211, r31 * r107 - r35 * r108, r52 * r108 - r48 * r107, r102 * r107 - r100 * r108,
-        r100, r215, r215, r35 * r101 - r38 * r100, r28 * r100 - r52 * r101, R(0.0),
-        R(0.0) - r102, r216, r216, r38 * r102 - r31 * r101, r48 * r101 - r28 * r102, R(0.0),
-        R(0.0), r236, r236, r31 * r100 - r35 * r102, r52 * r102 - r48 * r100, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(1.0150169491833725), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: WristPitch.
@@ -217,44 +213,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         0.0 - (s5 * r29 + c5 * r31),
         0.0 - (s5 * r33 + c5 * r35),
         0.0 - (s5 * r23 + c5 * r38),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
-    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
-    let r16 = r4 - r5; let r19 = r6 - r7; let r22 = r8 + r9; let r23 = c4 * r22; let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4; let r31 = r10 + r11; let r33 = c4 * r19 + c1 * s4; let r35 = r12 + r13;
-    let r38 = r14 - r15; let r46 = c5 * r29 - s5 * r31; let r48 = s4 * r16 + s1 * c4;
-    let r50 = c5 * r33 - s5 * r35; let r51 = c6 * r50; let r52 = s4 * r19 - c1 * c4; let r53 = s6 * r52;
-    let r54 = c5 * r23 - s5 * r38; let r64 = 0.0203 * r8; let r66 = 0.0203 * r9; let r68 = 0.4318 * r14;
-    let r70 = 0.4318 * r15; let r71 = 0.4318 * s2 + r64 + r66 - r68 + r70; let r73 = 0.0203 * r6;
-    let r75 = 0.0203 * r7; let r77 = 0.15005 * c1; let r79 = 0.4318 * r12;
-    let r80 = 0.4318 * r1 + r73 - r75 - r77 - r79; let r81 = 0.4318 * r13; let r84 = 0.0203 * r4;
-    let r86 = 0.0203 * r5; let r88 = 0.15005 * s1; let r90 = 0.4318 * r10; let r92 = 0.4318 * r11;
-    let r93 = 0.4318 * r0 + r84 - r86 + r88 - r90 - r92; let r97 = c6 * r54 - s6 * r28; let r98 = r51 - r53;
-    let r99 = c6 * r46 - s6 * r48; let r100 = s5 * r33 + c5 * r35; let r101 = s5 * r23 + c5 * r38;
-    let r102 = s5 * r29 + c5 * r31; let r106 = s6 * r54 + c6 * r28; let r107 = s6 * r50 + c6 * r52;
-    let r108 = s6 * r46 + c6 * r48; let r127 = r70 + (r64 + r66 - r68);
-    let r146 = s1 * (r73 - r75 - r77 - r79 - r81) + c1 * (r88 + (r84 - r86) - r90 - r92);
-    let r170 = 0.0 - c1 * r97; let r174 = 0.0 - s1 * r97; let r178 = s1 * r98 + c1 * r99; let r182 = c1 * r106;
-    let r183 = s1 * r106; let r211 = 0.0 - (s1 * r107 + c1 * r108); let r215 = c1 * r101; let r216 = s1 * r101;
-    let r236 = 0.0 - (s1 * r100 + c1 * r102);
-    [
-        [r81 - r80, 0.0 - c1 * r71, 0.0 - c1 * r127, 0.0, 0.0, 0.0],
-        [r93, 0.0 - s1 * r71, 0.0 - s1 * r127, 0.0, 0.0, 0.0],
-        [0.0, s1 * (r80 - r81) + c1 * r93, r146, 0.0, 0.0, 0.0],
-        [r53 - r51, r170, r170, r38 * r98 - r35 * r97, r52 * r97 - r28 * r98, r98 * r101 - r97 * r100],
-        [r99, r174, r174, r31 * r97 - r38 * r99, r28 * r99 - r48 * r97, r97 * r102 - r99 * r101],
-        [0.0, r178, r178, r35 * r99 - r31 * r98, r48 * r98 - r52 * r99, r99 * r100 - r98 * r102],
-        [r107, r182, r182, r35 * r106 - r38 * r107, r28 * r107 - r52 * r106, r100 * r106 - r101 * r107],
-        [0.0 - r108, r183, r183, r38 * r108 - r31 * r106, r48 * r106 - r28 * r108, r101 * r108 - r102 * r106],
-        [0.0, r211, r211, r31 * r107 - r35 * r108, r52 * r108 - r48 * r107, r102 * r107 - r100 * r108],
-        [r100, r215, r215, r35 * r101 - r38 * r100, r28 * r100 - r52 * r101, 0.0],
-        [0.0 - r102, r216, r216, r38 * r102 - r31 * r101, r48 * r101 - r28 * r102, 0.0],
-        [0.0, r236, r236, r31 * r100 - r35 * r102, r52 * r102 - r48 * r100, 0.0],
     ]
 }

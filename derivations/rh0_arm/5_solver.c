@@ -155,25 +155,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c14 = at[0], s14 = at[1], c15 = at[2], s15 = at[3], c16 = at[4], s16 = at[5], r0 = c14 * c15;
-    const T r1 = s14 * c15, r2 = s15 * c16, r3 = c16 * r0, r4 = s14 * s16, r5 = c16 * r1, r6 = c14 * s16;
-    const T r11 = R(0.22) * r1 + R(0.24) * r5 + R(0.24) * r6, r14 = R(0.22) * r0 + R(0.24) * r3;
-    const T r15 = R(0.24) * r4, r19 = R(0.22) * s15 + R(0.24) * r2, r26 = c14 * s15, r27 = s14 * s15;
-    const T r32 = r5 + r6, r34 = r3 - r4;
-    const gb_real all[] = {
-        R(0.0), s14 * r11 + c14 * (r14 - r15), R(0.0) - R(0.24) * (r26 * r32 - r27 * r34),
-        r11, c14 * r19, R(0.24) * (r27 * r2 + c15 * r32),
-        r15 - r14, s14 * r19, R(0.0) - R(0.24) * (c15 * r34 + r26 * r2),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -96,10 +96,6 @@ impl Mechanism for Solver {
 
         [N::of(0.8205551275463989)]
     }
-
-    fn jacobian(&self, p: &[f64; 4], at: &[f64; 6]) -> [[f64; 3]; 3] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 3: Shoulder.
@@ -168,19 +164,5 @@ fn tip<N: Number>(at: &[N; 6]) -> [N; 3] where f64: With<N> {
         0.22 * s15 + 0.24 * (s15 * c16) - 0.2,
         0.3 - r16,
         0.0 - r11,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 4], at: &[f64; 6]) -> [[f64; 3]; 3] {
-    let [c14, s14, c15, s15, c16, s16] = *at;
-    let r0 = c14 * c15; let r1 = s14 * c15; let r2 = s15 * c16; let r3 = c16 * r0; let r4 = s14 * s16;
-    let r5 = c16 * r1; let r6 = c14 * s16; let r11 = 0.22 * r1 + 0.24 * r5 + 0.24 * r6;
-    let r14 = 0.22 * r0 + 0.24 * r3; let r15 = 0.24 * r4; let r19 = 0.22 * s15 + 0.24 * r2;
-    let r26 = c14 * s15; let r27 = s14 * s15; let r32 = r5 + r6; let r34 = r3 - r4;
-    [
-        [0.0, s14 * r11 + c14 * (r14 - r15), 0.0 - 0.24 * (r26 * r32 - r27 * r34)],
-        [r11, c14 * r19, 0.24 * (r27 * r2 + c15 * r32)],
-        [r15 - r14, s14 * r19, 0.0 - 0.24 * (c15 * r34 + r26 * r2)],
     ]
 }

@@ -250,53 +250,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c12 = at[0], s12 = at[1], c11 = at[2], s11 = at[3], c10 = at[4], s10 = at[5], c9 = at[6];
-    const T s9 = at[7], c8 = at[8], s8 = at[9], c7 = at[10], s7 = at[11], r0 = s12 * c11, r1 = c12 * c11;
-    const T r2 = s12 * s11, r3 = c12 * s11, r4 = c10 * r0, r5 = s10 * r2, r6 = c10 * r1, r7 = s10 * r3;
-    const T r8 = s11 * c10, r9 = c11 * s10, r16 = r4 - r5, r18 = s10 * r0 + c10 * r2, r20 = r6 - r7;
-    const T r22 = s10 * r1 + c10 * r3, r24 = r8 + r9, r26 = s11 * s10 - c11 * c10, r35 = c9 * r16 - s9 * r18;
-    const T r38 = c9 * r20 - s9 * r22, r40 = c9 * r24 - s9 * r26, r41 = s8 * r40, r42 = c12 * s8;
-    const T r43 = c8 * r35, r44 = s12 * s8, r45 = c8 * r38, r46 = c8 * r40, r47 = c12 * c8 - s8 * r35;
-    const T r48 = c7 * r47, r49 = s9 * r16 + c9 * r18, r50 = s7 * r49, r51 = s12 * c8 + s8 * r38;
-    const T r52 = c7 * r51, r53 = s9 * r20 + c9 * r22, r54 = s7 * r53, r55 = c7 * r41;
-    const T r56 = s9 * r24 + c9 * r26, r57 = s7 * r56, r60 = s7 * r51, r61 = c7 * r53, r65 = R(0.28) * r8;
-    const T r67 = R(0.28) * r9, r69 = R(0.112) * r55, r71 = R(0.112) * r57, r73 = R(0.0265) * r46;
-    const T r74 = R(0.28) * s11 + r65 + r67 - r69 - r71 + r73, r76 = R(0.28) * r6, r78 = R(0.28) * r7;
-    const T r80 = R(0.112) * r52, r82 = R(0.112) * r54, r84 = R(0.0265) * r44, r86 = R(0.0265) * r45;
-    const T r87 = R(0.28) * r1 + r76 - r78 - r80 - r82 - r84 + r86, r89 = R(0.28) * r4, r91 = R(0.28) * r5;
-    const T r93 = R(0.112) * r48, r95 = R(0.112) * r50, r97 = R(0.0265) * r42, r99 = R(0.0265) * r43;
-    const T r100 = R(0.28) * r0 + r89 - r91 + r93 - r95 + r97 + r99, r101 = r42 + r43, r106 = r55 + r57;
-    const T r107 = r52 + r54, r108 = r48 - r50, r117 = s7 * r41 - c7 * r56, r118 = r60 - r61;
-    const T r119 = s7 * r47 + c7 * r49, r130 = r73 + (r65 + r67 - r69 - r71);
-    const T r144 = s12 * (r99 + (r97 + (r93 + (r89 - r91) - r95))), r146 = r69 + r71 - r73;
-    const T r151 = r84 + (r80 + r82) - r86, r155 = r99 + (r97 + (r93 - r95)), r163 = r44 - r45;
-    const T r181 = c12 * (r86 + (r76 - r78 - r80 - r82 - r84)) + r144, r186 = s12 * r106;
-    const T r206 = R(0.0) - c12 * r106, r210 = c12 * r107 - s12 * r108, r213 = s12 * r46;
-    const T r225 = R(0.0) - c12 * r46, r227 = s12 * r101 - c12 * r163, r230 = s12 * r117;
-    const T r250 = R(0.0) - c12 * r117, r254 = c12 * r118 - s12 * r119;
-    const gb_real all[] = {
-        R(0.0) - r87, s12 * r74, s12 * r130, R(0.0) - s12 * r146, r53 * r146 - r56 * r151, r146 * r163 + r46 * r151,
-        R(0.0) - r100, R(0.0) - c12 * r74, R(0.0) - c12 * r130, c12 * r146, r56 * r155 + r49 * r146, R(0.0) - (r46 * r155 + r146 * r101),
-        R(0.0), c12 * r87 + s12 * r100, r181, s12 * r155 - c12 * r151, R(0.0) - (r49 * r151 + r53 * r155), r151 * r101 - r155 * r163,
-        R(0.0) - r107, r186, r186, r186, r56 * r107 - r53 * r106, R(0.0) - (r163 * r106 + r46 * r107),
-        r108, r206, r206, r206, R(0.0) - (r56 * r108 + r49 * r106), r46 * r108 + r101 * r106,
-        R(0.0), r210, r210, r210, r49 * r107 + r53 * r108, r163 * r108 - r101 * r107,
-        r163, r213, r213, r213, R(0.0) - (r46 * r53 + r56 * r163), R(0.0),
-        R(0.0) - r101, r225, r225, r225, r56 * r101 - r46 * r49, R(0.0),
-        R(0.0), r227, r227, r227, R(0.0) - (r49 * r163 + r53 * r101), R(0.0),
-        r61 - r60, r230, r230, r230, r56 * r118 - r53 * r117, R(0.0) - (r163 * r117 + r46 * r118),
-        r119, r250, r250, r250, R(0.0) - (r56 * r119 + r49 * r117), r46 * r119 + r101 * r117,
-        R(0.0), r254, r254, r254, r49 * r118 + r53 * r119, r163 * r119 - r101 * r118,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

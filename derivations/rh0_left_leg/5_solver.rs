@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(0.787092354220426), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: HipRoll.
@@ -241,47 +237,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         s7 * r47 + c7 * r49,
         s7 * r51 - c7 * r53,
         s7 * r41 - c7 * r56,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c12, s12, c11, s11, c10, s10, c9, s9, c8, s8, c7, s7] = *at;
-    let r0 = s12 * c11; let r1 = c12 * c11; let r2 = s12 * s11; let r3 = c12 * s11; let r4 = c10 * r0;
-    let r5 = s10 * r2; let r6 = c10 * r1; let r7 = s10 * r3; let r8 = s11 * c10; let r9 = c11 * s10;
-    let r16 = r4 - r5; let r18 = s10 * r0 + c10 * r2; let r20 = r6 - r7; let r22 = s10 * r1 + c10 * r3;
-    let r24 = r8 + r9; let r26 = s11 * s10 - c11 * c10; let r35 = c9 * r16 - s9 * r18;
-    let r38 = c9 * r20 - s9 * r22; let r40 = c9 * r24 - s9 * r26; let r41 = s8 * r40; let r42 = c12 * s8;
-    let r43 = c8 * r35; let r44 = s12 * s8; let r45 = c8 * r38; let r46 = c8 * r40;
-    let r47 = c12 * c8 - s8 * r35; let r48 = c7 * r47; let r49 = s9 * r16 + c9 * r18; let r50 = s7 * r49;
-    let r51 = s12 * c8 + s8 * r38; let r52 = c7 * r51; let r53 = s9 * r20 + c9 * r22; let r54 = s7 * r53;
-    let r55 = c7 * r41; let r56 = s9 * r24 + c9 * r26; let r57 = s7 * r56; let r60 = s7 * r51;
-    let r61 = c7 * r53; let r65 = 0.28 * r8; let r67 = 0.28 * r9; let r69 = 0.112 * r55; let r71 = 0.112 * r57;
-    let r73 = 0.0265 * r46; let r74 = 0.28 * s11 + r65 + r67 - r69 - r71 + r73; let r76 = 0.28 * r6;
-    let r78 = 0.28 * r7; let r80 = 0.112 * r52; let r82 = 0.112 * r54; let r84 = 0.0265 * r44;
-    let r86 = 0.0265 * r45; let r87 = 0.28 * r1 + r76 - r78 - r80 - r82 - r84 + r86; let r89 = 0.28 * r4;
-    let r91 = 0.28 * r5; let r93 = 0.112 * r48; let r95 = 0.112 * r50; let r97 = 0.0265 * r42;
-    let r99 = 0.0265 * r43; let r100 = 0.28 * r0 + r89 - r91 + r93 - r95 + r97 + r99; let r101 = r42 + r43;
-    let r106 = r55 + r57; let r107 = r52 + r54; let r108 = r48 - r50; let r117 = s7 * r41 - c7 * r56;
-    let r118 = r60 - r61; let r119 = s7 * r47 + c7 * r49; let r130 = r73 + (r65 + r67 - r69 - r71);
-    let r144 = s12 * (r99 + (r97 + (r93 + (r89 - r91) - r95))); let r146 = r69 + r71 - r73;
-    let r151 = r84 + (r80 + r82) - r86; let r155 = r99 + (r97 + (r93 - r95)); let r163 = r44 - r45;
-    let r181 = c12 * (r86 + (r76 - r78 - r80 - r82 - r84)) + r144; let r186 = s12 * r106;
-    let r206 = 0.0 - c12 * r106; let r210 = c12 * r107 - s12 * r108; let r213 = s12 * r46;
-    let r225 = 0.0 - c12 * r46; let r227 = s12 * r101 - c12 * r163; let r230 = s12 * r117;
-    let r250 = 0.0 - c12 * r117; let r254 = c12 * r118 - s12 * r119;
-    [
-        [0.0 - r87, s12 * r74, s12 * r130, 0.0 - s12 * r146, r53 * r146 - r56 * r151, r146 * r163 + r46 * r151],
-        [0.0 - r100, 0.0 - c12 * r74, 0.0 - c12 * r130, c12 * r146, r56 * r155 + r49 * r146, 0.0 - (r46 * r155 + r146 * r101)],
-        [0.0, c12 * r87 + s12 * r100, r181, s12 * r155 - c12 * r151, 0.0 - (r49 * r151 + r53 * r155), r151 * r101 - r155 * r163],
-        [0.0 - r107, r186, r186, r186, r56 * r107 - r53 * r106, 0.0 - (r163 * r106 + r46 * r107)],
-        [r108, r206, r206, r206, 0.0 - (r56 * r108 + r49 * r106), r46 * r108 + r101 * r106],
-        [0.0, r210, r210, r210, r49 * r107 + r53 * r108, r163 * r108 - r101 * r107],
-        [r163, r213, r213, r213, 0.0 - (r46 * r53 + r56 * r163), 0.0],
-        [0.0 - r101, r225, r225, r225, r56 * r101 - r46 * r49, 0.0],
-        [0.0, r227, r227, r227, 0.0 - (r49 * r163 + r53 * r101), 0.0],
-        [r61 - r60, r230, r230, r230, r56 * r118 - r53 * r117, 0.0 - (r163 * r117 + r46 * r118)],
-        [r119, r250, r250, r250, 0.0 - (r56 * r119 + r49 * r117), r46 * r119 + r101 * r117],
-        [0.0, r254, r254, r254, r49 * r118 + r53 * r119, r163 * r119 - r101 * r118],
     ]
 }

@@ -249,53 +249,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const T r3 = c1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9;
-    const T r26 = s2 * s3 - c2 * c3, r35 = c4 * r16 - s4 * r18, r38 = c4 * r20 - s4 * r22;
-    const T r40 = c4 * r24 - s4 * r26, r41 = s5 * r40, r42 = c1 * s5, r43 = c5 * r35, r44 = s1 * s5;
-    const T r45 = c5 * r38, r46 = c5 * r40, r47 = c1 * c5 - s5 * r35, r48 = c6 * r47;
-    const T r49 = s4 * r16 + c4 * r18, r50 = s6 * r49, r51 = s1 * c5 + s5 * r38, r52 = c6 * r51;
-    const T r53 = s4 * r20 + c4 * r22, r54 = s6 * r53, r55 = c6 * r41, r56 = s4 * r24 + c4 * r26;
-    const T r57 = s6 * r56, r60 = s6 * r51, r61 = c6 * r53, r65 = R(0.28) * r8, r67 = R(0.28) * r9;
-    const T r69 = R(0.112) * r55, r71 = R(0.112) * r57, r73 = R(0.0265) * r46;
-    const T r74 = R(0.28) * s2 + r65 + r67 + r69 + r71 + r73, r76 = R(0.28) * r6, r78 = R(0.28) * r7;
-    const T r80 = R(0.112) * r52, r82 = R(0.112) * r54, r84 = R(0.0265) * r44, r86 = R(0.0265) * r45;
-    const T r87 = R(0.28) * r1 + r76 - r78 + r80 + r82 - r84 + r86, r89 = R(0.28) * r4, r91 = R(0.28) * r5;
-    const T r93 = R(0.112) * r48, r95 = R(0.112) * r50, r97 = R(0.0265) * r42, r99 = R(0.0265) * r43;
-    const T r100 = R(0.28) * r0 + r89 - r91 - r93 + r95 + r97 + r99, r101 = r42 + r43, r107 = r55 + r57;
-    const T r108 = r52 + r54, r109 = r48 - r50, r118 = s6 * r41 - c6 * r56, r119 = r60 - r61;
-    const T r120 = s6 * r47 + c6 * r49, r131 = r73 + (r71 + (r69 + (r65 + r67)));
-    const T r139 = c1 * (r86 + (r82 + (r80 + (r76 - r78)) - r84));
-    const T r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93)))), r147 = r73 + (r69 + r71);
-    const T r152 = r86 + (r80 + r82 - r84), r156 = r93 - r95 - r97 - r99, r164 = r44 - r45, r187 = s1 * r107;
-    const T r207 = R(0.0) - c1 * r107, r211 = c1 * r108 - s1 * r109, r214 = s1 * r46, r226 = R(0.0) - c1 * r46;
-    const T r228 = s1 * r101 - c1 * r164, r231 = s1 * r118, r251 = R(0.0) - c1 * r118;
-    const T r255 = c1 * r119 - s1 * r120;
-    const gb_real all[] = {
-        R(0.0) - r87, s1 * r74, s1 * r131, s1 * r147, r56 * r152 - r53 * r147, R(0.0) - (r147 * r164 + r46 * r152),
-        R(0.0) - r100, R(0.0) - c1 * r74, R(0.0) - c1 * r131, R(0.0) - c1 * r147, R(0.0) - (r56 * r156 + r49 * r147), r46 * r156 + r147 * r101,
-        R(0.0), c1 * r87 + s1 * r100, r139 + r145, c1 * r152 - s1 * r156, r49 * r152 + r53 * r156, r156 * r164 - r152 * r101,
-        R(0.0) - r108, r187, r187, r187, r56 * r108 - r53 * r107, R(0.0) - (r164 * r107 + r46 * r108),
-        r109, r207, r207, r207, R(0.0) - (r56 * r109 + r49 * r107), r46 * r109 + r101 * r107,
-        R(0.0), r211, r211, r211, r49 * r108 + r53 * r109, r164 * r109 - r101 * r108,
-        r164, r214, r214, r214, R(0.0) - (r46 * r53 + r56 * r164), R(0.0),
-        R(0.0) - r101, r226, r226, r226, r56 * r101 - r46 * r49, R(0.0),
-        R(0.0), r228, r228, r228, R(0.0) - (r49 * r164 + r53 * r101), R(0.0),
-        r61 - r60, r231, r231, r231, r56 * r119 - r53 * r118, R(0.0) - (r164 * r118 + r46 * r119),
-        r120, r251, r251, r251, R(0.0) - (r56 * r120 + r49 * r118), r46 * r120 + r101 * r118,
-        R(0.0), r255, r255, r255, r49 * r119 + r53 * r120, r164 * r120 - r101 * r119,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(0.787092354220426), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: HipRoll.
@@ -241,47 +237,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         s6 * r47 + c6 * r49,
         s6 * r51 - c6 * r53,
         s6 * r41 - c6 * r56,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3; let r35 = c4 * r16 - s4 * r18; let r38 = c4 * r20 - s4 * r22;
-    let r40 = c4 * r24 - s4 * r26; let r41 = s5 * r40; let r42 = c1 * s5; let r43 = c5 * r35;
-    let r44 = s1 * s5; let r45 = c5 * r38; let r46 = c5 * r40; let r47 = c1 * c5 - s5 * r35;
-    let r48 = c6 * r47; let r49 = s4 * r16 + c4 * r18; let r50 = s6 * r49; let r51 = s1 * c5 + s5 * r38;
-    let r52 = c6 * r51; let r53 = s4 * r20 + c4 * r22; let r54 = s6 * r53; let r55 = c6 * r41;
-    let r56 = s4 * r24 + c4 * r26; let r57 = s6 * r56; let r60 = s6 * r51; let r61 = c6 * r53;
-    let r65 = 0.28 * r8; let r67 = 0.28 * r9; let r69 = 0.112 * r55; let r71 = 0.112 * r57;
-    let r73 = 0.0265 * r46; let r74 = 0.28 * s2 + r65 + r67 + r69 + r71 + r73; let r76 = 0.28 * r6;
-    let r78 = 0.28 * r7; let r80 = 0.112 * r52; let r82 = 0.112 * r54; let r84 = 0.0265 * r44;
-    let r86 = 0.0265 * r45; let r87 = 0.28 * r1 + r76 - r78 + r80 + r82 - r84 + r86; let r89 = 0.28 * r4;
-    let r91 = 0.28 * r5; let r93 = 0.112 * r48; let r95 = 0.112 * r50; let r97 = 0.0265 * r42;
-    let r99 = 0.0265 * r43; let r100 = 0.28 * r0 + r89 - r91 - r93 + r95 + r97 + r99; let r101 = r42 + r43;
-    let r107 = r55 + r57; let r108 = r52 + r54; let r109 = r48 - r50; let r118 = s6 * r41 - c6 * r56;
-    let r119 = r60 - r61; let r120 = s6 * r47 + c6 * r49; let r131 = r73 + (r71 + (r69 + (r65 + r67)));
-    let r139 = c1 * (r86 + (r82 + (r80 + (r76 - r78)) - r84));
-    let r145 = s1 * (r99 + (r97 + (r95 + (r89 - r91 - r93)))); let r147 = r73 + (r69 + r71);
-    let r152 = r86 + (r80 + r82 - r84); let r156 = r93 - r95 - r97 - r99; let r164 = r44 - r45;
-    let r187 = s1 * r107; let r207 = 0.0 - c1 * r107; let r211 = c1 * r108 - s1 * r109; let r214 = s1 * r46;
-    let r226 = 0.0 - c1 * r46; let r228 = s1 * r101 - c1 * r164; let r231 = s1 * r118;
-    let r251 = 0.0 - c1 * r118; let r255 = c1 * r119 - s1 * r120;
-    [
-        [0.0 - r87, s1 * r74, s1 * r131, s1 * r147, r56 * r152 - r53 * r147, 0.0 - (r147 * r164 + r46 * r152)],
-        [0.0 - r100, 0.0 - c1 * r74, 0.0 - c1 * r131, 0.0 - c1 * r147, 0.0 - (r56 * r156 + r49 * r147), r46 * r156 + r147 * r101],
-        [0.0, c1 * r87 + s1 * r100, r139 + r145, c1 * r152 - s1 * r156, r49 * r152 + r53 * r156, r156 * r164 - r152 * r101],
-        [0.0 - r108, r187, r187, r187, r56 * r108 - r53 * r107, 0.0 - (r164 * r107 + r46 * r108)],
-        [r109, r207, r207, r207, 0.0 - (r56 * r109 + r49 * r107), r46 * r109 + r101 * r107],
-        [0.0, r211, r211, r211, r49 * r108 + r53 * r109, r164 * r109 - r101 * r108],
-        [r164, r214, r214, r214, 0.0 - (r46 * r53 + r56 * r164), 0.0],
-        [0.0 - r101, r226, r226, r226, r56 * r101 - r46 * r49, 0.0],
-        [0.0, r228, r228, r228, 0.0 - (r49 * r164 + r53 * r101), 0.0],
-        [r61 - r60, r231, r231, r231, r56 * r119 - r53 * r118, 0.0 - (r164 * r118 + r46 * r119)],
-        [r120, r251, r251, r251, 0.0 - (r56 * r120 + r49 * r118), r46 * r120 + r101 * r118],
-        [0.0, r255, r255, r255, r49 * r119 + r53 * r120, r164 * r120 - r101 * r119],
     ]
 }

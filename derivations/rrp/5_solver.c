@@ -133,25 +133,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], r0 = c1 * c2, r1 = s1 * c2;
-    const T r5 = d3 * r0, r6 = d3 * r1, r12 = s2 * d3 + (R(0.4) * s2 - R(0.05) * c2), r13 = R(0.4) * r1;
-    const T r14 = R(0.05) * (s1 * s2), r15 = R(0.1) * c1, r16 = R(0.4) * r0, r17 = R(0.05) * (c1 * s2);
-    const T r18 = R(0.1) * s1, r43 = R(0.0) - (r15 + (r6 + (r14 + (r13 + R(0.15) * s1))));
-    const T r46 = s1 * (r6 + (r13 + r14) + r15) + c1 * (r5 + (r16 + r17) - r18);
-    const gb_real all[] = {
-        r43, R(0.0) - c1 * r12, r0,
-        r5 + (r17 + (r16 + R(0.15) * c1)) - r18, R(0.0) - s1 * r12, r1,
-        R(0.0), R(0.0) - r46, R(0.0) - s2,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

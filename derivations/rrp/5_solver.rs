@@ -97,10 +97,6 @@ impl Mechanism for Solver {
         let [_, _, _, _, d3] = *at;
         [N::abs(d3) + 1.1302692427176386]
     }
-
-    fn jacobian(&self, p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 3] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: Yaw.
@@ -151,20 +147,5 @@ fn tip<N: Number>(at: &[N; 5]) -> [N; 3] where f64: With<N> {
         r27 - 0.1 * s1,
         0.1 * c1 + r22,
         0.6 - (s2 * d3 + (0.4 * s2 - 0.05 * c2)),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 4], at: &[f64; 5]) -> [[f64; 3]; 3] {
-    let [c1, s1, c2, s2, d3] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r5 = d3 * r0; let r6 = d3 * r1;
-    let r12 = s2 * d3 + (0.4 * s2 - 0.05 * c2); let r13 = 0.4 * r1; let r14 = 0.05 * (s1 * s2);
-    let r15 = 0.1 * c1; let r16 = 0.4 * r0; let r17 = 0.05 * (c1 * s2); let r18 = 0.1 * s1;
-    let r43 = 0.0 - (r15 + (r6 + (r14 + (r13 + 0.15 * s1))));
-    let r46 = s1 * (r6 + (r13 + r14) + r15) + c1 * (r5 + (r16 + r17) - r18);
-    [
-        [r43, 0.0 - c1 * r12, r0],
-        [r5 + (r17 + (r16 + 0.15 * c1)) - r18, 0.0 - s1 * r12, r1],
-        [0.0, 0.0 - r46, 0.0 - s2],
     ]
 }

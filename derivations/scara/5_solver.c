@@ -156,34 +156,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c4 = at[5], s4 = at[6], r0 = c1 * c2, r1 = s1 * s2;
-    const T r2 = s1 * c2, r3 = c1 * s2, r5 = r0 - r1, r7 = r2 + r3, r8 = s4 * r7, r9 = c4 * r7, r10 = r1 - r0;
-    const T r12 = s4 * r5, r13 = c4 * r10, r19 = R(0.325) * s1 + R(0.275) * r2 + R(0.275) * r3;
-    const T r24 = R(0.325) * c1 + R(0.275) * r0 - R(0.275) * r1, r29 = r9 + s4 * r10, r30 = c4 * r5 + r8;
-    const T r35 = r9 - r12, r46 = r8 - r13, r48 = R(0.0) - r29;
-    const gb_real all[] = {
-        R(0.0) - r19, R(0.0) - R(0.275) * r7, R(0.0), R(0.0),
-        r24, R(0.275) * r5, R(0.0), R(0.0),
-        R(0.0), R(0.0), -R(1.0), R(0.0),
-        r48, r48, R(0.0), r29,
-        r30, r30, R(0.0), R(0.0) - r30,
-        R(0.0), R(0.0), R(0.0), R(0.0),
-        r46, r46, R(0.0), r13 - r8,
-        r35, r35, R(0.0), r12 - r9,
-        R(0.0), R(0.0), R(0.0), R(0.0),
-        R(0.0), R(0.0), R(0.0), R(0.0),
-        R(0.0), R(0.0), R(0.0), R(0.0),
-        R(0.0), R(0.0), R(0.0), R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

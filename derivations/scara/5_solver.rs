@@ -100,10 +100,6 @@ impl Mechanism for Solver {
         let [_, _, _, _, d3, _, _] = *at;
         [N::abs(d3) + 0.7803652144736517, N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 7]) -> [[f64; 4]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 4: Tool.
@@ -165,28 +161,5 @@ fn tip<N: Number>(at: &[N; 7]) -> [N; 12] where f64: With<N> {
         N::of(0.0),
         N::of(0.0),
         N::of(-1.0),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 7]) -> [[f64; 4]; 12] {
-    let [c1, s1, c2, s2, _, c4, s4] = *at;
-    let r0 = c1 * c2; let r1 = s1 * s2; let r2 = s1 * c2; let r3 = c1 * s2; let r5 = r0 - r1; let r7 = r2 + r3;
-    let r8 = s4 * r7; let r9 = c4 * r7; let r10 = r1 - r0; let r12 = s4 * r5; let r13 = c4 * r10;
-    let r29 = r9 + s4 * r10; let r30 = c4 * r5 + r8; let r35 = r9 - r12; let r46 = r8 - r13;
-    let r48 = 0.0 - r29;
-    [
-        [0.0 - (0.325 * s1 + 0.275 * r2 + 0.275 * r3), 0.0 - 0.275 * r7, 0.0, 0.0],
-        [0.325 * c1 + 0.275 * r0 - 0.275 * r1, 0.275 * r5, 0.0, 0.0],
-        [0.0, 0.0, -1.0, 0.0],
-        [r48, r48, 0.0, r29],
-        [r30, r30, 0.0, 0.0 - r30],
-        [0.0, 0.0, 0.0, 0.0],
-        [r46, r46, 0.0, r13 - r8],
-        [r35, r35, 0.0, r12 - r9],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0],
     ]
 }

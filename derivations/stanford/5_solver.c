@@ -229,42 +229,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)p;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], d3 = at[4], c4 = at[5], s4 = at[6], c5 = at[7];
-    const T s5 = at[8], c6 = at[9], s6 = at[10], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2;
-    const T r10 = s2 * s4, r15 = s2 * c4, r19 = c1 * s4 + c4 * r2, r24 = s1 * s4 - c4 * r3, r26 = s5 * r0;
-    const T r27 = c5 * r19, r28 = c2 * s5, r29 = c5 * r15, r30 = s5 * r1, r31 = c5 * r24;
-    const T r32 = c1 * c4 - s4 * r2, r34 = c5 * r0 + s5 * r19, r37 = c2 * c5 - s5 * r15;
-    const T r39 = s1 * c4 + s4 * r3, r40 = c6 * r39, r41 = c5 * r1 - s5 * r24, r42 = s6 * r41;
-    const T r55 = c2 * d3 + R(0.2) * c2 - R(0.2) * r28 - R(0.2) * r29;
-    const T r61 = d3 * r0 + R(0.2) * r0 - R(0.2) * r26 + R(0.2) * r27;
-    const T r67 = d3 * r1 + R(0.2) * r1 - R(0.2) * r30 - R(0.2) * r31, r68 = r30 + r31, r69 = r28 + r29;
-    const T r74 = c6 * r10 + s6 * r37, r75 = c6 * r32 + s6 * r34, r80 = s6 * r39 + c6 * r41, r96 = c2 * r68;
-    const T r97 = r1 * r69, r98 = r26 - r27, r99 = r1 * r98, r100 = r0 * r68, r101 = r0 * r69, r102 = c2 * r98;
-    const T r107 = r32 * r69, r108 = r10 * r98, r112 = r10 * r68 + r39 * r69, r120 = r39 * r98 + r32 * r68;
-    const T r129 = r40 - r42, r130 = s6 * r10 - c6 * r37, r131 = s6 * r32 - c6 * r34;
-    const gb_real all[] = {
-        r67, s1 * r55, r0, R(0.0) - R(0.2) * (r96 - r97), R(0.0) - R(0.2) * r112, R(0.0),
-        R(0.0), R(0.0) - (s1 * r61 + c1 * r67), c2, R(0.0) - R(0.2) * (r99 - r100), R(0.2) * r120, R(0.0),
-        R(0.0) - r61, c1 * r55, r1, R(0.0) - R(0.2) * (r101 - r102), R(0.0) - R(0.2) * (r107 - r108), R(0.0),
-        r42 - r40, s1 * r74, R(0.0), R(0.0) - (c2 * r129 + r1 * r74), r39 * r74 - r10 * r129, r69 * r129 + r68 * r74,
-        R(0.0), c1 * r129 - s1 * r75, R(0.0), r1 * r75 + r0 * r129, r32 * r129 - r39 * r75, R(0.0) - (r68 * r75 + r98 * r129),
-        R(0.0) - r75, c1 * r74, R(0.0), r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74,
-        r80, R(0.0) - s1 * r130, R(0.0), c2 * r80 + r1 * r130, r10 * r80 - r39 * r130, R(0.0) - (r69 * r80 + r68 * r130),
-        R(0.0), s1 * r131 - c1 * r80, R(0.0), R(0.0) - (r1 * r131 + r0 * r80), r39 * r131 - r32 * r80, r68 * r131 + r98 * r80,
-        r131, R(0.0) - c1 * r130, R(0.0), c2 * r131 - r0 * r130, r10 * r131 - r32 * r130, r98 * r130 - r69 * r131,
-        R(0.0) - r68, R(0.0) - s1 * r69, R(0.0), r97 - r96, R(0.0) - r112, R(0.0),
-        R(0.0), s1 * r98 + c1 * r68, R(0.0), r100 - r99, r120, R(0.0),
-        r98, R(0.0) - c1 * r69, R(0.0), r102 - r101, r108 - r107, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -102,10 +102,6 @@ impl Mechanism for Solver {
         let [_, _, _, _, d3, _, _, _, _, _, _] = *at;
         [N::abs(d3) + 1.06, N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 11]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: WristPitch.
@@ -225,36 +221,5 @@ fn tip<N: Number>(at: &[N; 11]) -> [N; 12] where f64: With<N> {
         r27 - r26,
         0.0 - (r28 + r29),
         0.0 - (r30 + r31),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 11]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r10 = s2 * s4;
-    let r15 = s2 * c4; let r19 = c1 * s4 + c4 * r2; let r24 = s1 * s4 - c4 * r3; let r26 = s5 * r0;
-    let r27 = c5 * r19; let r28 = c2 * s5; let r29 = c5 * r15; let r30 = s5 * r1; let r31 = c5 * r24;
-    let r32 = c1 * c4 - s4 * r2; let r34 = c5 * r0 + s5 * r19; let r37 = c2 * c5 - s5 * r15;
-    let r39 = s1 * c4 + s4 * r3; let r40 = c6 * r39; let r41 = c5 * r1 - s5 * r24; let r42 = s6 * r41;
-    let r55 = c2 * d3 + 0.2 * c2 - 0.2 * r28 - 0.2 * r29; let r61 = d3 * r0 + 0.2 * r0 - 0.2 * r26 + 0.2 * r27;
-    let r67 = d3 * r1 + 0.2 * r1 - 0.2 * r30 - 0.2 * r31; let r68 = r30 + r31; let r69 = r28 + r29;
-    let r74 = c6 * r10 + s6 * r37; let r75 = c6 * r32 + s6 * r34; let r80 = s6 * r39 + c6 * r41;
-    let r96 = c2 * r68; let r97 = r1 * r69; let r98 = r26 - r27; let r99 = r1 * r98; let r100 = r0 * r68;
-    let r101 = r0 * r69; let r102 = c2 * r98; let r107 = r32 * r69; let r108 = r10 * r98;
-    let r112 = r10 * r68 + r39 * r69; let r120 = r39 * r98 + r32 * r68; let r129 = r40 - r42;
-    let r130 = s6 * r10 - c6 * r37; let r131 = s6 * r32 - c6 * r34;
-    [
-        [r67, s1 * r55, r0, 0.0 - 0.2 * (r96 - r97), 0.0 - 0.2 * r112, 0.0],
-        [0.0, 0.0 - (s1 * r61 + c1 * r67), c2, 0.0 - 0.2 * (r99 - r100), 0.2 * r120, 0.0],
-        [0.0 - r61, c1 * r55, r1, 0.0 - 0.2 * (r101 - r102), 0.0 - 0.2 * (r107 - r108), 0.0],
-        [r42 - r40, s1 * r74, 0.0, 0.0 - (c2 * r129 + r1 * r74), r39 * r74 - r10 * r129, r69 * r129 + r68 * r74],
-        [0.0, c1 * r129 - s1 * r75, 0.0, r1 * r75 + r0 * r129, r32 * r129 - r39 * r75, 0.0 - (r68 * r75 + r98 * r129)],
-        [0.0 - r75, c1 * r74, 0.0, r0 * r74 - c2 * r75, r32 * r74 - r10 * r75, r69 * r75 - r98 * r74],
-        [r80, 0.0 - s1 * r130, 0.0, c2 * r80 + r1 * r130, r10 * r80 - r39 * r130, 0.0 - (r69 * r80 + r68 * r130)],
-        [0.0, s1 * r131 - c1 * r80, 0.0, 0.0 - (r1 * r131 + r0 * r80), r39 * r131 - r32 * r80, r68 * r131 + r98 * r80],
-        [r131, 0.0 - c1 * r130, 0.0, c2 * r131 - r0 * r130, r10 * r131 - r32 * r130, r98 * r130 - r69 * r131],
-        [0.0 - r68, 0.0 - s1 * r69, 0.0, r97 - r96, 0.0 - r112, 0.0],
-        [0.0, s1 * r98 + c1 * r68, 0.0, r100 - r99, r120, 0.0],
-        [r98, 0.0 - c1 * r69, 0.0, r102 - r101, r108 - r107, 0.0],
     ]
 }

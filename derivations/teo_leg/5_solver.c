@@ -226,53 +226,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * c2, r1 = c1 * c2, r2 = s1 * s2;
-    const T r3 = c1 * s2, r8 = c2 * s3, r9 = c1 * s3, r10 = c3 * r2, r11 = s1 * s3, r12 = c3 * r3;
-    const T r13 = c2 * c3, r14 = c1 * c3 - s3 * r2, r16 = r9 + r10, r18 = s1 * c3 + s3 * r3, r20 = r11 - r12;
-    const T r24 = s4 * r14, r25 = c4 * r16, r26 = s4 * r18, r27 = c4 * r20, r28 = s4 * r8, r29 = c4 * r13;
-    const T r30 = c4 * r14 - s4 * r16, r32 = r24 + r25, r34 = c4 * r18 - s4 * r20, r35 = c5 * r34;
-    const T r36 = r26 + r27, r37 = s5 * r36, r38 = c4 * r8 + s4 * r13, r40 = r28 - r29, r48 = c6 * r0;
-    const T r49 = s5 * r30 + c5 * r32, r50 = s6 * r49, r52 = s5 * r34 + c5 * r36, r55 = s5 * r38 + c5 * r40;
-    const T r57 = s6 * r0, r58 = c6 * r49, r59 = s6 * r1, r60 = c6 * r52, r61 = s2 * s6, r62 = c6 * r55;
-    const T r64 = R(0.0175) * s2, r66 = R(0.3) * r28, r68 = R(0.3) * r29, r70 = R(0.123005) * r61;
-    const T r72 = R(0.123005) * r62, r73 = R(0.33) * r13 + r64 - r66 + r68 - r70 - r72, r77 = R(0.0175) * r1;
-    const T r79 = R(0.3) * r26, r81 = R(0.3) * r27, r82 = R(0.33) * r11 - R(0.33) * r12 + r77 + r79 + r81;
-    const T r83 = R(0.123005) * r59, r85 = R(0.123005) * r60, r86 = r82 - r83 + r85, r90 = R(0.0175) * r0;
-    const T r92 = R(0.3) * r24, r94 = R(0.3) * r25, r95 = R(0.33) * r9 + R(0.33) * r10 - r90 + r92 + r94;
-    const T r96 = R(0.123005) * r57, r98 = R(0.123005) * r58, r99 = r95 + r96 + r98, r100 = r61 + r62;
-    const T r101 = r57 + r58, r102 = r35 - r37, r103 = c5 * r30 - s5 * r32, r115 = s2 * c6 - s6 * r55;
-    const T r116 = c6 * r1 + s6 * r52, r139 = r68 + (r64 - r66) - r70 - r72;
-    const T r144 = r85 + (r81 + (r77 + r79) - r83), r149 = r90 - r92 - r94 - r96 - r98, r154 = r1 * r100;
-    const T r155 = r59 - r60, r156 = s2 * r155, r162 = c5 * r38 - s5 * r40, r164 = r101 * r162;
-    const T r165 = r100 * r103, r173 = r100 * r102 + r155 * r162, r178 = s2 * r101 - r0 * r100;
-    const T r186 = r0 * r155 - r1 * r101, r189 = r155 * r103 + r101 * r102, r191 = r48 - r50;
-    const T r205 = R(0.0) - (r1 * r162 + s2 * r102), r206 = s2 * r103 - r0 * r162;
-    const T r209 = R(0.0) - (r0 * r102 + r1 * r103), r227 = r1 * r115 - s2 * r116;
-    const T r230 = r0 * r115 - s2 * r191, r233 = r1 * r191 - r0 * r116, r240 = r156 - r154;
-    const gb_real all[] = {
-        r86, R(0.0) - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, R(0.123005) * (r154 - r156), R(0.123005) * r173,
-        R(0.0) - r99, c1 * r73, R(0.0) - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, R(0.0) - R(0.123005) * r178, R(0.123005) * (r164 - r165),
-        R(0.0), s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, R(0.0) - R(0.123005) * r186, R(0.123005) * r189,
-        r37 - r35, R(0.0) - s1 * r162, r205, r205, r205, R(0.0),
-        r103, c1 * r162, r206, r206, r206, R(0.0),
-        R(0.0), c1 * r102 - s1 * r103, r209, r209, r209, R(0.0),
-        R(0.0) - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116,
-        r50 - r48, R(0.0) - c1 * r115, r230, r230, r230, r162 * r191 - r103 * r115,
-        R(0.0), c1 * r116 + s1 * r191, r233, r233, r233, r103 * r116 + r102 * r191,
-        r155, R(0.0) - s1 * r100, r240, r240, r240, R(0.0) - r173,
-        r101, c1 * r100, r178, r178, r178, r165 - r164,
-        R(0.0), R(0.0) - (c1 * r155 + s1 * r101), r186, r186, r186, R(0.0) - r189,
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

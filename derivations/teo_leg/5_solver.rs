@@ -101,10 +101,6 @@ impl Mechanism for Solver {
 
         [N::of(0.926083810044118), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 5: HipRoll.
@@ -226,48 +222,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r57 + r58,
         r60 - r59,
         0.0 - (r61 + r62),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * c2; let r1 = c1 * c2; let r2 = s1 * s2; let r3 = c1 * s2; let r8 = c2 * s3; let r9 = c1 * s3;
-    let r10 = c3 * r2; let r11 = s1 * s3; let r12 = c3 * r3; let r13 = c2 * c3; let r14 = c1 * c3 - s3 * r2;
-    let r16 = r9 + r10; let r18 = s1 * c3 + s3 * r3; let r20 = r11 - r12; let r24 = s4 * r14;
-    let r25 = c4 * r16; let r26 = s4 * r18; let r27 = c4 * r20; let r28 = s4 * r8; let r29 = c4 * r13;
-    let r30 = c4 * r14 - s4 * r16; let r32 = r24 + r25; let r34 = c4 * r18 - s4 * r20; let r35 = c5 * r34;
-    let r36 = r26 + r27; let r37 = s5 * r36; let r38 = c4 * r8 + s4 * r13; let r40 = r28 - r29;
-    let r48 = c6 * r0; let r49 = s5 * r30 + c5 * r32; let r50 = s6 * r49; let r52 = s5 * r34 + c5 * r36;
-    let r55 = s5 * r38 + c5 * r40; let r57 = s6 * r0; let r58 = c6 * r49; let r59 = s6 * r1;
-    let r60 = c6 * r52; let r61 = s2 * s6; let r62 = c6 * r55; let r64 = 0.0175 * s2; let r66 = 0.3 * r28;
-    let r68 = 0.3 * r29; let r70 = 0.123005 * r61; let r72 = 0.123005 * r62;
-    let r73 = 0.33 * r13 + r64 - r66 + r68 - r70 - r72; let r77 = 0.0175 * r1; let r79 = 0.3 * r26;
-    let r81 = 0.3 * r27; let r83 = 0.123005 * r59; let r84 = 0.33 * r11 - 0.33 * r12 + r77 + r79 + r81 - r83;
-    let r85 = 0.123005 * r60; let r86 = r84 + r85; let r90 = 0.0175 * r0; let r92 = 0.3 * r24;
-    let r94 = 0.3 * r25; let r96 = 0.123005 * r57; let r97 = 0.33 * r9 + 0.33 * r10 - r90 + r92 + r94 + r96;
-    let r98 = 0.123005 * r58; let r99 = r97 + r98; let r100 = r61 + r62; let r101 = r57 + r58;
-    let r102 = r35 - r37; let r103 = c5 * r30 - s5 * r32; let r115 = s2 * c6 - s6 * r55;
-    let r116 = c6 * r1 + s6 * r52; let r139 = r68 + (r64 - r66) - r70 - r72;
-    let r144 = r85 + (r81 + (r77 + r79) - r83); let r149 = r90 - r92 - r94 - r96 - r98; let r154 = r1 * r100;
-    let r155 = r59 - r60; let r156 = s2 * r155; let r162 = c5 * r38 - s5 * r40; let r164 = r101 * r162;
-    let r165 = r100 * r103; let r173 = r100 * r102 + r155 * r162; let r178 = s2 * r101 - r0 * r100;
-    let r186 = r0 * r155 - r1 * r101; let r189 = r155 * r103 + r101 * r102; let r191 = r48 - r50;
-    let r205 = 0.0 - (r1 * r162 + s2 * r102); let r206 = s2 * r103 - r0 * r162;
-    let r209 = 0.0 - (r0 * r102 + r1 * r103); let r227 = r1 * r115 - s2 * r116;
-    let r230 = r0 * r115 - s2 * r191; let r233 = r1 * r191 - r0 * r116; let r240 = r156 - r154;
-    [
-        [r86, 0.0 - s1 * r73, s2 * r86 - r1 * r73, s2 * r144 - r1 * r139, 0.123005 * (r154 - r156), 0.123005 * r173],
-        [0.0 - r99, c1 * r73, 0.0 - (s2 * r99 + r0 * r73), s2 * r149 - r0 * r139, 0.0 - 0.123005 * r178, 0.123005 * (r164 - r165)],
-        [0.0, s1 * r99 - c1 * r86, r0 * r86 + r1 * r99, r0 * r144 - r1 * r149, 0.0 - 0.123005 * r186, 0.123005 * r189],
-        [r37 - r35, 0.0 - s1 * r162, r205, r205, r205, 0.0],
-        [r103, c1 * r162, r206, r206, r206, 0.0],
-        [0.0, c1 * r102 - s1 * r103, r209, r209, r209, 0.0],
-        [0.0 - r116, s1 * r115, r227, r227, r227, r102 * r115 + r162 * r116],
-        [r50 - r48, 0.0 - c1 * r115, r230, r230, r230, r162 * r191 - r103 * r115],
-        [0.0, c1 * r116 + s1 * r191, r233, r233, r233, r103 * r116 + r102 * r191],
-        [r155, 0.0 - s1 * r100, r240, r240, r240, 0.0 - r173],
-        [r101, c1 * r100, r178, r178, r178, r165 - r164],
-        [0.0, 0.0 - (c1 * r155 + s1 * r101), r186, r186, r186, 0.0 - r189],
     ]
 }

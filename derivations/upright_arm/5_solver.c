@@ -246,40 +246,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], r0 = c2 * c1, r1 = c2 * s1, r2 = s2 * c1, r3 = s2 * s1, r10 = s3 * r0;
-    const T r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3, r16 = c3 * r0 - s3 * r2;
-    const T r17 = r10 + r11, r18 = c3 * r1 - s3 * r3, r19 = r12 + r13, r24 = s4 * r16, r25 = c4 * r17;
-    const T r26 = s4 * r18, r27 = c4 * r19, r28 = s4 * (s2 * c3 + c2 * s3), r29 = c4 * (r14 - r15);
-    const T r34 = R(0.13) * r14, r36 = R(0.13) * r15, r38 = R(0.17) * r28, r40 = R(0.17) * r29;
-    const T r41 = R(0.15) * c2 - r34 + r36 - r38 - r40, r42 = R(0.15) * r3, r43 = R(0.13) * r12;
-    const T r44 = R(0.13) * r13, r45 = R(0.17) * r26, r46 = R(0.17) * r27, r47 = R(0.15) * r2;
-    const T r48 = R(0.13) * r10, r49 = R(0.13) * r11, r50 = R(0.17) * r24, r51 = R(0.17) * r25;
-    const T r52 = r28 + r29, r58 = r46 + (r45 + (r44 + (r43 + (r42 + R(0.03) * s1))));
-    const T r64 = r51 + (r50 + (r49 + (r48 + (r47 + R(0.03) * c1)))), r79 = c4 * r16 - s4 * r17;
-    const T r82 = c4 * r18 - s4 * r19, r103 = r40 + (r38 + (r34 - r36)), r116 = r26 + r27, r118 = r24 + r25;
-    const T r127 = s1 * (r42 + r43 + r44 + r45 + r46) + c1 * (r47 + r48 + r49 + r50 + r51);
-    const T r129 = s1 * (r46 + (r45 + (r43 + r44))) + c1 * (r51 + (r50 + (r48 + r49)));
-    const T r131 = s1 * r116 + c1 * r118, r134 = c5 * r82 + s5 * c1, r136 = c5 * r79 - s5 * s1;
-    const T r141 = R(0.0) - (s1 * r134 + c1 * r136), r143 = s5 * r82 - c5 * c1, r145 = s5 * r79 + c5 * s1;
-    const T r149 = s1 * r143 + c1 * r145, r151 = R(0.0) - r131;
-    const gb_real all[] = {
-        R(0.0) - r58, c1 * r41, R(0.0) - c1 * r103, R(0.0) - R(0.17) * (c1 * r52), R(0.0),
-        r64, s1 * r41, R(0.0) - s1 * r103, R(0.0) - R(0.17) * (s1 * r52), R(0.0),
-        R(0.0), R(0.0) - r127, R(0.0) - r129, R(0.0) - R(0.17) * r131, R(0.0),
-        R(0.0), r141, r141, r141, r118 * r134 - r116 * r136,
-        R(0.0), r149, r149, r149, r116 * r145 - r118 * r143,
-        R(0.0), r151, r151, r151, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -95,10 +95,6 @@ impl Mechanism for Solver {
 
         [N::of(0.5544030650891055), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 9], at: &[f64; 10]) -> [[f64; 5]; 6] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 10: wrist.
@@ -233,35 +229,5 @@ fn values<N: Number>(p: &[N; 9], at: &[N; 10]) -> [N; 6] where f64: With<N> {
         spitch - c5 * r30,
         s5 * r30 - sroll * cpitch,
         0.0 - (r28 + r29) - croll * cpitch,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 9], at: &[f64; 10]) -> [[f64; 5]; 6] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5] = *at;
-    let r0 = c2 * c1; let r1 = c2 * s1; let r2 = s2 * c1; let r3 = s2 * s1; let r10 = s3 * r0;
-    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
-    let r16 = c3 * r0 - s3 * r2; let r17 = r10 + r11; let r18 = c3 * r1 - s3 * r3; let r19 = r12 + r13;
-    let r24 = s4 * r16; let r25 = c4 * r17; let r26 = s4 * r18; let r27 = c4 * r19;
-    let r28 = s4 * (s2 * c3 + c2 * s3); let r29 = c4 * (r14 - r15); let r34 = 0.13 * r14; let r36 = 0.13 * r15;
-    let r38 = 0.17 * r28; let r40 = 0.17 * r29; let r41 = 0.15 * c2 - r34 + r36 - r38 - r40;
-    let r42 = 0.15 * r3; let r43 = 0.13 * r12; let r44 = 0.13 * r13; let r45 = 0.17 * r26;
-    let r46 = 0.17 * r27; let r47 = 0.15 * r2; let r48 = 0.13 * r10; let r49 = 0.13 * r11;
-    let r50 = 0.17 * r24; let r51 = 0.17 * r25; let r52 = r28 + r29;
-    let r58 = r46 + (r45 + (r44 + (r43 + (r42 + 0.03 * s1))));
-    let r64 = r51 + (r50 + (r49 + (r48 + (r47 + 0.03 * c1)))); let r79 = c4 * r16 - s4 * r17;
-    let r82 = c4 * r18 - s4 * r19; let r103 = r40 + (r38 + (r34 - r36)); let r116 = r26 + r27;
-    let r118 = r24 + r25; let r127 = s1 * (r42 + r43 + r44 + r45 + r46) + c1 * (r47 + r48 + r49 + r50 + r51);
-    let r129 = s1 * (r46 + (r45 + (r43 + r44))) + c1 * (r51 + (r50 + (r48 + r49)));
-    let r131 = s1 * r116 + c1 * r118; let r134 = c5 * r82 + s5 * c1; let r136 = c5 * r79 - s5 * s1;
-    let r141 = 0.0 - (s1 * r134 + c1 * r136); let r143 = s5 * r82 - c5 * c1; let r145 = s5 * r79 + c5 * s1;
-    let r149 = s1 * r143 + c1 * r145; let r151 = 0.0 - r131;
-    [
-        [0.0 - r58, c1 * r41, 0.0 - c1 * r103, 0.0 - 0.17 * (c1 * r52), 0.0],
-        [r64, s1 * r41, 0.0 - s1 * r103, 0.0 - 0.17 * (s1 * r52), 0.0],
-        [0.0, 0.0 - r127, 0.0 - r129, 0.0 - 0.17 * r131, 0.0],
-        [0.0, r141, r141, r141, r118 * r134 - r116 * r136],
-        [0.0, r149, r149, r149, r116 * r145 - r118 * r143],
-        [0.0, r151, r151, r151, 0.0],
     ]
 }

@@ -227,54 +227,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r16 = r4 - r5, r18 = s3 * r0 + c3 * r2, r20 = r6 - r7, r22 = s3 * r1 + c3 * r3, r24 = r8 + r9;
-    const T r26 = s2 * s3 - c2 * c3, r28 = s4 * r16, r29 = c4 * r18, r30 = s4 * r20, r31 = c4 * r22;
-    const T r32 = s4 * r24, r33 = c4 * r26, r34 = c4 * r16 - s4 * r18, r37 = c4 * r20 - s4 * r22;
-    const T r40 = c4 * r24 - s4 * r26, r41 = c5 * r40, r42 = s5 * r34, r43 = s1 * c5, r44 = s5 * r37;
-    const T r45 = c1 * c5, r46 = s5 * r40, r47 = c5 * r34 + s1 * s5, r49 = r28 + r29, r51 = c5 * r37 - c1 * s5;
-    const T r52 = c6 * r51, r53 = r30 + r31, r54 = s6 * r53, r56 = r32 + r33, r65 = R(0.39225) * r8;
-    const T r67 = R(0.39225) * r9, r69 = R(0.09465) * r32, r71 = R(0.09465) * r33, r73 = R(0.0823) * r46;
-    const T r74 = R(0.425) * s2 + r65 + r67 - r69 - r71 + r73, r76 = R(0.39225) * r6, r78 = R(0.39225) * r7;
-    const T r80 = R(0.10915) * c1, r82 = R(0.09465) * r30, r84 = R(0.09465) * r31, r86 = R(0.0823) * r44;
-    const T r87 = R(0.425) * r1 + r76 - r78 + r80 - r82 - r84 + r86, r88 = R(0.0823) * r45, r89 = r87 + r88;
-    const T r91 = R(0.39225) * r4, r93 = R(0.39225) * r5, r95 = R(0.10915) * s1, r97 = R(0.09465) * r28;
-    const T r99 = R(0.09465) * r29, r101 = R(0.0823) * r42;
-    const T r102 = R(0.425) * r0 + r91 - r93 - r95 - r97 - r99 + r101, r103 = R(0.0823) * r43;
-    const T r104 = r44 + r45, r111 = c6 * r41 - s6 * r56, r112 = r52 - r54, r113 = c6 * r47 - s6 * r49;
-    const T r117 = s6 * r41 + c6 * r56, r118 = s6 * r51 + c6 * r53, r119 = s6 * r47 + c6 * r49;
-    const T r140 = r73 + (r65 + r67 - r69 - r71), r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
-    const T r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103), r158 = r69 + r71 - r73;
-    const T r174 = r82 + r84 - r86 - r88, r178 = r103 + (r97 + r99 - r101), r183 = r42 - r43;
-    const T r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
-    const T r211 = R(0.0) - c1 * r111, r214 = R(0.0) - s1 * r111, r217 = s1 * r112 + c1 * r113;
-    const T r220 = c1 * r117, r221 = s1 * r117, r241 = R(0.0) - (s1 * r118 + c1 * r119), r244 = c1 * r46;
-    const T r245 = s1 * r46, r257 = R(0.0) - (s1 * r104 + c1 * r183);
-    const gb_real all[] = {
-        r89, c1 * r74, c1 * r140, R(0.0) - c1 * r158, r53 * r158 - r56 * r174, R(0.0),
-        r103 - r102, s1 * r74, s1 * r140, R(0.0) - s1 * r158, r56 * r178 - r49 * r158, R(0.0),
-        R(0.0), R(0.0) - (s1 * r89 + c1 * (r102 - r103)), R(0.0) - (s1 * r148 + r156), r192, r49 * r174 - r53 * r178, R(0.0),
-        r54 - r52, r211, r211, r211, r53 * r111 - r56 * r112, r46 * r112 - r104 * r111,
-        r113, r214, r214, r214, r56 * r113 - r49 * r111, r183 * r111 - r46 * r113,
-        R(0.0), r217, r217, r217, r49 * r112 - r53 * r113, r104 * r113 - r183 * r112,
-        r118, r220, r220, r220, r56 * r118 - r53 * r117, r104 * r117 - r46 * r118,
-        R(0.0) - r119, r221, r221, r221, r49 * r117 - r56 * r119, r46 * r119 - r183 * r117,
-        R(0.0), r241, r241, r241, r53 * r119 - r49 * r118, r183 * r118 - r104 * r119,
-        r104, r244, r244, r244, r56 * r104 - r46 * r53, R(0.0),
-        r43 - r42, r245, r245, r245, r46 * r49 - r56 * r183, R(0.0),
-        R(0.0), r257, r257, r257, r53 * r183 - r49 * r104, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

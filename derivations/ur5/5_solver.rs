@@ -100,10 +100,6 @@ impl Mechanism for Solver {
 
         [N::of(1.192509), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 6: Wrist1.
@@ -224,49 +220,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r43 - r42,
         0.0 - (r44 + r45),
         0.0 - r46,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 13], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r16 = r4 - r5;
-    let r18 = s3 * r0 + c3 * r2; let r20 = r6 - r7; let r22 = s3 * r1 + c3 * r3; let r24 = r8 + r9;
-    let r26 = s2 * s3 - c2 * c3; let r28 = s4 * r16; let r29 = c4 * r18; let r30 = s4 * r20;
-    let r31 = c4 * r22; let r32 = s4 * r24; let r33 = c4 * r26; let r34 = c4 * r16 - s4 * r18;
-    let r37 = c4 * r20 - s4 * r22; let r40 = c4 * r24 - s4 * r26; let r41 = c5 * r40; let r42 = s5 * r34;
-    let r43 = s1 * c5; let r44 = s5 * r37; let r45 = c1 * c5; let r46 = s5 * r40; let r47 = c5 * r34 + s1 * s5;
-    let r49 = r28 + r29; let r51 = c5 * r37 - c1 * s5; let r52 = c6 * r51; let r53 = r30 + r31;
-    let r54 = s6 * r53; let r56 = r32 + r33; let r65 = 0.39225 * r8; let r67 = 0.39225 * r9;
-    let r69 = 0.09465 * r32; let r71 = 0.09465 * r33; let r73 = 0.0823 * r46;
-    let r74 = 0.425 * s2 + r65 + r67 - r69 - r71 + r73; let r76 = 0.39225 * r6; let r78 = 0.39225 * r7;
-    let r80 = 0.10915 * c1; let r82 = 0.09465 * r30; let r84 = 0.09465 * r31; let r86 = 0.0823 * r44;
-    let r87 = 0.425 * r1 + r76 - r78 + r80 - r82 - r84 + r86; let r88 = 0.0823 * r45; let r89 = r87 + r88;
-    let r91 = 0.39225 * r4; let r93 = 0.39225 * r5; let r95 = 0.10915 * s1; let r97 = 0.09465 * r28;
-    let r99 = 0.09465 * r29; let r101 = 0.0823 * r42;
-    let r102 = 0.425 * r0 + r91 - r93 - r95 - r97 - r99 + r101; let r103 = 0.0823 * r43; let r104 = r44 + r45;
-    let r111 = c6 * r41 - s6 * r56; let r112 = r52 - r54; let r113 = c6 * r47 - s6 * r49;
-    let r117 = s6 * r41 + c6 * r56; let r118 = s6 * r51 + c6 * r53; let r119 = s6 * r47 + c6 * r49;
-    let r140 = r73 + (r65 + r67 - r69 - r71); let r148 = r88 + (r86 + (r80 + (r76 - r78) - r82 - r84));
-    let r156 = c1 * (r101 + (r91 - r93 - r95 - r97 - r99) - r103); let r158 = r69 + r71 - r73;
-    let r174 = r82 + r84 - r86 - r88; let r178 = r103 + (r97 + r99 - r101); let r183 = r42 - r43;
-    let r192 = c1 * (r103 + (r99 + (r95 + r97) - r101)) - s1 * (r88 + (r86 + (r80 - r82 - r84)));
-    let r211 = 0.0 - c1 * r111; let r214 = 0.0 - s1 * r111; let r217 = s1 * r112 + c1 * r113;
-    let r220 = c1 * r117; let r221 = s1 * r117; let r241 = 0.0 - (s1 * r118 + c1 * r119); let r244 = c1 * r46;
-    let r245 = s1 * r46; let r257 = 0.0 - (s1 * r104 + c1 * r183);
-    [
-        [r89, c1 * r74, c1 * r140, 0.0 - c1 * r158, r53 * r158 - r56 * r174, 0.0],
-        [r103 - r102, s1 * r74, s1 * r140, 0.0 - s1 * r158, r56 * r178 - r49 * r158, 0.0],
-        [0.0, 0.0 - (s1 * r89 + c1 * (r102 - r103)), 0.0 - (s1 * r148 + r156), r192, r49 * r174 - r53 * r178, 0.0],
-        [r54 - r52, r211, r211, r211, r53 * r111 - r56 * r112, r46 * r112 - r104 * r111],
-        [r113, r214, r214, r214, r56 * r113 - r49 * r111, r183 * r111 - r46 * r113],
-        [0.0, r217, r217, r217, r49 * r112 - r53 * r113, r104 * r113 - r183 * r112],
-        [r118, r220, r220, r220, r56 * r118 - r53 * r117, r104 * r117 - r46 * r118],
-        [0.0 - r119, r221, r221, r221, r49 * r117 - r56 * r119, r46 * r119 - r183 * r117],
-        [0.0, r241, r241, r241, r53 * r119 - r49 * r118, r183 * r118 - r104 * r119],
-        [r104, r244, r244, r244, r56 * r104 - r46 * r53, 0.0],
-        [r43 - r42, r245, r245, r245, r46 * r49 - r56 * r183, 0.0],
-        [0.0, r257, r257, r257, r53 * r183 - r49 * r104, 0.0],
     ]
 }

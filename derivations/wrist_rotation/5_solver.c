@@ -135,29 +135,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], r0 = c1 * c2, r1 = s1 * c2;
-    const T r2 = c1 * s2, r3 = s1 * s2, r4 = s1 * c3, r5 = s3 * r2, r8 = c2 * s3, r13 = c2 * c3;
-    const T r18 = c1 * c3 + s3 * r3, r23 = s1 * s3 + c3 * r2, r28 = r4 - r5, r29 = c1 * s3 - c3 * r3;
-    const gb_real all[] = {
-        R(0.0) - r1, R(0.0) - r2, R(0.0),
-        r0, R(0.0) - r3, R(0.0),
-        R(0.0), R(0.0) - (s1 * r1 + c1 * r0), R(0.0),
-        R(0.0) - r18, c1 * r8, r1 * r8 + s2 * r18,
-        r5 - r4, s1 * r8, s2 * r28 - r0 * r8,
-        R(0.0), c1 * r28 - s1 * r18, r0 * r18 + r1 * r28,
-        r29, c1 * r13, r1 * r13 - s2 * r29,
-        r23, s1 * r13, R(0.0) - (s2 * r23 + r0 * r13),
-        R(0.0), s1 * r29 - c1 * r23, R(0.0) - (r0 * r29 + r1 * r23),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

@@ -98,10 +98,6 @@ impl Mechanism for Solver {
 
         [N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 9], at: &[f64; 6]) -> [[f64; 3]; 9] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 2: Pitch.
@@ -153,24 +149,5 @@ fn tip<N: Number>(at: &[N; 6]) -> [N; 9] where f64: With<N> {
         s1 * s3 + c3 * r2,
         c3 * r3 - c1 * s3,
         c2 * c3,
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 9], at: &[f64; 6]) -> [[f64; 3]; 9] {
-    let [c1, s1, c2, s2, c3, s3] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = s1 * c3; let r5 = s3 * r2;
-    let r8 = c2 * s3; let r13 = c2 * c3; let r18 = c1 * c3 + s3 * r3; let r23 = s1 * s3 + c3 * r2;
-    let r28 = r4 - r5; let r29 = c1 * s3 - c3 * r3;
-    [
-        [0.0 - r1, 0.0 - r2, 0.0],
-        [r0, 0.0 - r3, 0.0],
-        [0.0, 0.0 - (s1 * r1 + c1 * r0), 0.0],
-        [0.0 - r18, c1 * r8, r1 * r8 + s2 * r18],
-        [r5 - r4, s1 * r8, s2 * r28 - r0 * r8],
-        [0.0, c1 * r28 - s1 * r18, r0 * r18 + r1 * r28],
-        [r29, c1 * r13, r1 * r13 - s2 * r29],
-        [r23, s1 * r13, 0.0 - (s2 * r23 + r0 * r13)],
-        [0.0, s1 * r29 - c1 * r23, 0.0 - (r0 * r29 + r1 * r23)],
     ]
 }

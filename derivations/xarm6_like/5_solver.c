@@ -140,61 +140,6 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
     (void)at;
 }
 
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
-    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = c1 * c2, r1 = s1 * c2, r2 = c1 * s2;
-    const T r3 = s1 * s2, r4 = c3 * r0, r5 = s3 * r2, r6 = c3 * r1, r7 = s3 * r3, r8 = s2 * c3, r9 = c2 * s3;
-    const T r10 = s3 * r0, r11 = c3 * r2, r12 = s3 * r1, r13 = c3 * r3, r14 = s2 * s3, r15 = c2 * c3;
-    const T r16 = r4 - r5, r19 = r6 - r7, r22 = r8 + r9, r23 = c4 * r22, r28 = s4 * r22;
-    const T r29 = c4 * r16 - s1 * s4, r30 = c5 * r29, r31 = r10 + r11, r32 = s5 * r31;
-    const T r33 = c4 * r19 + c1 * s4, r34 = c5 * r33, r35 = r12 + r13, r36 = s5 * r35, r37 = c5 * r23;
-    const T r38 = r14 - r15, r39 = s5 * r38, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r35;
-    const T r44 = s5 * r23, r45 = c5 * r38, r46 = r30 - r32, r48 = s4 * r16 + s1 * c4, r50 = r34 - r36;
-    const T r51 = c6 * r50, r52 = s4 * r19 - c1 * c4, r53 = s6 * r52, r54 = r37 - r39, r66 = R(0.0775) * r8;
-    const T r68 = R(0.0775) * r9, r70 = R(0.3425) * r14;
-    const T r71 = R(0.2845) * c2 - R(0.053) * s2 - r66 - r68 + r70, r72 = R(0.3425) * r15;
-    const T r74 = R(0.076) * r37, r76 = R(0.076) * r39, r78 = R(0.097) * r44, r80 = R(0.097) * r45;
-    const T r81 = r71 - r72 - r74 + r76 + r78 + r80, r85 = R(0.0775) * r6, r87 = R(0.0775) * r7;
-    const T r89 = R(0.3425) * r12, r90 = R(0.2845) * r3 + R(0.053) * r1 + r85 - r87 - r89;
-    const T r91 = R(0.3425) * r13, r93 = R(0.076) * r34, r95 = R(0.076) * r36, r97 = R(0.097) * r42;
-    const T r98 = r90 - r91 + r93 - r95 - r97, r99 = R(0.097) * r43, r104 = R(0.0775) * r4;
-    const T r106 = R(0.0775) * r5, r108 = R(0.3425) * r10;
-    const T r109 = R(0.2845) * r2 + R(0.053) * r0 + r104 - r106 - r108, r110 = R(0.3425) * r11;
-    const T r112 = R(0.076) * r30, r114 = R(0.076) * r32, r116 = R(0.097) * r40, r118 = R(0.097) * r41;
-    const T r119 = r109 - r110 + r112 - r114 - r116 - r118, r120 = r42 + r43, r121 = r44 + r45;
-    const T r122 = r40 + r41, r127 = r51 - r53, r128 = c6 * r46 - s6 * r48, r133 = s6 * r54 + c6 * r28;
-    const T r134 = s6 * r50 + c6 * r52, r135 = s6 * r46 + c6 * r48;
-    const T r155 = r74 + (r72 + (r66 + r68 - r70)) - r76 - r78 - r80;
-    const T r164 = r93 + (r85 - r87 - r89 - r91) - r95 - r97 - r99;
-    const T r171 = r112 + (r104 - r106 - r108 - r110) - r114 - r116;
-    const T r178 = r80 + (r78 + (r76 + (r70 - r72 - r74))), r184 = r99 + (r97 + (r95 + (r89 + r91 - r93)));
-    const T r190 = r118 + (r116 + (r114 + (r108 + r110 - r112))), r197 = r74 - r76 - r78 - r80;
-    const T r201 = r93 - r95 - r97 - r99, r205 = r112 - r114 - r116 - r118, r223 = c6 * r54 - s6 * r28;
-    const T r247 = R(0.0) - c1 * r223, r251 = R(0.0) - s1 * r223, r256 = R(0.0) - (s1 * r127 + c1 * r128);
-    const T r260 = c1 * r133, r261 = s1 * r133, r288 = s1 * r134 + c1 * r135, r309 = R(0.0) - c1 * r121;
-    const T r312 = R(0.0) - s1 * r121, r316 = R(0.0) - (s1 * r120 + c1 * r122);
-    const gb_real all[] = {
-        r99 - r98, c1 * r81, R(0.0) - c1 * r155, r35 * r178 - r38 * r184, r52 * r197 - r28 * r201, R(0.0),
-        r119, s1 * r81, R(0.0) - s1 * r155, r38 * r190 - r31 * r178, r28 * r205 - r48 * r197, R(0.0),
-        R(0.0), R(0.0) - (s1 * (r98 - r99) + c1 * r119), R(0.0) - (s1 * r164 + c1 * (r171 - r118)), r35 * r190 - r31 * r184, r52 * r205 - r48 * r201, R(0.0),
-        r53 - r51, r247, r247, r38 * r127 - r35 * r223, r52 * r223 - r28 * r127, r121 * r127 - r120 * r223,
-        r128, r251, r251, r31 * r223 - r38 * r128, r28 * r128 - r48 * r223, r122 * r223 - r121 * r128,
-        R(0.0), r256, r256, r31 * r127 - r35 * r128, r52 * r128 - r48 * r127, r122 * r127 - r120 * r128,
-        r134, r260, r260, r35 * r133 - r38 * r134, r28 * r134 - r52 * r133, r120 * r133 - r121 * r134,
-        R(0.0) - r135, r261, r261, r38 * r135 - r31 * r133, r48 * r133 - r28 * r135, r121 * r135 - r122 * r133,
-        R(0.0), r288, r288, r35 * r135 - r31 * r134, r48 * r134 - r52 * r135, r120 * r135 - r122 * r134,
-        R(0.0) - r120, r309, r309, r38 * r120 - r35 * r121, r52 * r121 - r28 * r120, R(0.0),
-        r122, r312, r312, r31 * r121 - r38 * r122, r28 * r122 - r48 * r121, R(0.0),
-        R(0.0), r316, r316, r31 * r120 - r35 * r122, r52 * r122 - r48 * r120, R(0.0),
-    };
-    (void)p;
-    memcpy(rows, all, sizeof all);
-}
-#endif
-
 #include "5_solver.c"
 #endif
 #endif

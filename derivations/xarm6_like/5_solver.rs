@@ -100,10 +100,6 @@ impl Mechanism for Solver {
 
         [N::of(1.149394626764216), N::of(1.0)]
     }
-
-    fn jacobian(&self, p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-        jacobian(p, at)
-    }
 }
 
 /// Block 1: all joints.
@@ -159,54 +155,5 @@ fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
         r40 + r41,
         r42 + r43,
         0.0 - (r44 + r45),
-    ]
-}
-
-/// The derivative of each equation by each joint.
-fn jacobian(p: &[f64; 12], at: &[f64; 12]) -> [[f64; 6]; 12] {
-    let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = c1 * c2; let r1 = s1 * c2; let r2 = c1 * s2; let r3 = s1 * s2; let r4 = c3 * r0; let r5 = s3 * r2;
-    let r6 = c3 * r1; let r7 = s3 * r3; let r8 = s2 * c3; let r9 = c2 * s3; let r10 = s3 * r0;
-    let r11 = c3 * r2; let r12 = s3 * r1; let r13 = c3 * r3; let r14 = s2 * s3; let r15 = c2 * c3;
-    let r16 = r4 - r5; let r19 = r6 - r7; let r22 = r8 + r9; let r23 = c4 * r22; let r28 = s4 * r22;
-    let r29 = c4 * r16 - s1 * s4; let r30 = c5 * r29; let r31 = r10 + r11; let r32 = s5 * r31;
-    let r33 = c4 * r19 + c1 * s4; let r34 = c5 * r33; let r35 = r12 + r13; let r36 = s5 * r35;
-    let r37 = c5 * r23; let r38 = r14 - r15; let r39 = s5 * r38; let r40 = s5 * r29; let r41 = c5 * r31;
-    let r42 = s5 * r33; let r43 = c5 * r35; let r44 = s5 * r23; let r45 = c5 * r38; let r46 = r30 - r32;
-    let r48 = s4 * r16 + s1 * c4; let r50 = r34 - r36; let r51 = c6 * r50; let r52 = s4 * r19 - c1 * c4;
-    let r53 = s6 * r52; let r54 = r37 - r39; let r66 = 0.0775 * r8; let r68 = 0.0775 * r9;
-    let r70 = 0.3425 * r14; let r72 = 0.3425 * r15; let r73 = 0.2845 * c2 - 0.053 * s2 - r66 - r68 + r70 - r72;
-    let r74 = 0.076 * r37; let r76 = 0.076 * r39; let r78 = 0.097 * r44; let r80 = 0.097 * r45;
-    let r81 = r73 - r74 + r76 + r78 + r80; let r85 = 0.0775 * r6; let r87 = 0.0775 * r7;
-    let r89 = 0.3425 * r12; let r91 = 0.3425 * r13; let r92 = 0.2845 * r3 + 0.053 * r1 + r85 - r87 - r89 - r91;
-    let r93 = 0.076 * r34; let r95 = 0.076 * r36; let r97 = 0.097 * r42; let r98 = r92 + r93 - r95 - r97;
-    let r99 = 0.097 * r43; let r104 = 0.0775 * r4; let r106 = 0.0775 * r5; let r108 = 0.3425 * r10;
-    let r109 = 0.2845 * r2 + 0.053 * r0 + r104 - r106 - r108; let r110 = 0.3425 * r11; let r112 = 0.076 * r30;
-    let r114 = 0.076 * r32; let r116 = 0.097 * r40; let r118 = 0.097 * r41;
-    let r119 = r109 - r110 + r112 - r114 - r116 - r118; let r120 = r42 + r43; let r121 = r44 + r45;
-    let r122 = r40 + r41; let r127 = r51 - r53; let r128 = c6 * r46 - s6 * r48; let r133 = s6 * r54 + c6 * r28;
-    let r134 = s6 * r50 + c6 * r52; let r135 = s6 * r46 + c6 * r48;
-    let r155 = r74 + (r72 + (r66 + r68 - r70)) - r76 - r78 - r80;
-    let r164 = r93 + (r85 - r87 - r89 - r91) - r95 - r97 - r99;
-    let r171 = r112 + (r104 - r106 - r108 - r110) - r114 - r116;
-    let r178 = r80 + (r78 + (r76 + (r70 - r72 - r74))); let r184 = r99 + (r97 + (r95 + (r89 + r91 - r93)));
-    let r190 = r118 + (r116 + (r114 + (r108 + r110 - r112))); let r197 = r74 - r76 - r78 - r80;
-    let r201 = r93 - r95 - r97 - r99; let r205 = r112 - r114 - r116 - r118; let r223 = c6 * r54 - s6 * r28;
-    let r247 = 0.0 - c1 * r223; let r251 = 0.0 - s1 * r223; let r256 = 0.0 - (s1 * r127 + c1 * r128);
-    let r260 = c1 * r133; let r261 = s1 * r133; let r288 = s1 * r134 + c1 * r135; let r309 = 0.0 - c1 * r121;
-    let r312 = 0.0 - s1 * r121; let r316 = 0.0 - (s1 * r120 + c1 * r122);
-    [
-        [r99 - r98, c1 * r81, 0.0 - c1 * r155, r35 * r178 - r38 * r184, r52 * r197 - r28 * r201, 0.0],
-        [r119, s1 * r81, 0.0 - s1 * r155, r38 * r190 - r31 * r178, r28 * r205 - r48 * r197, 0.0],
-        [0.0, 0.0 - (s1 * (r98 - r99) + c1 * r119), 0.0 - (s1 * r164 + c1 * (r171 - r118)), r35 * r190 - r31 * r184, r52 * r205 - r48 * r201, 0.0],
-        [r53 - r51, r247, r247, r38 * r127 - r35 * r223, r52 * r223 - r28 * r127, r121 * r127 - r120 * r223],
-        [r128, r251, r251, r31 * r223 - r38 * r128, r28 * r128 - r48 * r223, r122 * r223 - r121 * r128],
-        [0.0, r256, r256, r31 * r127 - r35 * r128, r52 * r128 - r48 * r127, r122 * r127 - r120 * r128],
-        [r134, r260, r260, r35 * r133 - r38 * r134, r28 * r134 - r52 * r133, r120 * r133 - r121 * r134],
-        [0.0 - r135, r261, r261, r38 * r135 - r31 * r133, r48 * r133 - r28 * r135, r121 * r135 - r122 * r133],
-        [0.0, r288, r288, r35 * r135 - r31 * r134, r48 * r134 - r52 * r135, r120 * r135 - r122 * r134],
-        [0.0 - r120, r309, r309, r38 * r120 - r35 * r121, r52 * r121 - r28 * r120, 0.0],
-        [r122, r312, r312, r31 * r121 - r38 * r122, r28 * r122 - r48 * r121, 0.0],
-        [0.0, r316, r316, r31 * r120 - r35 * r122, r52 * r122 - r48 * r120, 0.0],
     ]
 }

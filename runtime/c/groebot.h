@@ -1545,11 +1545,6 @@ GB_INLINE size_t GB_(solve_many)(const gb_real *targets, size_t count, gb_soluti
 static const unsigned char gb_freed[] = {GB_FREED};
 #endif
 
-static void gb_jacobian_of(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    gb_jacobian(p, at, rows);
-}
-
 static void gb_values_of(const gb_real *p, const gb_real *at, gb_real *values)
 {
     gb_values_1(p, at, values);
@@ -1559,6 +1554,29 @@ static void gb_sizes_of(const gb_real *p, const gb_real *at, gb_real *sizes)
 {
     gb_sizes_1(p, at, sizes);
 }
+
+#ifndef GB_JACOBIAN
+/* The derivative of each equation by each joint: the equations are affine in the numbers of each, and have the values at the numbers' derivatives less
+   those at zeros. */
+static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
+{
+    for (int j = 0; j < GB_JOINTS; j++) {
+        const gb_joint joint = gb_joints[j];
+        gb_real moved[GB_PLACES], along[GB_EQUATIONS], without[GB_EQUATIONS];
+        memcpy(moved, at, sizeof moved);
+        for (int i = 0; i < 2; i++) {
+            moved[joint.places[i]] = R(0.0);
+        }
+        gb_values_1(p, moved, without);
+        moved[joint.places[0]] = joint.is_angle ? -at[joint.places[1]] : R(1.0);
+        moved[joint.places[1]] = joint.is_angle ? at[joint.places[0]] : R(1.0);
+        gb_values_1(p, moved, along);
+        for (int i = 0; i < GB_EQUATIONS; i++) {
+            rows[i * GB_JOINTS + j] = along[i] - without[i];
+        }
+    }
+}
+#endif
 
 #ifdef GB_SHORTS
 /* Takes a step back from q, and what the equations read of it; false where a pair is far from the circle. */
@@ -1646,7 +1664,7 @@ static const gb_mechanism gb_this = {
     offsetof(gb_solution, free),
     gb_values_of,
     gb_sizes_of,
-    gb_jacobian_of,
+    gb_jacobian,
 #ifdef GB_SHORTS
     gb_approach_from,
 #else

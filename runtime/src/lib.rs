@@ -13,6 +13,7 @@ mod approach;
 mod arithmetic;
 mod batch;
 mod conditions;
+pub mod derivatives;
 mod joints;
 pub mod limits;
 pub mod mechanism;

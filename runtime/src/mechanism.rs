@@ -1,5 +1,6 @@
 //! What is particular to a mechanism and its task ([`Mechanism`]), and what takes its candidates in ([`Candidates`]).
 
+use crate::derivatives;
 use crate::number::{Guard, Number, With};
 use crate::roots::Roots;
 use crate::storage::{Array, Storage};
@@ -69,8 +70,11 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>;
 
-    /// The derivative of each equation by each joint, equation by equation.
-    fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Equations<Self, Joints<Self>>;
+    /// The derivative of each equation by each joint, equation by equation: found from the values, unless these are not affine in the numbers of each
+    /// joint, as those of a chain are.
+    fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Equations<Self, Joints<Self>> {
+        derivatives::of_affine(self, p, at)
+    }
 
     /// The equations of the short way to an answer nearby, where there is one ([`Facts::nearby`]).
     fn short<N: Number>(&self, _p: &Parameters<Self, N>, _at: &Places<Self, N>) -> Short<Self, N>

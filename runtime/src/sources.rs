@@ -1,12 +1,13 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 20] = [
+pub const RUST: [(&str, &str); 21] = [
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
+    ("derivatives", include_str!("derivatives.rs")),
     ("joints", include_str!("joints.rs")),
     ("limits", include_str!("limits.rs")),
     ("mechanism", include_str!("mechanism.rs")),

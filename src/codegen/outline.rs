@@ -40,7 +40,8 @@ pub(super) struct Outline {
     /// The equations' values, where they are not all what the tip is compared with.
     values: Option<Body>,
     sizes: Body,
-    jacobian: Body,
+    /// The derivatives, where the run time does not find them from the values.
+    jacobian: Option<Body>,
     short: Option<Body>,
 }
 
@@ -142,7 +143,7 @@ impl Outline {
             functions: walk::functions(&scene, dialect).into_iter().map(function).collect(),
             tip,
             sizes: text(dialect, &[&facts.sizes]),
-            jacobian: rows(&checks.jacobian),
+            jacobian: (!facts.are_affine).then(|| rows(&checks.jacobian)),
             short: program.nearby.then(short),
             parameters,
             facts,

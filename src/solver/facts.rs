@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::demand::Demand;
 use super::forward::{Forward, Reached};
-use super::instruction::Operand;
+use super::instruction::{Operand, Operation};
 use super::layout::Layout;
 use super::mirror;
 use super::program::{Block, Case, Condition, Program, Step, square};
@@ -22,6 +23,9 @@ pub(crate) struct Facts {
     pub places: usize,
     pub has_extras: bool,
     pub equations: usize,
+    /// Whether each equation is affine in the numbers of each joint.
+    #[serde(skip)]
+    pub are_affine: bool,
     pub size_of: Vec<usize>,
     /// The sizes that equations have, each once.
     #[serde(skip)]
@@ -71,6 +75,7 @@ impl Facts {
             places: places.len(),
             has_extras: !layout.extra.is_empty(),
             equations: program.checks.residuals.len(),
+            are_affine: are_affine(program),
             size_of: program.checks.scales.iter().map(size_of).collect(),
             shorts: if program.nearby { program.checks.short.len() } else { 0 },
             compared: compared.unwrap_or_default(),
@@ -103,6 +108,32 @@ fn once(operands: &[Operand]) -> Vec<Operand> {
         }
     }
     unique
+}
+
+/// Whether each equation is affine in the numbers of each joint, by the form of its code: no product of two values that read one joint.
+fn are_affine(program: &Program) -> bool {
+    let checks = &program.checks;
+    let demand = Demand::of_code(&checks.code, &checks.residuals);
+    let mut read: Vec<u32> = vec![0; checks.code.len()];
+    let joints = |unknown: usize| {
+        let own = program.joints.iter().position(|joint| joint.value.unknowns().contains(&unknown));
+        own.map_or(0, |joint| 1 << joint)
+    };
+    checks.code.iter().filter(|line| demand.register(line.target) > 0).all(|line| {
+        let of = |operand: Operand| match operand {
+            Operand::Unknown(unknown) => joints(unknown),
+            Operand::Register(register) => read[register],
+            _ => 0,
+        };
+        let (all, is_affine) = match line.operation {
+            Operation::Add(a, b) | Operation::Sub(a, b) => (of(a) | of(b), true),
+            Operation::Mul(a, b) => (of(a) | of(b), of(a) & of(b) == 0),
+            Operation::Div(a, b) => (of(a), of(b) == 0),
+            Operation::Abs(a) | Operation::Sqrt(a) => (0, of(a) == 0),
+        };
+        read[line.target] = all;
+        is_affine
+    })
 }
 
 fn condition(condition: &Condition) -> (&'static str, usize) {

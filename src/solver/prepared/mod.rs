@@ -38,7 +38,8 @@ pub struct Solver {
     tip: Equations,
     values: Equations,
     sizes: Equations,
-    jacobian: Equations,
+    /// The derivatives, where the run time does not find them from the values.
+    jacobian: Option<Equations>,
     /// The values of the short way's equations, then what they are shares of, then their derivatives, joint by joint.
     short: Equations,
 }
@@ -109,7 +110,7 @@ impl Solver {
             tip: Equations::new(&layout, &tip),
             values: Equations::new(&layout, &checks.residuals),
             sizes: Equations::new(&layout, &facts.sizes),
-            jacobian: Equations::new(&layout, checks.jacobian.iter().flatten()),
+            jacobian: (!facts.are_affine).then(|| Equations::new(&layout, checks.jacobian.iter().flatten())),
             short: Equations::new(&layout, &short),
             facts,
         }
