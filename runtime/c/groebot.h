@@ -1362,7 +1362,8 @@ GB_INLINE GB_(truth) GB_(gather)(const gb_real *targets, size_t count, T *target
 {
     GB_(truth) fine = ~GB_(nowhere)();
     for (int i = 0; i < GB_INPUTS; i++) {
-        for (size_t lane = 0; lane < GB_WIDTH; lane++) {
+        target[i] = GB_(of)(targets[i]);
+        for (size_t lane = 1; lane < GB_WIDTH; lane++) {
             target[i][lane] = targets[(size_t)((lane < count ? lane : count - 1) * GB_INPUTS + i)];
         }
         fine &= GB_(at_most)(GB_(abs)(target[i]), GB_(of)(GB_GREATEST));

@@ -2,21 +2,29 @@
 # Compiles and runs the tests of the C run time with every compiler that is there, and compares PUMA's answers with the Rust run time's, bit for bit.
 #
 # CC      compilers to try; gcc and clang
-# PUMA_RS PUMA's thin Rust file; the one in derivations/
-# WORK    where files go; a new temporary folder
+# PUMA    PUMA's derivation, whose printed files are compiled; the one in derivations/
+# WORK    where files go; a new temporary folder, removed at the end
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 runtime=$(cd "$here/../.." && pwd)
-work=${WORK:-$(mktemp -d)}
-puma=${PUMA_RS:-$runtime/../derivations/puma/5_solver.rs}
-strict="-Wall -Wextra -Wpedantic -Werror -I$here -I$here/.."
+puma=${PUMA:-$runtime/../derivations/puma}
+if [ -z "${WORK:-}" ]; then
+    WORK=$(mktemp -d)
+    trap 'rm -rf "$WORK"' EXIT
+fi
+work=$WORK
+strict="-Wall -Wextra -Wpedantic -Werror -I. -I$here/.."
 cd "$work"
 
+for end in c h; do
+    sed 's/5_solver/puma/' "$puma/5_solver.$end" >"puma.$end"
+done
+
 # The Rust answers, if there is a Rust to ask.
-if command -v cargo >/dev/null && [ -f "$puma" ]; then
+if command -v cargo >/dev/null; then
     mkdir -p reference/src
     cp "$here/reference.rs" reference/src/main.rs
-    cp "$puma" reference/src/puma.rs
+    cp "$puma/5_solver.rs" reference/src/puma.rs
     cat >reference/Cargo.toml <<END
 [package]
 name = "reference"
@@ -36,7 +44,7 @@ fi
 # One file of run time and robot: what codegen puts together.
 join() {
     echo "#define GB_LINKAGE static GB_UNUSED"
-    cat "$here/../groebot.h" "$here/puma.h" "$here/puma.c" "$here/../groebot.c" \
+    cat "$here/../groebot.h" puma.h puma.c "$here/../groebot.c" \
         | sed -e '/^#include "groebot.h"$/d' -e '/^#include "puma.h"$/d' -e 's/^#include "puma.c"$/#include "single.c"/'
 }
 join >single.c
@@ -48,7 +56,7 @@ try() {
     ./test
     case "$*" in *GB_FLOAT*) return ;; esac
     if [ -f answers ]; then
-        "$@" $strict "$here/compare.c" "$here/puma.c" "$here/../groebot.c" -lm -o compare
+        "$@" $strict "$here/compare.c" puma.c "$here/../groebot.c" -lm -o compare
         ./compare answers
     fi
 }
@@ -66,7 +74,7 @@ for cc in ${CC:-gcc clang}; do
     fi
     "$cc" -std=c99 -O2 $strict "$here/compare.c" single.c -lm -o compare
     [ ! -f answers ] || ./compare answers
-    for file in "$here/puma.c" "$here/../groebot.c" single.c; do
+    for file in puma.c "$here/../groebot.c" single.c; do
         "$cc" -x c++ -std=c++11 -O2 $strict -c "$file" -o object
     done
 done
