@@ -443,7 +443,7 @@ GB_INLINE gb_real gb_square_root(gb_real a)
 #define GB_EXTRAS false
 #endif
 #ifndef GB_PREFERRED
-#define GB_PREFERRED -1
+#define GB_PREFERRED (-1)
 #define GB_PREFERS_GREATEST false
 #endif
 #ifndef GB_TWINS

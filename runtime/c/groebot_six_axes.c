@@ -2477,7 +2477,7 @@ static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, con
         attempt.target = target;
         attempt.missing = gb_six_joint(gb_six_formulation(chain, number), 3);
         /* One run aside shows too little of what may be beside it. */
-        const bool is_first_aside = attempt.size > R(0.0) && gb_six_disturbances[number - 1] == R(0.0);
+        const bool is_first_aside = number > 0 && attempt.size > R(0.0) && gb_six_disturbances[number - 1] == R(0.0);
         if (is_first_aside) {
             search->lost.count = 0;
         }

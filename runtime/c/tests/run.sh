@@ -1,5 +1,6 @@
 #!/bin/sh
-# Compiles and runs the tests of the C run time with every compiler that is there, and compares PUMA's answers with the Rust run time's, bit for bit.
+# Compiles and runs the tests of the C run time with every compiler that is there, also with sanitizers, compares PUMA's answers with the Rust run
+# time's, bit for bit, and asks clang-tidy. What is missing is left out, with GROEBOT_REQUIRE_TOOLS=1 an error.
 #
 # CC      compilers to try; gcc and clang
 # PUMA    PUMA's derivation, whose printed files are compiled; the one in derivations/
@@ -16,12 +17,40 @@ work=$WORK
 strict="-Wall -Wextra -Wpedantic -Werror -I. -I$here/.."
 cd "$work"
 
+# Whether a tool is there.
+has() {
+    command -v "$1" >/dev/null && return
+    echo "$1 is not here"
+    [ "${GROEBOT_REQUIRE_TOOLS:-}" != 1 ] || exit 1
+    return 1
+}
+
+# Whether a compiler has its sanitizers' libraries.
+has_sanitizers() {
+    echo 'int main(void) { return 0; }' >empty.c
+    "$1" $sanitizers empty.c -o empty 2>/dev/null && return
+    echo "$1 has no sanitizers"
+    [ "${GROEBOT_REQUIRE_TOOLS:-}" != 1 ] || exit 1
+    return 1
+}
+
+# The checks of .clang-tidy, for all three files. The last one is for the header's functions, too, in which clang-tidy does not know that of two
+# pointers one is not null.
+tidy() {
+    options="-std=c99 -I. -I$here/.."
+    null=clang-analyzer-core.NullDereference,-clang-analyzer-core.NonNullParamChecker
+    ask="clang-tidy --quiet --config-file=$here/../.clang-tidy"
+    $ask "$here/../groebot.c" "$here/../groebot_six_axes.c" -- $options
+    $ask --checks=-$null puma.c -- $options -Xclang -analyzer-opt-analyze-headers
+    echo "clang-tidy finds nothing"
+}
+
 for end in c h; do
     sed 's/5_solver/puma/' "$puma/5_solver.$end" >"puma.$end"
 done
 
 # The Rust answers, if there is a Rust to ask.
-if command -v cargo >/dev/null; then
+if has cargo; then
     mkdir -p reference/src
     cp "$here/reference.rs" reference/src/main.rs
     cp "$puma/5_solver.rs" reference/src/puma.rs
@@ -34,11 +63,8 @@ edition = "2024"
 groebot-runtime = { path = "$runtime" }
 [workspace]
 END
-    if CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$work/target} cargo run --quiet --release --manifest-path reference/Cargo.toml -- "$work/answers"; then
-        echo "Rust has answered"
-    else
-        echo "no Rust answers: the reference does not compile"
-    fi
+    CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$work/target} cargo run --quiet --release --manifest-path reference/Cargo.toml -- "$work/answers"
+    echo "Rust has answered"
 fi
 
 # One file of run time and robot: what codegen puts together.
@@ -61,16 +87,21 @@ try() {
     fi
 }
 
+if has clang-tidy; then
+    tidy
+fi
+
+sanitizers="-fsanitize=address,undefined -fno-sanitize-recover=all"
 for cc in ${CC:-gcc clang}; do
-    command -v "$cc" >/dev/null || continue
+    has "$cc" || continue
     try "$cc" -std=c99 -O2
     try "$cc" -std=c99 -O0
     try "$cc" -std=c99 -O3
     try "$cc" -std=c99 -O2 -DGB_LANES=1
     try "$cc" -std=c99 -O2 -DGB_FLOAT
     try "$cc" -std=gnu17 -O2 -ffp-contract=off -march=native
-    if [ -z "${SKIP_SANITIZERS:-}" ]; then
-        try "$cc" -std=c99 -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all
+    if has_sanitizers "$cc"; then
+        try "$cc" -std=c99 -O1 -g $sanitizers
     fi
     "$cc" -std=c99 -O2 $strict "$here/compare.c" single.c -lm -o compare
     [ ! -f answers ] || ./compare answers
