@@ -1,6 +1,6 @@
 //! Real roots of polynomials with known ones.
 
-use groebot_runtime::roots::{Roots, real_roots};
+use groebot_runtime::roots::{MAX_DEGREE, Roots, real_roots};
 use groebot_runtime::{Lanes, Number};
 
 /// The coefficients of the monic polynomial with these roots, constant term first.
@@ -54,4 +54,68 @@ fn the_first_polynomial_that_leads_is_solved() {
     let lanes: Roots<Lanes<2>, 2> =
         Lanes::real_roots(&[&[Lanes([-1.0, 1.0]), Lanes::of(0.0), Lanes::of(1.0)]], Lanes::of(1.0));
     assert_eq!([lanes.as_slice()[0].0[0], lanes.as_slice()[1].0[0]], [-1.0, 1.0]);
+}
+
+fn roots_of(coefficients: &[f64]) -> Roots<f64, MAX_DEGREE> {
+    real_roots(coefficients, 0.0)
+}
+
+fn assert_near(coefficients: &[f64], expected: &[f64], relative: f64) {
+    let roots = roots_of(coefficients);
+    assert_eq!(roots.count(), expected.len(), "{coefficients:?}: {roots:?}, not {expected:?}");
+    for (root, exact) in roots.as_slice().iter().zip(expected) {
+        assert!((root - exact).abs() <= relative * exact.abs(), "{root} is not {exact}");
+    }
+}
+
+/// Polynomials that break eigenvalue methods: `x^6 - 1`, `x^8 + 1`, `(x^2 - 1)^2 (x^2 - 4)^2`.
+#[test]
+fn even_polynomials_are_solved() {
+    assert_near(&[-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], &[-1.0, 1.0], 1e-14);
+    assert_near(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], &[], 0.0);
+    assert_near(&[16.0, 0.0, -40.0, 0.0, 33.0, 0.0, -10.0, 0.0, 1.0], &[-2.0, -1.0, 1.0, 2.0], 1e-14);
+}
+
+#[test]
+fn a_degree_that_is_too_high_is_refused() {
+    let mut beyond = [0.0; MAX_DEGREE + 2];
+    (beyond[0], beyond[MAX_DEGREE + 1]) = (-1.0, 1.0);
+    assert!(roots_of(&beyond).as_slice().is_empty());
+}
+
+#[test]
+fn quadratics_keep_their_small_root() {
+    assert_near(&[1.0, -1e9, 1.0], &[1e-9, 1e9], 1e-15);
+    assert_near(&[-1.0, 0.0, 4.0], &[-0.5, 0.5], 0.0);
+    assert_near(&[0.0, -3.0, 1.0], &[0.0, 3.0], 0.0);
+    assert_near(&[9.0, -6.0, 1.0], &[3.0], 0.0);
+    assert_near(&[1.0, 1.0, 1.0], &[], 0.0);
+}
+
+#[test]
+fn scales_are_no_obstacle() {
+    for scale in [1e-90, 1e-30, 1.0, 1e30, 1e90] {
+        let cubic = [-6.0 * scale * scale * scale, 11.0 * scale * scale, -6.0 * scale, 1.0];
+        assert_near(&cubic, &[scale, 2.0 * scale, 3.0 * scale], 1e-13);
+    }
+    assert_near(&[2e300, -3e300, 1e300], &[1.0, 2.0], 1e-15);
+    assert_near(&[-1e-200, 0.0, 0.0, 1.0], &[1e-200f64.cbrt()], 1e-14);
+    assert_near(&[-1.0, 0.0, 1.0, 1e-200], &[-1e200, -1.0, 1.0], 1e-14);
+}
+
+#[test]
+fn negligible_leading_coefficients_are_dropped() {
+    assert_near(&[-6.0, 2.0, 0.0, 0.0], &[3.0], 0.0);
+    assert_near(&[-6.0, 2.0, 1e-300], &[3.0], 0.0);
+    assert_near(&[-6.0, 2.0, 1e-20], &[-2e20, 3.0], 1e-15);
+    assert_near(&[-1.0, 0.0, 1.0, 1e-18, 1e-18], &[-1.0, 1.0], 1e-15);
+}
+
+#[test]
+fn what_has_no_roots_gives_none() {
+    for p in
+        [&[][..], &[0.0], &[0.0, 0.0, 0.0], &[4.0], &[f64::NAN, 1.0], &[1.0, f64::INFINITY], &[1.0, 0.0, 0.0, 0.0, 1.0]]
+    {
+        assert!(roots_of(p).as_slice().is_empty(), "{p:?}");
+    }
 }

@@ -1,9 +1,10 @@
 //! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the other.
 
+use groebot_runtime::six_axes::ROOM;
 use serde::{Deserialize, Serialize};
 
 use super::about::About;
-use super::eigenvalue::{ROOM, SixAxes};
+use super::eigenvalue::SixAxes;
 use super::instruction::{Instruction, Operand};
 use super::joint::{Joint, JointValue, Unit};
 use super::rule::ParameterRule;

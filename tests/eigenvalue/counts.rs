@@ -3,11 +3,11 @@
 use groebot::derive::eigenvalue::all;
 use groebot::derive::eigenvalue::survey;
 use groebot::number::BigRational;
-use groebot::solver::eigenvalue::{EigenvalueSolver, Layout};
+use groebot::solver::eigenvalue::Layout;
 use num_traits::ToPrimitive;
 
-use super::solver::{displacement, in_doubles, lines_of};
-use super::{Random, rational};
+use super::solver::{in_doubles, lines_of, target, tip};
+use super::{Random, found, rational};
 use crate::real::sixteen::{self, Link};
 
 fn random_links(random: &mut Random) -> [Link<BigRational>; 6] {
@@ -31,10 +31,10 @@ fn compare(count: usize, seed: u64) -> [usize; 17] {
         assert_eq!(complex, Some(16), "chain {index} is special");
         let doubles = in_doubles(&links);
         let layout = Layout { lines: lines_of(&doubles), slides: [false; 6], length: 2.0 };
-        let solver = EigenvalueSolver::new(&layout, survey(&layout, &all().collect::<Vec<_>>()));
+        let solver = layout.chain(&tip(&doubles), &survey(&layout, &all().collect::<Vec<_>>()));
         let pose = pose.map(|row| row.map(|entry| entry.to_f64().unwrap()));
-        let answers = solver.solve(&displacement(&doubles, &pose));
-        assert_eq!(answers.as_slice().len(), exact.len(), "chain {index}");
+        let answers = found(&solver.solve(&target(&pose)));
+        assert_eq!(answers.len(), exact.len(), "chain {index}");
         seen[exact.len()] += 1;
     }
     seen

@@ -1,4 +1,4 @@
-//! Any six revolute joints by one eigenvalue problem: `roots::Hessenberg`, `solver::eigenvalue`, `derive::eigenvalue`.
+//! Any six joints by one eigenvalue problem: `groebot_runtime::six_axes`, `solver::eigenvalue`, `derive::eigenvalue`.
 
 mod counts;
 mod curve;
@@ -15,7 +15,8 @@ use std::f64::consts::{PI, TAU};
 
 use groebot::kinematics::{Chain, ChainParts, Joint, JointKind, LengthUnit, Task, Tip};
 use groebot::number::BigRational;
-use groebot::solver::eigenvalue::Answers;
+use groebot_runtime::six_axes::{self, Answer, Answers, Rigid};
+use nalgebra::Vector3;
 use num_traits::{One, Zero};
 
 /// A deterministic source of numbers that look random (Steele, Lea and Flood 2014, SplitMix).
@@ -59,9 +60,38 @@ pub fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     a.iter().zip(b).map(way).fold(0.0, f64::max)
 }
 
+/// The joint values that reach the target.
+pub fn found(answers: &Answers) -> Vec<Answer> {
+    answers.as_slice().iter().filter(|answer| !answer.lost).copied().collect()
+}
+
 /// How far the answer that is nearest to `q` is from it.
 pub fn nearest(answers: &Answers, q: &[f64; 6]) -> f64 {
-    answers.as_slice().iter().map(|answer| distance(&answer.q, q)).fold(f64::INFINITY, f64::min)
+    found(answers).iter().map(|answer| distance(&answer.q, q)).fold(f64::INFINITY, f64::min)
+}
+
+/// The most that an answer misses the target by, at the last joint's frame: a coordinate's share of the chain's length, but for what rounding leaves of
+/// long ways, or one of the turn (rad).
+pub fn residual(solver: &six_axes::Chain, answers: &Answers, target: &[f64; 12]) -> f64 {
+    let wanted = last_frame(solver, target);
+    let miss = |answer: &Answer| {
+        let reached = last_frame(solver, &solver.forward(&answer.q));
+        let column = |motion: &Rigid, k: usize| Vector3::from(motion.rotation.map(|row| row[k]));
+        let turn: Vector3<f64> = (0..3).map(|k| column(&reached, k).cross(&column(&wanted, k)) * 0.5).sum();
+        let way = (Vector3::from(wanted.translation) - Vector3::from(reached.translation)).amax();
+        let sliding = answer.q.iter().zip(&solver.slides).filter(|(_, slides)| **slides);
+        let longest = sliding.map(|(way, _)| way.abs()).fold(0.0, f64::max);
+        f64::max((way - 2.0 * f64::EPSILON * longest) / solver.length, turn.amax())
+    };
+    found(answers).iter().map(miss).fold(0.0, f64::max)
+}
+
+/// The frame of the last joint at a target.
+fn last_frame(solver: &six_axes::Chain, target: &[f64; 12]) -> Rigid {
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| target[3 + 3 * i + j]));
+    let tip = Rigid { rotation, translation: [target[0], target[1], target[2]] };
+    let place = solver.last.translation.map(|entry| entry * solver.length);
+    tip.after(&solver.back).after(&Rigid { translation: place, ..solver.last })
 }
 
 /// The chain of revolute joints with these axes (directions and points), its tip at the origin.

@@ -3,7 +3,7 @@
 use groebot::derive::eigenvalue;
 use groebot::kinematics::Chain;
 
-use super::{Random, chain, nearest, rational};
+use super::{Random, chain, nearest, rational, residual};
 
 /// Axes with coordinates in tenths of a millimetre and directions in millionths.
 type Axes = [([i64; 3], [i64; 3]); 6];
@@ -76,8 +76,9 @@ fn misses(axes: &Axes, targets: usize) -> (usize, f64) {
     let (mut misses, mut worst) = (0, 0.0_f64);
     for _ in 0..targets {
         let q = random.angles();
-        let answers = solver.solve(&solver.forward(&q));
-        worst = answers.as_slice().iter().map(|answer| answer.residual).fold(worst, f64::max);
+        let target = solver.forward(&q);
+        let answers = solver.solve(&target);
+        worst = worst.max(residual(&solver, &answers, &target));
         if nearest(&answers, &q) > 1e-6 {
             misses += 1;
             println!("missed: {q:?}");

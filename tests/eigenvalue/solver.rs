@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use groebot::derive::eigenvalue;
-use groebot::solver::eigenvalue::{EigenvalueSolver, Formulation, Layout, Line, Rigid};
+use groebot::solver::eigenvalue::{Formulation, Layout, Line};
+use groebot_runtime::six_axes::{self, Rigid};
 use num_traits::ToPrimitive;
 
-use super::{Random, distance, nearest, random_chain};
+use super::{Random, distance, found, nearest, random_chain, residual};
 use crate::real::sixteen;
 
 /// The figures of many random targets.
@@ -18,11 +19,12 @@ struct Figures {
 }
 
 impl Figures {
-    fn add(&mut self, solver: &EigenvalueSolver, q: &[f64; 6]) {
-        let answers = solver.solve(&solver.forward(q));
+    fn add(&mut self, solver: &six_axes::Chain, q: &[f64; 6]) {
+        let target = solver.forward(q);
+        let answers = solver.solve(&target);
         self.targets += 1;
         self.misses += usize::from(nearest(&answers, q) > 1e-6);
-        self.worst = answers.as_slice().iter().map(|answer| answer.residual).fold(self.worst, f64::max);
+        self.worst = self.worst.max(residual(solver, &answers, &target));
     }
 }
 
@@ -74,7 +76,7 @@ fn answers_reach_the_target_by_the_chains_own_kinematics() {
             let q = random.angles();
             let target = chain.forward(&q).unwrap();
             let answers = solver.solve(&solver.forward(&q));
-            for answer in answers.as_slice() {
+            for answer in found(&answers) {
                 let reached = chain.forward(&answer.q).unwrap();
                 assert!((reached.translation.vector - target.translation.vector).norm() < 1e-11);
                 assert!(reached.rotation.angle_to(&target.rotation) < 1e-11);
@@ -88,12 +90,12 @@ fn a_target_out_of_reach_has_no_answer() {
     let mut random = Random::new(8);
     let solver = eigenvalue::solver(&random_chain(&mut random)).unwrap();
     let mut far = solver.forward(&random.angles());
-    far.translation[0] += 100.0;
+    far[0] += 100.0;
     assert_eq!(solver.solve(&far).as_slice().len(), 0);
 }
 
 /// The axes of the links in `tests/real/sixteen.rs`, at zero.
-pub fn lines_of(links: &[sixteen::Link<f64>; 6]) -> [Line<f64>; 6] {
+pub fn lines_of(links: &[sixteen::Link<f64>; 6]) -> [Line; 6] {
     let frame = |count: usize| sixteen::chain(&vec![[1.0, 0.0]; count], &links[..count]);
     std::array::from_fn(|joint| match joint {
         0 => Line { direction: [0.0, 0.0, 1.0], point: [0.0; 3] },
@@ -113,11 +115,16 @@ pub fn in_doubles(links: &[sixteen::Link<groebot::number::BigRational>; 6]) -> [
     })
 }
 
-/// The displacement of the base that takes the last frame at zero to `pose`.
-pub fn displacement(links: &[sixteen::Link<f64>; 6], pose: &sixteen::Frame<f64>) -> Rigid {
-    let motion = sixteen::product(pose, &sixteen::inverse(&sixteen::chain(&[[1.0, 0.0]; 6], links)));
-    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| motion[i][j]));
-    Rigid { rotation, translation: [0, 1, 2].map(|k| motion[k][3]) }
+/// The frame of the last link at zero.
+pub fn tip(links: &[sixteen::Link<f64>; 6]) -> Rigid {
+    let frame = sixteen::chain(&[[1.0, 0.0]; 6], links);
+    let rotation = std::array::from_fn(|i| std::array::from_fn(|j| frame[i][j]));
+    Rigid { rotation, translation: [0, 1, 2].map(|k| frame[k][3]) }
+}
+
+/// The numbers of a target.
+pub fn target(pose: &sixteen::Frame<f64>) -> [f64; 12] {
+    std::array::from_fn(|k| if k < 3 { pose[k][3] } else { pose[k / 3 - 1][k % 3] })
 }
 
 #[test]
@@ -126,12 +133,11 @@ fn the_published_manipulator_has_its_sixteen_solutions() {
     let pose = sixteen::pose().map(|row| row.map(|entry| entry.to_f64().unwrap()));
     let formulations = [2, 3, 5].map(|hidden| Formulation { hidden, second: false });
     let layout = Layout { lines: lines_of(&links), slides: [false; 6], length: 1.5 };
-    let solver = EigenvalueSolver::new(&layout, formulations.to_vec());
-    let answers = solver.solve(&displacement(&links, &pose));
-    assert_eq!(answers.as_slice().len(), 16);
+    let answers = found(&layout.chain(&tip(&links), &formulations).solve(&target(&pose)));
+    assert_eq!(answers.len(), 16);
     for row in &sixteen::ANGLES {
         let wanted = row.map(f64::to_radians);
-        let near = answers.as_slice().iter().filter(|answer| distance(&answer.q, &wanted) < 0.1_f64.to_radians());
+        let near = answers.iter().filter(|answer| distance(&answer.q, &wanted) < 0.1_f64.to_radians());
         assert_eq!(near.count(), 1, "{row:?}");
     }
 }

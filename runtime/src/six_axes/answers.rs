@@ -38,11 +38,16 @@ impl Answer {
 pub struct Answers {
     list: [Answer; 2 * ROOM],
     count: usize,
+    /// How many formulations were run.
+    pub runs: usize,
+    /// The most that a candidate of the last run missed the target by before it was polished: a share of the length scale, or rad. `None` where that run
+    /// cannot be trusted to have found all answers.
+    pub accuracy: Option<f64>,
 }
 
 impl Answers {
     /// None.
-    pub const NONE: Self = Answers { list: [Answer::NONE; 2 * ROOM], count: 0 };
+    pub const NONE: Self = Answers { list: [Answer::NONE; 2 * ROOM], count: 0, runs: 0, accuracy: None };
 
     /// The answers, by ascending joints; then what was lost.
     #[must_use]

@@ -1,9 +1,11 @@
 //! Six joints in any place ([`Chain`]), and the ways to see their loop ([`Formulation`]).
 
+use core::array::from_fn;
+
 use super::profile::Frame;
 use super::rigid::Rigid;
 use super::screw::{Axis, Figure};
-use super::vector::Vector;
+use super::vector::{Vector, scale};
 
 /// Which angle is hidden in the pencil, and which is doubled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,8 +114,25 @@ impl Chain {
         }
     }
 
-    /// The joints with ways in the unit of the target.
-    pub(super) fn scaled(&self, q: &[f64; 6]) -> [f64; 6] {
-        core::array::from_fn(|joint| if self.slides[joint] { q[joint] * self.length } else { q[joint] })
+    /// The joints with ways times a factor.
+    pub(super) fn scaled(&self, q: &[f64; 6], factor: f64) -> [f64; 6] {
+        from_fn(|joint| if self.slides[joint] { q[joint] * factor } else { q[joint] })
+    }
+
+    /// What takes the tip from its place at zero to a target.
+    pub(super) fn displacement(&self, target: &[f64; 12]) -> Rigid {
+        let rotation = from_fn(|i| from_fn(|j| target[3 + 3 * i + j]));
+        let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
+        let displacement = pose.after(&self.back);
+        Rigid { translation: scale(&displacement.translation, 1.0 / self.length), ..displacement }
+    }
+
+    /// The target that joint values reach: a position, and a rotation matrix by rows.
+    #[must_use]
+    pub fn forward(&self, q: &[f64; 6]) -> [f64; 12] {
+        let displacement = self.reach(&self.scaled(q, 1.0 / self.length)).end.after(&self.last.inverse());
+        let translation = scale(&displacement.translation, self.length);
+        let Rigid { rotation, translation } = Rigid { translation, ..displacement }.after(&self.back.inverse());
+        from_fn(|k| if k < 3 { translation[k] } else { rotation[k / 3 - 1][k % 3] })
     }
 }

@@ -6,7 +6,8 @@ use super::pencil::{Matrix, SIZE};
 use crate::arithmetic::Arithmetic;
 
 /// `A = Q H Q^T` with `H` zero below its first subdiagonal and `Q` orthogonal.
-pub(super) struct Hessenberg {
+#[derive(Clone, Debug)]
+pub struct Hessenberg {
     /// `H`, by rows.
     pub matrix: Matrix,
     /// `Q = P_0 P_1 ...` with `P_k = 1 - v v^T`: row `k` is `v`, of length `sqrt(2)`, or zero where nothing was to be done.
@@ -16,6 +17,7 @@ pub(super) struct Hessenberg {
 impl Hessenberg {
     /// Reduces the matrix with these rows.
     #[inline(always)]
+    #[must_use]
     pub fn reduce(matrix: Matrix) -> Self {
         let mut form = Hessenberg { matrix, reflectors: [[0.0; SIZE]; SIZE] };
         for column in 0..SIZE - 2 {

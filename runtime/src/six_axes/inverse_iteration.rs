@@ -30,7 +30,8 @@ struct Eliminated {
 }
 
 impl Hessenberg {
-    /// Eigenvectors of `A` for real eigenvalues, of any length; not finite only when the matrix is not.
+    /// Eigenvectors of `A` for real eigenvalues, [`SIZE`] of them at most, of any length; not finite only when the matrix is not.
+    #[must_use]
     pub fn eigenvectors(&self, values: &[f64]) -> [[f64; SIZE]; SIZE] {
         let zero = [Lanes([0.0; WIDTH]); SIZE];
         let mut eliminated =

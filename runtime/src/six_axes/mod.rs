@@ -27,5 +27,8 @@ mod vector;
 
 pub use answers::{Answer, Answers, ROOM};
 pub use chain::{Chain, Formulation, Formulations};
+pub use hessenberg::Hessenberg;
+pub use pencil::{Matrix, SIZE};
 pub use rigid::Rigid;
+pub use shifted_qr::Eigenvalue;
 pub use vector::Vector;

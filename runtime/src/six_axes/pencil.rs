@@ -12,14 +12,15 @@ use super::rows::{FAR, MOVING, Row};
 use super::vector::product;
 
 /// Rows and columns of the pencil, the number of complex solutions of a general chain.
-pub(super) const SIZE: usize = 2 * MOVING;
+pub const SIZE: usize = 2 * MOVING;
 /// Monomials of the doubled joint times products of the other near one.
 pub(super) const NEAR: usize = PRODUCTS + 3;
 /// Columns before elimination: the near ones, then the far ones with the cosine and with the sine of the half angle.
 pub(super) const ALL: usize = NEAR + 2 * FAR;
 
 pub(super) type Wide = [f64; ALL];
-pub(super) type Matrix = [[f64; SIZE]; SIZE];
+/// A square matrix of [`SIZE`] rows.
+pub type Matrix = [[f64; SIZE]; SIZE];
 
 /// The near joint whose half angle or way the equations are multiplied by.
 #[derive(Clone, Copy)]

@@ -24,7 +24,7 @@ const SINGULAR: f64 = 1e-6;
 pub(super) struct Reach {
     axes: [Vector; 6],
     origins: [Vector; 6],
-    end: Rigid,
+    pub end: Rigid,
 }
 
 impl Reach {

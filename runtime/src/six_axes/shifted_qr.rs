@@ -15,10 +15,11 @@ const MAX_STEPS: usize = 60;
 const FAINT: f64 = 1e-280;
 
 /// An eigenvalue of a real matrix.
-#[derive(Clone, Copy)]
-pub(super) struct Eigenvalue {
+#[derive(Clone, Copy, Debug)]
+pub struct Eigenvalue {
+    /// Its real part.
     pub re: f64,
-    /// Exactly zero when it is real.
+    /// Its imaginary part; exactly zero when it is real.
     pub im: f64,
 }
 
@@ -31,13 +32,14 @@ struct Window<'a> {
 
 impl Eigenvalue {
     /// The size of the imaginary part as a share of `1 + |x|^2`: half the way off the real line of an angle, given the tangent of half of it.
-    pub fn depth(&self) -> f64 {
+    pub(super) fn depth(&self) -> f64 {
         self.im.abs() / (1.0 + self.re * self.re + self.im * self.im)
     }
 }
 
 impl Hessenberg {
     /// All eigenvalues, complex ones in conjugate pairs; `None` when an entry is not finite or the iteration does not end, which is not known to happen.
+    #[must_use]
     pub fn eigenvalues(&self) -> Option<[Eigenvalue; SIZE]> {
         let mut h = self.matrix;
         let mut found = [Eigenvalue { re: 0.0, im: 0.0 }; SIZE];

@@ -1,13 +1,10 @@
 //! The solver: formulations in turn until one can be trusted ([`Chain::solve`]).
 
-use core::array::from_fn;
-
 use super::answers::{ACCEPT, Answer, Answers, Distinct, List, Search, wrapped};
 use super::candidates::{Candidate, Candidates};
 use super::chain::Chain;
 use super::curve::Walk;
 use super::rigid::{Rigid, aside};
-use super::vector::scale;
 
 /// The share of a pivot below which another formulation is asked too.
 const SOUND: f64 = 1e-11;
@@ -63,23 +60,31 @@ impl Chain {
     /// All joint values that reach a target: a position, and a rotation matrix by rows.
     #[must_use]
     pub fn solve(&self, target: &[f64; 12]) -> Answers {
-        let rotation = from_fn(|i| from_fn(|j| target[3 + 3 * i + j]));
-        let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };
-        let displacement = pose.after(&self.back);
-        let goal = Rigid { translation: scale(&displacement.translation, 1.0 / self.length), ..displacement };
+        self.attempts(target, &DISTURBANCES)
+    }
+
+    /// What the first formulation alone finds.
+    #[must_use]
+    pub fn attempt(&self, target: &[f64; 12]) -> Answers {
+        self.attempts(target, &DISTURBANCES[..1])
+    }
+
+    #[inline(always)]
+    fn attempts(&self, target: &[f64; 12], disturbances: &[f64]) -> Answers {
+        let goal = self.displacement(target);
         let target = goal.after(&self.last);
         let mut search = Search::NONE;
-        let runs = self.search(&goal, &target, &mut search);
+        let (runs, accuracy) = self.search(&goal, &target, disturbances, &mut search);
         if runs > 1 {
             self.walk(&target, &mut search);
         }
         // A run that can be trusted at once has seen no self-motion.
-        self.told(&search, runs == 1)
+        self.told(&search, runs, accuracy)
     }
 
-    /// Runs formulations until one can be trusted; their number. What was lost is forgotten then.
-    fn search(&self, goal: &Rigid, target: &Rigid, search: &mut Search) -> usize {
-        for (number, size) in DISTURBANCES.into_iter().enumerate() {
+    /// Runs formulations until one can be trusted: their number, and its [`Answers::accuracy`]. What was lost is forgotten then.
+    fn search(&self, goal: &Rigid, target: &Rigid, disturbances: &[f64], search: &mut Search) -> (usize, Option<f64>) {
+        for (number, &size) in disturbances.iter().enumerate() {
             // One run aside shows too little of what may be beside it.
             let is_first_aside = size > 0.0 && DISTURBANCES[number - 1] == 0.0;
             if is_first_aside {
@@ -89,12 +94,13 @@ impl Chain {
             let missing = self.formulations.of(number).joint(3);
             let near = displacement.after(&self.last);
             let attempt = Attempt { chain: self, number, size, goal, target, near, missing };
-            if attempt.run(&displacement, search) && !is_first_aside {
+            let accuracy = attempt.run(&displacement, search).filter(|_| !is_first_aside);
+            if accuracy.is_some() {
                 search.lost = List::EMPTY;
-                return number + 1;
+                return (number + 1, accuracy);
             }
         }
-        DISTURBANCES.len()
+        (disturbances.len(), None)
     }
 
     /// Walks along the curves next to answers, and to candidates that led to none.
@@ -110,15 +116,16 @@ impl Chain {
     }
 
     /// What was found, in the unit of the target.
-    fn told(&self, search: &Search, is_isolated: bool) -> Answers {
+    fn told(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
         let mut answers = Answers::NONE;
+        (answers.runs, answers.accuracy) = (runs, accuracy);
         for q in search.answers.iter() {
-            let free = if is_isolated { [false; 6] } else { self.free(q) };
-            answers.push(Answer { q: self.scaled(q), free, lost: false });
+            let free = if runs == 1 { [false; 6] } else { self.free(q) };
+            answers.push(Answer { q: self.scaled(q, self.length), free, lost: false });
         }
         answers.sort();
         for q in search.lost.as_slice() {
-            answers.push(Answer { q: self.scaled(q), free: [false; 6], lost: true });
+            answers.push(Answer { q: self.scaled(q, self.length), free: [false; 6], lost: true });
         }
         answers
     }
@@ -130,11 +137,11 @@ impl Chain {
 }
 
 impl Attempt<'_> {
-    /// Adds the answers of one formulation; whether it can be trusted to have found all.
-    fn run(&self, displacement: &Rigid, search: &mut Search) -> bool {
+    /// Adds the answers of one formulation; its [`Answers::accuracy`].
+    fn run(&self, displacement: &Rigid, search: &mut Search) -> Option<f64> {
         let known = search.answers.count;
         let deepest = if self.size > 0.0 { DEEPEST } else { BLURRED };
-        let Some(candidates) = Candidates::new(self.chain, displacement, self.number, deepest) else { return false };
+        let candidates = Candidates::new(self.chain, displacement, self.number, deepest)?;
         let mut tally = Tally { own: Distinct::NONE, lost: 0, worst: 0.0 };
         for candidate in candidates.as_slice() {
             self.follow(candidate, search, &mut tally);
@@ -146,7 +153,8 @@ impl Attempt<'_> {
         let nothing_lost = search.lost.as_slice().is_empty();
         let is_confirmed = self.number > 0 && known == count && tally.own.count == count && nothing_lost;
         let is_sound = tally.worst <= ACCURATE && candidates.conditioning >= SOUND;
-        is_clear && (is_confirmed || is_sound && (self.size == 0.0 || nothing_lost))
+        let is_trusted = is_clear && (is_confirmed || is_sound && (self.size == 0.0 || nothing_lost));
+        is_trusted.then_some(tally.worst)
     }
 
     /// Polishes a candidate, and keeps or remembers it.

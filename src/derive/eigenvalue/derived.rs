@@ -1,5 +1,6 @@
 //! The derivation of six axes ([`DerivedSixAxes`]), and its proof from the text of a certificate.
 
+use groebot_runtime::six_axes::SIZE;
 use serde::{Deserialize, Serialize};
 
 use super::given::Six;
@@ -12,7 +13,7 @@ use crate::derive::sequential::checks_on;
 use crate::kinematics::Chain;
 use crate::kinematics::ideal::Report;
 use crate::solver::Program;
-use crate::solver::eigenvalue::{Formulation, SIZE};
+use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The solver of a chain of six joints with axes in any place, or of seven of which the first or the last is given.

@@ -3,11 +3,15 @@
 
 mod derived;
 mod given;
+mod profile;
 mod program;
 mod rank;
 mod residue;
+mod rows;
+mod screw;
 mod stages;
 mod survey;
+mod vector;
 
 pub use derived::DerivedSixAxes;
 pub use rank::Determinant;
@@ -15,11 +19,12 @@ pub use residue::Residue;
 pub use survey::survey;
 
 use given::Six;
+use groebot_runtime::six_axes;
 use num_traits::ToPrimitive;
 
 use crate::kinematics::{Chain, JointKind};
 use crate::number::primes_below;
-use crate::solver::eigenvalue::{EigenvalueSolver, Formulation, Layout, Line};
+use crate::solver::eigenvalue::{Formulation, Layout, Line};
 use crate::spatial::Screw;
 use crate::{Error, ErrorKind, Result};
 
@@ -90,9 +95,9 @@ pub fn layout(chain: &Chain) -> Layout {
 ///
 /// # Errors
 /// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
-pub fn solver(chain: &Chain) -> Result<EigenvalueSolver> {
-    let best = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
-    Ok(EigenvalueSolver::new(&layout(chain), best))
+pub fn solver(chain: &Chain) -> Result<six_axes::Chain> {
+    let best: Vec<Formulation> = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
+    Ok(layout(chain).chain(&program::tip(chain), &best))
 }
 
 /// The regular formulations that are accurate, the most accurate first; one at least.
@@ -112,8 +117,8 @@ fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
 }
 
 /// The longest way from one axis' point to the next one's; one for a chain that is a point.
-fn typical_length(lines: &[Line<f64>; 6]) -> f64 {
-    let way = |a: &Line<f64>, b: &Line<f64>| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
+fn typical_length(lines: &[Line; 6]) -> f64 {
+    let way = |a: &Line, b: &Line| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
     let longest = lines.windows(2).map(|pair| way(&pair[0], &pair[1])).fold(0.0, f64::max);
     if longest > 0.0 { longest } else { 1.0 }
 }

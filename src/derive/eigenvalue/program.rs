@@ -1,12 +1,14 @@
 //! The program of six axes: one block that finds all joints together.
 
+use groebot_runtime::six_axes::{ROOM, Rigid};
+
 use super::given::Six;
 use super::layout;
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
 use crate::derive::sequential::frame_of;
 use crate::kinematics::Chain;
-use crate::solver::eigenvalue::{Formulation, Layout, ROOM, Rigid, SixAxes, SixAxesParts};
+use crate::solver::eigenvalue::{Formulation, Layout, SixAxes, SixAxesParts};
 use crate::solver::{Block, Case, Operand, Program, Step};
 use crate::{Error, ErrorKind, Result};
 
@@ -58,7 +60,7 @@ fn set_to(program: &Program, label: &str) -> Vec<Operand> {
 }
 
 /// The tip in the base frame at zero.
-fn tip(chain: &Chain) -> Rigid {
+pub(super) fn tip(chain: &Chain) -> Rigid {
     let pose = chain.base_from_tip();
     let rotation = pose.rotation.to_rotation_matrix();
     Rigid {

@@ -6,13 +6,15 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::profile::{Frame, STILL};
 use super::residue::Residue;
+use super::rows::{Doubled, FAR, MOVING, Row, Rows};
+use super::screw::{Axis, Figure};
+use super::vector::dot;
 use crate::derive::planner::Random;
 use crate::kinematics::{Chain, JointKind};
 use crate::number::Zp;
-use crate::solver::eigenvalue::{
-    Axis, Doubled, Equations, FAR, Figure, Formulation, Frame, Line, MOVING, Row, Rows, STILL,
-};
+use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result};
 
 /// Rows and columns of a pencil before elimination.
@@ -54,27 +56,27 @@ fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) ->
         *turn = point_of_circle(axis, draw())?;
     }
     let zero = Residue::new(0, field);
-    let figures = axes.map(|axis| Figure::of(&axis, frame(&axis.line, zero).across[0]));
+    let figures = axes.map(|axis| Figure::of(&axis, Frame::on(&axis).across[0]));
     let moved =
         figures.map(|figure| axes.iter().zip(&turns).rev().fold(figure, |figure, (a, by)| figure.moved(a, *by)));
     let back =
         figures.map(|figure| axes.iter().zip(&turns).fold(figure, |figure, (a, [c, s])| figure.moved(a, [*c, -*s])));
-    let frame = frame(&axes[formulation.hidden].line, zero);
-    let rows = Rows::new(&Equations::new(formulation, &frame, &axes, [&figures, &moved, &back]));
+    let rows = Rows::of(formulation, &axes, [&figures, &moved, &back]);
     let axis = &axes[formulation.doubled()];
     let doubled = Doubled { second: formulation.second, slides: axis.slides, square: axis.square };
     Some(matrix_determinant(matrix(&rows, &doubled, [zero, draw()]), field))
 }
 
 /// The axes of the chain modulo a prime.
-fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
+fn axes(chain: &Chain, field: Zp) -> Option<[Axis; 6]> {
     let one = Residue::new(1, field);
     let half = (one + one).inverse()?;
     let axis = |joint: &crate::kinematics::Joint| {
         let direction = Residue::vector(&joint.axis, field)?;
-        let square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+        let square = dot(&direction, &direction);
         Some(Axis {
-            line: Line { direction, point: Residue::vector(&joint.point, field)? },
+            direction,
+            point: Residue::vector(&joint.point, field)?,
             slides: joint.kind == JointKind::Prismatic,
             square,
             inverse_square: square.inverse()?,
@@ -87,7 +89,7 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis<Residue>; 6]> {
 }
 
 /// `c` and `s'` of the turn about `axis` whose half angle has the tangent `t sqrt n`; or the way `t` and its square.
-fn point_of_circle(axis: &Axis<Residue>, t: Residue) -> Option<[Residue; 2]> {
+fn point_of_circle(axis: &Axis, t: Residue) -> Option<[Residue; 2]> {
     if axis.slides {
         return Some([t * t, t]);
     }
@@ -96,24 +98,16 @@ fn point_of_circle(axis: &Axis<Residue>, t: Residue) -> Option<[Residue; 2]> {
     Some([(one - square) * inverse, (t + t) * inverse])
 }
 
-fn frame(line: &Line<Residue>, zero: Residue) -> Frame<Residue> {
-    let [x, y, z] = line.direction;
-    // Perpendicular to the axis and not zero: of x, y, z one is not zero.
-    let e = if x.value != 0 || y.value != 0 { [-y, x, zero] } else { [z, zero, zero] };
-    let f = [y * e[2] - z * e[1], z * e[0] - x * e[2], x * e[1] - y * e[0]];
-    Frame { origin: line.point, axis: line.direction, across: [e, f] }
-}
-
 type Matrix = [[Residue; ALL]; ALL];
 
 /// All equations at the half angle `x`, given zero and `x`, each times the cosine and the sine of half the doubled angle.
-fn matrix(rows: &Rows<Residue>, doubled: &Doubled<Residue>, [zero, x]: [Residue; 2]) -> Matrix {
+fn matrix(rows: &Rows, doubled: &Doubled, [zero, x]: [Residue; 2]) -> Matrix {
     let mut matrix = [[zero; ALL]; ALL];
     let moving = rows
         .constant
         .iter()
         .zip(&rows.linear)
-        .map(|(a, b)| -> Row<Residue> { std::array::from_fn(|column| a[column] - x * b[column]) });
+        .map(|(a, b)| -> Row { std::array::from_fn(|column| a[column] - x * b[column]) });
     for (index, row) in rows.still.iter().copied().chain(moving).enumerate() {
         let near = doubled.monomials(&row);
         for power in 0..2 {

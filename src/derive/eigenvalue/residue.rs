@@ -1,4 +1,4 @@
-//! Numbers modulo a prime as plain operands ([`Residue`]), for code that is generic over its [`Scalar`](crate::solver::eigenvalue::Scalar).
+//! Numbers modulo a prime as plain operands ([`Residue`]).
 
 use std::ops::{Add, Mul, Neg, Sub};
 

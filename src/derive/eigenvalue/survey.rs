@@ -1,7 +1,9 @@
 //! Which formulations of a chain are accurate ([`survey`]): tried at random targets.
 
+use groebot_runtime::six_axes::Rigid;
+
 use crate::derive::planner::Random;
-use crate::solver::eigenvalue::{EigenvalueSolver, Formulation, Layout};
+use crate::solver::eigenvalue::{Formulation, Layout};
 
 /// Random targets that each formulation is tried at.
 const TARGETS: usize = 100;
@@ -28,7 +30,7 @@ pub fn survey(layout: &Layout, formulations: &[Formulation]) -> Vec<Formulation>
 
 /// The mean order of magnitude; `None` for a formulation that can hardly ever be trusted.
 fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)> {
-    let solver = EigenvalueSolver::new(layout, vec![formulation]);
+    let solver = layout.chain(&Rigid::NONE, &[formulation]);
     let mut random = Random::new(SEED);
     let (mut sum, mut trusted) = (0.0, 0);
     for _ in 0..TARGETS {
@@ -36,9 +38,9 @@ fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)>
             let value = number(&mut random);
             value * if slides { layout.length } else { std::f64::consts::PI }
         });
-        let answers = solver.attempt(&solver.forward(&q));
-        trusted += usize::from(answers.is_trusted);
-        sum += if answers.is_trusted { answers.start.max(f64::EPSILON).log10() } else { DISTRUST };
+        let accuracy = solver.attempt(&solver.forward(&q)).accuracy;
+        trusted += usize::from(accuracy.is_some());
+        sum += accuracy.map_or(DISTRUST, |miss| miss.max(f64::EPSILON).log10());
     }
     let share = trusted as f64 / TARGETS as f64;
     let sliding = layout.slides.iter().filter(|slides| **slides).count();

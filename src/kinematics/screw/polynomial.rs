@@ -25,10 +25,10 @@ pub(super) fn zeros(size: f64, grain: f64, f: impl Fn(f64) -> f64) -> SmallVec<[
         }
         *coefficient = 0.0;
     }
-    let mut found: SmallVec<[f64; 16]> = real_roots(&coefficients, 1.0).as_slice().iter().copied().collect();
+    let mut found: SmallVec<[f64; 16]> = real_roots::<4>(&coefficients, 1.0).as_slice().iter().copied().collect();
     if grain > TANGENT * largest {
         let slope = [1, 2, 3, 4].map(|i| i as f64 * coefficients[i]);
-        for &extremum in real_roots(&slope, 1.0).as_slice() {
+        for &extremum in real_roots::<3>(&slope, 1.0).as_slice() {
             let is_new = found.iter().all(|x| (x - extremum).abs() > APART);
             if is_new && f(extremum * size).abs() <= grain {
                 found.push(extremum);

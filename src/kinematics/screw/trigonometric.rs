@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use smallvec::SmallVec;
 
-use crate::roots::{TANGENT, real_roots};
+use crate::roots::{MAX_DEGREE, TANGENT, real_roots};
 use crate::spatial::angle;
 
 /// The highest degree: a polynomial in the tangent of the half angle has twice as many roots.
@@ -47,7 +47,7 @@ pub(super) fn zeros_to(degree: usize, grain: f64, f: impl Fn(f64) -> f64) -> Sma
 
 /// The angles at which a sum of harmonics, counted from `origin`, is zero.
 fn angles(degree: usize, origin: f64, harmonics: &[(f64, f64)]) -> SmallVec<[f64; 16]> {
-    let roots = real_roots(&in_half_tangent(degree, harmonics), 1.0);
+    let roots = real_roots::<MAX_DEGREE>(&in_half_tangent(degree, harmonics), 1.0);
     roots.as_slice().iter().map(|t| angle::wrap(origin + 2.0 * t.atan())).collect()
 }
 

@@ -1,12 +1,10 @@
 //! The solver of six axes as a step of a program ([`SixAxes`]).
 
-use groebot_runtime::six_axes;
+use groebot_runtime::six_axes::{Chain, Formulations, Rigid};
 use serde::{Deserialize, Serialize};
 
 use super::formulation::Formulation;
-use super::polish::Rigid;
-use super::screw::Line;
-use super::solve::{EigenvalueSolver, Layout};
+use super::layout::{Layout, Line};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -15,21 +13,21 @@ use crate::{Error, ErrorKind, Result};
 #[serde(try_from = "SixAxesParts", into = "SixAxesParts")]
 pub struct SixAxes {
     parts: SixAxesParts,
-    solver: EigenvalueSolver,
-    back: Rigid,
+    chain: Chain,
 }
 
 /// What [`SixAxes`] is made of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SixAxesParts {
     /// The axes at zero, from base to tip: directions of length one, points in the unit of the target.
-    pub lines: [Line<f64>; 6],
+    pub lines: [Line; 6],
     /// By joint: whether it slides.
     #[serde(default, skip_serializing_if = "is_none")]
     pub slides: [bool; 6],
     /// A typical length of the chain, in the same unit.
     pub length: f64,
     /// The tip in the base frame at zero.
+    #[serde(with = "RigidParts")]
     pub tip: Rigid,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Vec<Formulation>,
@@ -39,6 +37,14 @@ pub struct SixAxesParts {
     pub target: [Operand; 12],
 }
 
+/// How a [`Rigid`] is written.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Rigid")]
+struct RigidParts {
+    rotation: [[f64; 3]; 3],
+    translation: [f64; 3],
+}
+
 impl SixAxes {
     /// The step.
     ///
@@ -46,7 +52,7 @@ impl SixAxes {
     /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, an angle of a joint that slides
     /// or another one that is no angle, no formulation, or one that is not for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
-        let is_unit = |line: &Line<f64>| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
+        let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
         ensure(is_finite && parts.lines.iter().all(is_unit), "six axes: directions of length one are allowed")?;
         ensure(parts.length.is_finite() && parts.length > 0.0, "six axes: a positive length is allowed")?;
@@ -54,13 +60,11 @@ impl SixAxes {
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
         ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
         let count = parts.formulations.len();
-        let known =
-            (1..=six_axes::Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
+        let known = (1..=Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
         ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;
         let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
-        let solver = EigenvalueSolver::new(&layout, parts.formulations.clone());
-        let back = parts.tip.inverse();
-        Ok(SixAxes { parts, solver, back })
+        let chain = layout.chain(&parts.tip, &parts.formulations);
+        Ok(SixAxes { parts, chain })
     }
 
     /// What it is made of.
@@ -69,21 +73,8 @@ impl SixAxes {
     }
 
     /// The chain in the run time's terms.
-    pub(crate) fn chain(&self) -> six_axes::Chain {
-        let rigid = |motion: &Rigid| six_axes::Rigid { rotation: motion.rotation, translation: motion.translation };
-        let formulation = |one: &Formulation| six_axes::Formulation { hidden: one.hidden, second: one.second };
-        let formulations: Vec<_> = self.solver.formulations().iter().map(formulation).collect();
-        six_axes::Chain {
-            directions: self.solver.axes.map(|axis| axis.line.direction),
-            points: self.solver.axes.map(|axis| axis.line.point),
-            across: self.solver.frames.map(|frame| frame.across),
-            slides: self.parts.slides,
-            steps: self.solver.links.steps.each_ref().map(rigid),
-            last: rigid(&self.solver.last),
-            back: rigid(&self.back),
-            length: self.solver.scale,
-            formulations: six_axes::Formulations::new(&formulations),
-        }
+    pub(crate) fn chain(&self) -> Chain {
+        self.chain
     }
 
     /// The step with other names of its unknowns and operands.

@@ -1,40 +1,63 @@
-//! The equations as rows of coefficients, over any [`Scalar`] ([`Rows`]), and how a row is multiplied by half an angle.
+//! The equations of a formulation as rows of coefficients modulo a prime ([`Rows`]), and how a row is multiplied by half an angle.
+//!
+//! Whichever joint is called first, the loop says `E1 E2 ... E6 = G`, with the axes behind the target moved to the other side of it. The
+//! line of the fourth axis is left alone by `E4`, so `E1` takes `E2 E3 (line 4)` to `G E6^-1 E5^-1 (line 4)`: two joints on each side of
+//! the hidden one. Each joint may turn or slide.
 
-use super::formulation::Equations;
-use super::profile::{PRODUCTS, STILL, TURNING};
-use super::scalar::Scalar;
+use super::profile::{Frame, PRODUCTS, Products, Profile, STILL, TURNING};
+use super::residue::Residue;
+use super::screw::{Axis, Figure};
+use crate::solver::eigenvalue::Formulation;
 
 /// Products of the joints on the far side, without 1.
-pub const FAR: usize = PRODUCTS - 1;
+pub(super) const FAR: usize = PRODUCTS - 1;
 /// Products of the joints on the near side, 1 among them, then those on the far side.
-pub const COLUMNS: usize = PRODUCTS + FAR;
+const COLUMNS: usize = PRODUCTS + FAR;
 /// Equations in which the hidden angle stands.
-pub const MOVING: usize = 2 * TURNING;
+pub(super) const MOVING: usize = 2 * TURNING;
 
 /// The coefficients of the near products and of the far ones.
-pub type Row<T> = [T; COLUMNS];
+pub(super) type Row = [Residue; COLUMNS];
 
 /// The equations: `still = 0` and `constant - x linear = 0` with `x sqrt n` the tangent of half the hidden angle.
-#[derive(Clone, Copy, Debug)]
-pub struct Rows<T> {
+pub(super) struct Rows {
     /// Free of the hidden angle.
-    pub still: [Row<T>; STILL],
+    pub still: [Row; STILL],
     /// Without `x`.
-    pub constant: [Row<T>; MOVING],
+    pub constant: [Row; MOVING],
     /// What `x` is multiplied by.
-    pub linear: [Row<T>; MOVING],
+    pub linear: [Row; MOVING],
 }
 
-impl<T: Scalar> Rows<T> {
-    /// What is moved, less where it is moved to.
-    pub fn new(equations: &Equations<T>) -> Self {
-        if equations.slides { Rows::of_slide(equations) } else { Rows::of_turn(equations) }
+impl Rows {
+    /// The rows of a formulation: `figures` are what the axes leave alone, `moved` these moved by the target, `back` those moved by its
+    /// inverse.
+    pub fn of(formulation: Formulation, axes: &[Axis; 6], [figures, moved, back]: [&[Figure; 6]; 3]) -> Self {
+        let place = |steps: usize, ahead: bool| {
+            let joint = formulation.joint(steps);
+            match (ahead, formulation.hidden + steps >= 6) {
+                (true, true) => back[joint],
+                (false, false) => moved[joint],
+                _ => figures[joint],
+            }
+        };
+        let axis = |steps: usize, ahead: bool| {
+            let Figure { direction, point, .. } = place(steps, ahead);
+            Axis { direction, point, ..axes[formulation.joint(steps)] }
+        };
+        let hidden = &axes[formulation.hidden];
+        let frame = Frame::on(hidden);
+        let near = frame.profile(&axis(1, true), &axis(2, true), &place(3, true));
+        let far = frame.profile(&axis(5, false), &axis(4, false), &place(3, false));
+        match (hidden.slides, axes[formulation.joint(3)].slides) {
+            (false, _) => Rows::of_turn(&near, &far, hidden.square),
+            (true, false) => Rows::of_slide(&near, &far, hidden.square, &UNMOVED, &SLIDING),
+            (true, true) => Rows::of_slide(&near, &far, hidden.square, &UNMOVED_DIRECTED, &SLIDING_DIRECTED),
+        }
     }
 
     /// The vectors across the hidden axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
-    fn of_turn(equations: &Equations<T>) -> Self {
-        let (near, far) = (&equations.turned.functions, &equations.reached.functions);
-        let square = equations.square;
+    fn of_turn(near: &Profile, far: &Profile, square: Residue) -> Self {
         Rows {
             still: std::array::from_fn(|k| difference(&near[k], &far[k])),
             constant: std::array::from_fn(|k| difference(&near[STILL + k], &far[STILL + k])),
@@ -48,13 +71,14 @@ impl<T: Scalar> Rows<T> {
     /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions. Of directions it leaves
     /// ten alone. Four of them stand among the moving ones: `r = 0` and `s = 0` as `s - x r = 0` and `-r - x s = 0`, which say the same for
     /// all `x` but `i` and `-i`.
-    fn of_slide(equations: &Equations<T>) -> Self {
-        let (near, far) = (&equations.turned.functions, &equations.reached.functions);
-        let square = equations.square;
-        let (unmoved, sliding) =
-            if equations.is_directed { (&UNMOVED_DIRECTED, &SLIDING_DIRECTED) } else { (&UNMOVED, &SLIDING) };
-        let image = |k: usize| {
-            let (_, function, factor) = sliding[k];
+    fn of_slide(
+        near: &Profile,
+        far: &Profile,
+        square: Residue,
+        unmoved: &[usize; STILL],
+        sliding: &[(usize, usize, Factor); MOVING],
+    ) -> Self {
+        let image = |&(_, function, factor): &(usize, usize, Factor)| {
             let row = sum(&near[function], &far[function]);
             match factor {
                 Factor::One => row,
@@ -71,11 +95,11 @@ impl<T: Scalar> Rows<T> {
         };
         Rows {
             still: unmoved.map(|k| difference(&near[k], &far[k])),
-            constant: std::array::from_fn(|k| match sliding[k] {
-                (function, _, Factor::StillBack) => difference(&near[function], &far[function]).map(|entry| -entry),
-                (function, ..) => difference(&near[function], &far[function]),
+            constant: sliding.each_ref().map(|&(function, _, factor)| {
+                let row = difference(&near[function], &far[function]);
+                if factor == Factor::StillBack { row.map(|entry| -entry) } else { row }
             }),
-            linear: std::array::from_fn(image),
+            linear: sliding.each_ref().map(image),
         }
     }
 }
@@ -84,7 +108,7 @@ impl<T: Scalar> Rows<T> {
 const UNMOVED: [usize; STILL] = [1, STILL + 1, STILL + TURNING + 1, 2, STILL, STILL + TURNING];
 
 /// What a slide multiplies a function by.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Factor {
     One,
     Minus,
@@ -114,8 +138,7 @@ const SLIDING: [(usize, usize, Factor); MOVING] = [
 /// The same of the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a fourth joint that slides: directions stay.
 const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
 
-/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four
-/// stay.
+/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four stay.
 const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
     (STILL + TURNING, STILL + 3, Factor::Still),
     (STILL + 3, STILL + TURNING, Factor::StillBack),
@@ -128,12 +151,12 @@ const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
 ];
 
 /// `a + b` in both sides' products.
-fn sum<T: Scalar>(a: &[T; PRODUCTS], b: &[T; PRODUCTS]) -> Row<T> {
+fn sum(a: &Products, b: &Products) -> Row {
     difference(a, &b.map(|entry| -entry))
 }
 
 /// `a - b` in both sides' products, whose 1 is the same.
-fn difference<T: Scalar>(a: &[T; PRODUCTS], b: &[T; PRODUCTS]) -> Row<T> {
+fn difference(a: &Products, b: &Products) -> Row {
     std::array::from_fn(|column| match column {
         0 => a[0] - b[0],
         1..PRODUCTS => a[column],
@@ -142,20 +165,19 @@ fn difference<T: Scalar>(a: &[T; PRODUCTS], b: &[T; PRODUCTS]) -> Row<T> {
 }
 
 /// The near joint whose half angle or way the equations are multiplied by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Doubled<T> {
+pub(super) struct Doubled {
     /// Whether it is the second one.
     pub second: bool,
     /// Whether it slides.
     pub slides: bool,
     /// `n` of its axis.
-    pub square: T,
+    pub square: Residue,
 }
 
-impl<T: Scalar> Doubled<T> {
+impl Doubled {
     /// The near products of a row in the monomials `C^2, C S, S^2` of half the angle of the joint, each with 1, c, s of the other one:
     /// `1 = C^2 + n S^2`, `c = C^2 - n S^2`, `s' = 2 C S`; for a joint that slides, `1 = C^2`, `d' = C S`, `d'^2 = S^2`.
-    pub fn monomials(&self, row: &Row<T>) -> [[T; 3]; 3] {
+    pub fn monomials(&self, row: &Row) -> [[Residue; 3]; 3] {
         let (step, other) = if self.second { (1, 3) } else { (3, 1) };
         let mut table = [[row[0]; 3]; 3];
         for k in 0..3 {

@@ -9,54 +9,57 @@
 //! alone is its direction `l`, a direction `a` across it, and lines along `l`: the vectors `a`, `l`, `p x l`, `l x a` and the scalars
 //! `p.a`, `p.(l x a)` are fourteen functions of the same kind.
 
-use super::scalar::{Scalar, Vector, cross, dot, scale, sub};
+use super::residue::Residue;
 use super::screw::{Axis, Figure};
+use super::vector::{Vector, cross, dot, scale, sub};
 
 /// Functions that the motion along the frame's axis leaves alone.
-pub const STILL: usize = 6;
+pub(super) const STILL: usize = 6;
 /// Vectors among the functions.
-pub const TURNING: usize = 4;
+pub(super) const TURNING: usize = 4;
 /// All functions: of each vector the component along the frame's axis, the two scalars, the components along the two directions across.
-pub const FUNCTIONS: usize = 3 * TURNING + 2;
+const FUNCTIONS: usize = 3 * TURNING + 2;
 /// The products of one of 1, c, s' of a first joint and one of 1, c, s' of a second one: the second changes fastest.
-pub const PRODUCTS: usize = 9;
+pub(super) const PRODUCTS: usize = 9;
+
+/// Coefficients of the products.
+pub(super) type Products = [Residue; PRODUCTS];
+/// By function, its coefficients: along the axis, the scalars, along `e`, along `w x e`.
+pub(super) type Profile = [Products; FUNCTIONS];
 
 /// A frame on the axis whose angle or way is hidden.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame<T> {
+pub(super) struct Frame {
     /// A point on the axis.
-    pub origin: Vector<T>,
+    origin: Vector,
     /// `w`, the axis; not zero, of any length.
-    pub axis: Vector<T>,
+    axis: Vector,
     /// `e`, perpendicular to `w`, and `w x e`.
-    pub across: [Vector<T>; 2],
+    pub across: [Vector; 2],
 }
 
-/// The coefficients of the functions of a figure that two joints move, in the nine products of their coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Profile<T> {
-    /// By function: along the axis, the scalars, along `e`, along `w x e`.
-    pub functions: [[T; PRODUCTS]; FUNCTIONS],
-}
+impl Frame {
+    /// A frame on `axis`.
+    pub fn on(axis: &Axis) -> Self {
+        let [x, y, z] = axis.direction;
+        let zero = axis.units[0];
+        // Of x, y, z one is not zero.
+        let e = if x.value != 0 || y.value != 0 { [-y, x, zero] } else { [z, zero, zero] };
+        Frame { origin: axis.point, axis: axis.direction, across: [e, cross(&axis.direction, &e)] }
+    }
 
-impl<T: Scalar> Profile<T> {
     /// The functions of `figure`, which the axis `second` moves first and then the axis `first`.
-    pub fn new(frame: &Frame<T>, first: &Axis<T>, second: &Axis<T>, figure: &Figure<T>) -> Self {
+    pub fn profile(&self, first: &Axis, second: &Axis, figure: &Figure) -> Profile {
         let inner = second.samples().map(|by| figure.moved(second, by));
-        let table = first.samples().map(|by| inner.map(|figure| frame.functions(&figure.moved(first, by))));
-        let row = |function: usize| {
-            let samples = table.map(|values| values.map(|values| values[function]));
-            let by_second = samples.map(|values| second.coefficients(values));
+        let table = first.samples().map(|by| inner.map(|figure| self.functions(&figure.moved(first, by))));
+        std::array::from_fn(|function| {
+            let by_second = table.map(|values| second.coefficients(values.map(|values| values[function])));
             let by_first = [0, 1, 2].map(|k| first.coefficients(by_second.map(|values| values[k])));
             std::array::from_fn(|product| by_first[product % 3][product / 3])
-        };
-        Profile { functions: std::array::from_fn(row) }
+        })
     }
-}
 
-impl<T: Scalar> Frame<T> {
-    fn functions(&self, figure: &Figure<T>) -> [T; FUNCTIONS] {
-        let (p, l) = (sub(&figure.line.point, &self.origin), figure.line.direction);
+    fn functions(&self, figure: &Figure) -> [Residue; FUNCTIONS] {
+        let (p, l) = (sub(&figure.point, &self.origin), figure.direction);
         let (vectors, scalars) = if let Some(a) = figure.side {
             let b = cross(&l, &a);
             ([a, l, cross(&p, &l), b], [dot(&p, &a), dot(&p, &b)])
@@ -64,13 +67,12 @@ impl<T: Scalar> Frame<T> {
             let (square, along) = (dot(&p, &p), dot(&p, &l));
             ([p, l, cross(&p, &l), sub(&scale(&l, square), &scale(&p, along + along))], [square, along])
         };
-        let [w, e, f] = [self.axis, self.across[0], self.across[1]];
         let mut values = [scalars[0]; FUNCTIONS];
         values[TURNING + 1] = scalars[1];
         for (k, vector) in vectors.iter().enumerate() {
-            values[k] = dot(&w, vector);
-            values[STILL + k] = dot(&e, vector);
-            values[STILL + TURNING + k] = dot(&f, vector);
+            values[k] = dot(&self.axis, vector);
+            values[STILL + k] = dot(&self.across[0], vector);
+            values[STILL + TURNING + k] = dot(&self.across[1], vector);
         }
         values
     }

@@ -1,0 +1,85 @@
+//! Lines in space that turn about each other ([`Axis`], [`Figure`]), modulo a prime.
+
+use super::residue::Residue;
+use super::vector::{Vector, add, cross, dot, scale, sub};
+
+/// The axis of a joint: its line with what moving by it needs.
+///
+/// With `n = w.w` a turn by `q` has the coordinates `c = cos q` and `s' = sin q / sqrt n`, which fulfil `c^2 + n s'^2 = 1`: no
+/// square root is needed for a direction of any length. A joint that slides by `d' w` has the coordinates `d'^2` and `d'` in their place.
+#[derive(Clone, Copy)]
+pub(super) struct Axis {
+    /// `w`; not zero, of any length.
+    pub direction: Vector,
+    /// Any point of the line.
+    pub point: Vector,
+    /// Whether the joint slides along it.
+    pub slides: bool,
+    /// `n`.
+    pub square: Residue,
+    /// `1 / n`.
+    pub inverse_square: Residue,
+    /// `1 / (1 + n)`, for the turns at which functions of the angle are sampled.
+    pub sample: Residue,
+    /// Nought, one and a half.
+    pub units: [Residue; 3],
+}
+
+/// What a joint leaves alone: the line of its axis; of a joint that slides, directions: along it, and one across it.
+#[derive(Clone, Copy)]
+pub(super) struct Figure {
+    pub direction: Vector,
+    pub point: Vector,
+    pub side: Option<Vector>,
+}
+
+impl Figure {
+    /// What the joint of `axis` leaves alone; `across` is perpendicular to it.
+    pub fn of(axis: &Axis, across: Vector) -> Self {
+        Figure { direction: axis.direction, point: axis.point, side: axis.slides.then_some(across) }
+    }
+
+    /// The figure moved by the joint of `axis`, given `c` and `s'`, or `d'^2` and `d'`.
+    pub fn moved(&self, axis: &Axis, by: [Residue; 2]) -> Figure {
+        if axis.slides {
+            return Figure { point: add(&self.point, &scale(&axis.direction, by[1])), ..*self };
+        }
+        let arm = axis.turned(&sub(&self.point, &axis.point), by);
+        Figure {
+            direction: axis.turned(&self.direction, by),
+            point: add(&axis.point, &arm),
+            side: self.side.map(|side| axis.turned(&side, by)),
+        }
+    }
+}
+
+impl Axis {
+    /// A vector turned about the direction of the axis.
+    fn turned(&self, v: &Vector, [c, s]: [Residue; 2]) -> Vector {
+        let along = scale(&self.direction, dot(&self.direction, v) * self.inverse_square);
+        let across = sub(v, &along);
+        add(&along, &add(&scale(&across, c), &scale(&cross(&self.direction, v), s)))
+    }
+
+    /// `c` and `s'` of the three turns that functions are sampled at: half-angle tangents 0, `sqrt n` and `-sqrt n`; or the slides by
+    /// 0, 1 and -1.
+    pub fn samples(&self) -> [[Residue; 2]; 3] {
+        let [zero, one, _] = self.units;
+        if self.slides {
+            return [[zero, zero], [one, one], [one, -one]];
+        }
+        let (c, s) = ((one - self.square) * self.sample, (one + one) * self.sample);
+        [[one, zero], [c, s], [c, -s]]
+    }
+
+    /// The coefficients of 1, `c` and `s'`, or of 1, `d'^2` and `d'`, of a function that is affine in them, from its values at the samples.
+    pub fn coefficients(&self, [f, g, h]: [Residue; 3]) -> [Residue; 3] {
+        let [_, one, half] = self.units;
+        let (mean, wide) = (half * (g + h), one + self.square);
+        if self.slides {
+            return [f, mean - f, half * (g - h)];
+        }
+        let cosine = half * (f - mean) * wide * self.inverse_square;
+        [f - cosine, cosine, half * half * (g - h) * wide]
+    }
+}

@@ -1,0 +1,69 @@
+//! The axes of six joints ([`Layout`]), and their frames.
+
+use groebot_runtime::six_axes::{Chain, Formulations, Rigid};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::formulation::Formulation;
+
+/// A line with a direction, and a point on it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// Of length one.
+    pub direction: [f64; 3],
+    /// Any point of the line.
+    pub point: [f64; 3],
+}
+
+/// The axes of six joints at zero, from base to tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Directions of length one, and points; of a joint that slides any point.
+    pub lines: [Line; 6],
+    /// By joint: whether it slides along its axis.
+    pub slides: [bool; 6],
+    /// A typical length of the chain, in the same unit.
+    pub length: f64,
+}
+
+impl Layout {
+    /// The solver of the chain whose tip is at `tip` at zero, in the unit of the lines; the formulations are taken in this order.
+    ///
+    /// # Panics
+    /// As [`Formulations::new`].
+    pub fn chain(&self, tip: &Rigid, formulations: &[Formulation]) -> Chain {
+        let formulations: Vec<_> = formulations.iter().map(|&formulation| formulation.into()).collect();
+        let share = 1.0 / self.length;
+        let lines = self.lines.map(|line| Line { point: line.point.map(|entry| entry * share), ..line });
+        let across = lines.each_ref().map(across);
+        let frames: [Rigid; 6] = std::array::from_fn(|joint| frame(&lines[joint], &across[joint]));
+        let step = |joint: usize| match joint {
+            0 => frames[0],
+            _ => frames[joint - 1].inverse().after(&frames[joint]),
+        };
+        Chain {
+            directions: lines.map(|line| line.direction),
+            points: lines.map(|line| line.point),
+            across,
+            slides: self.slides,
+            steps: std::array::from_fn(step),
+            last: frames[5],
+            back: tip.inverse(),
+            length: self.length,
+            formulations: Formulations::new(&formulations),
+        }
+    }
+}
+
+/// Two directions across the line and each other.
+fn across(line: &Line) -> [[f64; 3]; 2] {
+    let w = Vector3::from(line.direction);
+    let e = w.cross(&Vector3::ith(w.iamin(), 1.0));
+    let e = e * (1.0 / e.dot(&e).sqrt());
+    [e.into(), w.cross(&e).into()]
+}
+
+/// The motion that takes the base frame to one whose z axis is the line.
+fn frame(line: &Line, [x, y]: &[[f64; 3]; 2]) -> Rigid {
+    Rigid { rotation: [0, 1, 2].map(|k| [x[k], y[k], line.direction[k]]), translation: line.point }
+}
