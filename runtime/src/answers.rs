@@ -1,5 +1,7 @@
 //! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
 
+use core::array::from_fn;
+
 use crate::approach::{LANES, Ways, abreast};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
 use crate::number::{Guard, Lanes, Number};
@@ -20,6 +22,8 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pairs: Option<&'a mut [Pairs<M>]>,
     usual: bool,
     pub count: usize,
+    /// Whether usual cases alone have run.
+    is_ordinary: bool,
     /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     pub unsound: usize,
@@ -43,16 +47,19 @@ struct Fits<M: Mechanism> {
 impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
     #[inline(always)]
     fn is_usual(&mut self, guard: Guard<f64>) -> bool {
+        self.is_ordinary &= guard.here;
         guard.here
     }
 
     #[inline(always)]
     fn is_rare(&mut self, guard: Guard<f64>) -> bool {
+        self.is_ordinary &= !guard.here;
         guard.here
     }
 
     #[inline(always)]
     fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
+        self.is_ordinary &= !guard.here;
         guard.here && (guard.beside || !self.suffice_since(before))
     }
 
@@ -104,6 +111,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             out,
             pairs,
             usual: true,
+            is_ordinary: true,
             count: 0,
             candidates: 0,
             unsound: 0,
@@ -150,7 +158,9 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         if self.pairs.is_some() {
             return self.flush_pairs();
         }
-        let joints = joints(self.problem.mechanism, &self.at);
+        let facts = self.problem.facts();
+        let is_ordinary = self.is_ordinary && self.waiting == facts.candidates && self.candidates == facts.candidates;
+        let joints = joints::<M>(&facts, &self.at, is_ordinary);
         if self.problem.facts().nearby.is_some() {
             return self.flush_nearby(&joints);
         }
@@ -302,7 +312,7 @@ fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Join
 
 impl<M: Mechanism> Fits<M> {
     /// Those of the first so many candidates.
-    #[inline(never)]
+    #[inline(always)]
     fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
         let room = problem.facts().candidates;
         let none = || Array::by(room, |_| 0.0);
@@ -338,50 +348,50 @@ fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes
     sound
 }
 
-/// By joint and candidate, the joint values. Angles that only differ in signs from those of the candidate before are not computed again.
-#[inline(never)]
-fn joints<M: Mechanism>(mechanism: &M, at: &Places<M, Abreast<M>>) -> Joints<M, Abreast<M>> {
-    let Facts { joints, candidates: room, .. } = mechanism.facts();
-    let mut across: Joints<M, Abreast<M>> = Array::by(joints.len(), |_| Array::by(room, |_| 0.0));
-    let mut up = across.clone();
-    let mut which: Joints<M, Abreast<M, usize>> = Array::by(joints.len(), |_| Array::by(room, |_| 0));
-    let mut count = 0;
-    for (joint, which) in joints.iter().zip(which.as_mut()) {
-        let Joint::Angle([c, s]) = *joint else { continue };
-        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
-        let mut before = [f64::NAN; 2];
-        for k in 0..room {
-            let pair = [cosines[k].abs(), sines[k].abs()];
-            count += usize::from((k == 0) | (pair[0] != before[0]) | (pair[1] != before[1]));
-            let place = usize::min(count - 1, joints.len() * room - 1);
-            across.as_mut()[place / room].as_mut()[place % room] = pair[0];
-            up.as_mut()[place / room].as_mut()[place % room] = pair[1];
-            (which.as_mut()[k], before) = (place, pair);
+/// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
+#[inline(always)]
+fn joints<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, is_ordinary: bool) -> Joints<M, Abreast<M>> {
+    let mut q: Joints<M, Abreast<M>> = Array::by(facts.joints.len(), |_| Array::by(facts.candidates, |_| 0.0));
+    let at = at.as_ref();
+    for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
+        match *joint {
+            Joint::Angle([c, s]) => {
+                let alike = if is_ordinary { alike(facts, i) } else { 0 };
+                find_angles::<M>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
+            }
+            Joint::Length(place) => q.clone_from(&at[place]),
         }
     }
-    for first in (0..count).step_by(LANES) {
-        let (row, first) = (first / room, first % room);
-        let pair = |rows: &Joints<M, Abreast<M>>| {
-            Lanes::<LANES>(core::array::from_fn(|lane| rows.as_ref()[row].as_ref()[first + lane]))
-        };
-        let acutes = acute(pair(&across), pair(&up));
-        across.as_mut()[row].as_mut()[first..first + LANES].copy_from_slice(&acutes.0);
+    q
+}
+
+/// The binary logarithm of how many angles of a joint in a row differ in signs alone at an ordinary target; at most half of them.
+#[inline(always)]
+fn alike(facts: &Facts<'_>, joint: usize) -> u32 {
+    let room = facts.candidates;
+    let Some(first) = facts.first.get(joint * room..(joint + 1) * room) else { return 0 };
+    let mut alike = 0;
+    while room % (4 << alike) == 0
+        && first.iter().enumerate().all(|(k, &first)| first <= k >> (alike + 1) << (alike + 1))
+    {
+        alike += 1;
     }
-    for ((joint, which), q) in joints.iter().zip(which.as_ref()).zip(up.as_mut()) {
-        let Joint::Angle([c, s]) = *joint else {
-            continue;
-        };
-        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
-        for k in 0..room {
-            let place = which.as_ref()[k];
-            let acute = across.as_ref()[place / room].as_ref()[place % room];
-            q.as_mut()[k] = unfold(acute, cosines[k], sines[k]);
-        }
+    alike
+}
+
+/// Finds angles of which so many in a row differ in signs alone.
+#[inline(always)]
+fn find_angles<M: Mechanism>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
+    let room = cosines.len();
+    let mut acutes: Abreast<M> = Array::by(room, |_| 0.0);
+    let acutes = acutes.as_mut();
+    for k in (0..room >> alike).step_by(LANES) {
+        let pair = |row: &[f64]| Lanes::<LANES>(from_fn(|lane| row[(k + lane) << alike].abs()));
+        acutes[k..k + LANES].copy_from_slice(&acute(pair(cosines), pair(sines)).0);
     }
-    for (joint, q) in joints.iter().zip(up.as_mut()) {
-        if let Joint::Length(place) = *joint {
-            q.clone_from(&at.as_ref()[place]);
-        }
+    for k in (0..room).step_by(LANES) {
+        let pair = |row: &[f64]| Lanes::<LANES>(from_fn(|lane| row[k + lane]));
+        let own = Lanes(from_fn(|lane| acutes[(k + lane) >> alike]));
+        angles[k..k + LANES].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
     }
-    up
 }
