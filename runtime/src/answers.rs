@@ -152,6 +152,20 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.usual && self.problem.facts().isolated.is_none_or(|most| self.count <= most)
     }
 
+    /// Whether those that wait are the candidates of an ordinary target.
+    #[inline(always)]
+    fn are_ordinary(&self) -> bool {
+        let room = self.problem.facts().candidates;
+        self.is_ordinary && self.waiting == room && self.candidates == room
+    }
+
+    /// So many of the candidates that wait, in a row, miss the equations by the same.
+    #[inline(always)]
+    fn twins(&self) -> usize {
+        let Facts { candidates, twins, .. } = self.problem.facts();
+        if candidates % (LANES * twins) == 0 && self.are_ordinary() { twins } else { 1 }
+    }
+
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
     #[inline(never)]
     pub fn flush(&mut self) {
@@ -159,12 +173,11 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             return self.flush_pairs();
         }
         let facts = self.problem.facts();
-        let is_ordinary = self.is_ordinary && self.waiting == facts.candidates && self.candidates == facts.candidates;
-        let joints = joints::<M>(&facts, &self.at, is_ordinary);
+        let joints = joints::<M>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
             return self.flush_nearby(&joints);
         }
-        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let fits = Fits::new(&self.problem, &self.at, self.waiting, self.twins());
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
@@ -266,7 +279,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     #[inline(never)]
     fn flush_pairs(&mut self) {
         let facts = self.problem.facts();
-        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let fits = Fits::new(&self.problem, &self.at, self.waiting, self.twins());
         let waiting = core::mem::take(&mut self.waiting).min(facts.candidates);
         let Some(pairs) = &mut self.pairs else { return };
         self.usual &= facts.nearby.is_none();
@@ -311,21 +324,21 @@ fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Join
 }
 
 impl<M: Mechanism> Fits<M> {
-    /// Those of the first so many candidates.
+    /// Those of the first so many candidates, of which some in a row may be alike.
     #[inline(always)]
-    fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+    fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize, alike: usize) -> Self {
         let room = problem.facts().candidates;
         let none = || Array::by(room, |_| 0.0);
         let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };
         let p = everywhere::<M, LANES>(problem);
-        for first in (0..waiting.min(room)).step_by(LANES) {
-            let at: Places<M, Lanes<LANES>> = abreast::<M>(at, first);
+        for first in (0..waiting.min(room)).step_by(LANES * alike) {
+            let at: Places<M, Lanes<LANES>> = abreast::<M>(at, first, alike);
             let [residual, relative] = fit::<M, LANES>(problem.mechanism, &p, &at);
             let sound = sound::<M>(&problem.facts(), &at);
-            for lane in 0..LANES {
-                fits.residual.as_mut()[first + lane] = residual.0[lane];
-                fits.relative.as_mut()[first + lane] = relative.0[lane];
-                fits.sound.as_mut()[first + lane] = sound.0[lane];
+            for k in 0..LANES * alike {
+                fits.residual.as_mut()[first + k] = residual.0[k / alike];
+                fits.relative.as_mut()[first + k] = relative.0[k / alike];
+                fits.sound.as_mut()[first + k] = sound.0[k / alike];
             }
         }
         fits
