@@ -1,6 +1,7 @@
 //! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
 
 use core::array::from_fn;
+use core::ops::Range;
 
 use crate::approach::{LANES, Ways, abreast};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
@@ -177,7 +178,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         if self.problem.facts().nearby.is_some() {
             return self.flush_nearby(&joints);
         }
-        let fits = Fits::new(&self.problem, &self.at, self.waiting, self.twins());
+        let twins = self.twins();
+        let fits = Fits::new(&self.problem, &self.at, self.waiting, twins);
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
@@ -187,7 +189,9 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let (residual, relative) = (fits.residual.as_ref()[k], fits.relative.as_ref()[k]);
             let fit = Fit { residual, relative, accepted: true };
             let holds = free == 0 && !close && relative < ROUNDING && fits.sound.as_ref()[k] > 0.0;
-            if holds && usual && self.write_apart(k, &q, &fit) {
+            // The second of two that are alike is as far from those before as the first.
+            let nearest = if k % twins == 0 { 0 } else { k - 1 };
+            if holds && usual && self.write_apart(nearest..k, k, &q, &fit) {
                 continue;
             }
             usual = false;
@@ -223,7 +227,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
                 continue;
             };
             let holds = approach.pivot >= approach.missed * if found.close { STEEP } else { MILD };
-            if holds && usual && self.write_apart(k, &approach.end, &approach.fit) {
+            if holds && usual && self.write_apart(0..k, k, &approach.end, &approach.fit) {
                 continue;
             }
             usual = false;
@@ -232,10 +236,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Writes a candidate that holds if there is room, and it is apart from all before it.
+    /// Writes a candidate that holds if there is room, and it is apart from others.
     #[inline(always)]
-    fn write_apart(&mut self, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
-        let is_apart = self.count < self.out.len() && (0..k).all(|other| self.are_apart(k, other));
+    fn write_apart(&mut self, mut others: Range<usize>, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
+        let is_apart = self.count < self.out.len() && others.all(|other| self.are_apart(k, other));
         if is_apart {
             self.write(&self.found.as_ref()[k].clone(), q.clone(), fit);
         }
@@ -309,10 +313,13 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     fn are_apart(&self, k: usize, other: usize) -> bool {
         let at = self.at.as_ref();
         let cosine = |place: usize| at[place].as_ref()[k] * at[place].as_ref()[other];
-        self.problem.facts().last_first.iter().any(|&i| match self.problem.facts().joints[i] {
-            Joint::Angle([c, s]) => cosine(c) + cosine(s) < FAR_APART,
-            Joint::Length(_) => false,
-        })
+        for &i in self.problem.facts().last_first {
+            let Joint::Angle([c, s]) = self.problem.facts().joints[i] else { continue };
+            if cosine(c) + cosine(s) < FAR_APART {
+                return true;
+            }
+        }
+        false
     }
 }
 
