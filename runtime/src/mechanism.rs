@@ -61,8 +61,11 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>,
     {
-        let (tip, compared) = (self.tip(at), self.facts().compared);
-        Array::by(compared.len(), |i| tip.as_ref()[i] - p.as_ref()[compared[i]])
+        let mut values = self.tip(at);
+        for (value, &parameter) in values.as_mut().iter_mut().zip(self.facts().compared) {
+            *value = *value - p.as_ref()[parameter];
+        }
+        values
     }
 
     /// The sizes of equations: sums of their terms' magnitudes.
