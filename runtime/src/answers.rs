@@ -162,24 +162,42 @@ impl<'a, M: Mechanism> Answers<'a, M> {
 
     /// So many of the candidates that wait, in a row, miss the equations by the same.
     #[inline(always)]
-    fn twins(&self) -> usize {
+    fn twins<const W: usize>(&self) -> usize {
         let Facts { candidates, twins, .. } = self.problem.facts();
-        if candidates % (LANES * twins) == 0 && self.are_ordinary() { twins } else { 1 }
+        if candidates % (W * twins) == 0 && self.are_ordinary() { twins } else { 1 }
     }
 
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
     #[inline(never)]
+    #[allow(unsafe_code)]
     pub fn flush(&mut self) {
+        #[cfg(all(target_arch = "x86_64", feature = "std"))]
+        if self.problem.facts().candidates % 4 == 0 && std::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has what the function is compiled for.
+            return unsafe { self.flush_by_4() };
+        }
+        self.flush_by::<LANES>();
+    }
+
+    #[cfg(all(target_arch = "x86_64", feature = "std"))]
+    #[target_feature(enable = "avx2")]
+    fn flush_by_4(&mut self) {
+        self.flush_by::<4>();
+    }
+
+    /// The same, so many at once.
+    #[inline(always)]
+    fn flush_by<const W: usize>(&mut self) {
         if self.pairs.is_some() {
-            return self.flush_pairs();
+            return self.flush_pairs::<W>();
         }
         let facts = self.problem.facts();
-        let joints = joints::<M>(&facts, &self.at, self.are_ordinary());
+        let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
             return self.flush_nearby(&joints);
         }
-        let twins = self.twins();
-        let fits = Fits::new(&self.problem, &self.at, self.waiting, twins);
+        let twins = self.twins::<W>();
+        let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, twins);
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
@@ -280,10 +298,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self) {
+    #[inline(always)]
+    fn flush_pairs<const W: usize>(&mut self) {
         let facts = self.problem.facts();
-        let fits = Fits::new(&self.problem, &self.at, self.waiting, self.twins());
+        let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, self.twins::<W>());
         let waiting = core::mem::take(&mut self.waiting).min(facts.candidates);
         let Some(pairs) = &mut self.pairs else { return };
         self.usual &= facts.nearby.is_none();
@@ -333,16 +351,16 @@ fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Join
 impl<M: Mechanism> Fits<M> {
     /// Those of the first so many candidates, of which some in a row may be alike.
     #[inline(always)]
-    fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize, alike: usize) -> Self {
+    fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize, alike: usize) -> Self {
         let room = problem.facts().candidates;
         let none = || Array::by(room, |_| 0.0);
         let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };
-        let p = everywhere::<M, LANES>(problem);
-        for first in (0..waiting.min(room)).step_by(LANES * alike) {
-            let at: Places<M, Lanes<LANES>> = abreast::<M>(at, first, alike);
-            let [residual, relative] = fit::<M, LANES>(problem.mechanism, &p, &at);
-            let sound = sound::<M>(&problem.facts(), &at);
-            for k in 0..LANES * alike {
+        let p = everywhere::<M, W>(problem);
+        for first in (0..waiting.min(room)).step_by(W * alike) {
+            let at: Places<M, Lanes<W>> = abreast::<M, W>(at, first, alike);
+            let [residual, relative] = fit::<M, W>(problem.mechanism, &p, &at);
+            let sound = sound::<M, W>(&problem.facts(), &at);
+            for k in 0..W * alike {
                 fits.residual.as_mut()[first + k] = residual.0[k / alike];
                 fits.relative.as_mut()[first + k] = relative.0[k / alike];
                 fits.sound.as_mut()[first + k] = sound.0[k / alike];
@@ -354,8 +372,8 @@ impl<M: Mechanism> Fits<M> {
 
 /// Whether candidates are of joints at all: 1, else 0.
 #[inline(always)]
-fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes<LANES> {
-    let (mut sound, at) = (Lanes([1.0; LANES]), at.as_ref());
+fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W>>) -> Lanes<W> {
+    let (mut sound, at) = (Lanes([1.0; W]), at.as_ref());
     for joint in facts.joints {
         sound = match *joint {
             Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ROUNDING),
@@ -370,14 +388,14 @@ fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes
 
 /// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
 #[inline(always)]
-fn joints<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, is_ordinary: bool) -> Joints<M, Abreast<M>> {
+fn joints<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, is_ordinary: bool) -> Joints<M, Abreast<M>> {
     let mut q: Joints<M, Abreast<M>> = Array::by(facts.joints.len(), |_| Array::by(facts.candidates, |_| 0.0));
     let at = at.as_ref();
     for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
         match *joint {
             Joint::Angle([c, s]) => {
-                let alike = if is_ordinary { alike(facts, i) } else { 0 };
-                find_angles::<M>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
+                let alike = if is_ordinary { alike::<W>(facts, i) } else { 0 };
+                find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
             }
             Joint::Length(place) => q.clone_from(&at[place]),
         }
@@ -387,11 +405,11 @@ fn joints<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, is_ordina
 
 /// The binary logarithm of how many angles of a joint in a row differ in signs alone at an ordinary target; at most half of them.
 #[inline(always)]
-fn alike(facts: &Facts<'_>, joint: usize) -> u32 {
+fn alike<const W: usize>(facts: &Facts<'_>, joint: usize) -> u32 {
     let room = facts.candidates;
     let Some(first) = facts.first.get(joint * room..(joint + 1) * room) else { return 0 };
     let mut alike = 0;
-    while room % (4 << alike) == 0
+    while room % (2 * W << alike) == 0
         && first.iter().enumerate().all(|(k, &first)| first <= k >> (alike + 1) << (alike + 1))
     {
         alike += 1;
@@ -401,17 +419,17 @@ fn alike(facts: &Facts<'_>, joint: usize) -> u32 {
 
 /// Finds angles of which so many in a row differ in signs alone.
 #[inline(always)]
-fn find_angles<M: Mechanism>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
+fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
     let room = cosines.len();
     let mut acutes: Abreast<M> = Array::by(room, |_| 0.0);
     let acutes = acutes.as_mut();
-    for k in (0..room >> alike).step_by(LANES) {
-        let pair = |row: &[f64]| Lanes::<LANES>(from_fn(|lane| row[(k + lane) << alike].abs()));
-        acutes[k..k + LANES].copy_from_slice(&acute(pair(cosines), pair(sines)).0);
+    for k in (0..room >> alike).step_by(W) {
+        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[(k + lane) << alike].abs()));
+        acutes[k..k + W].copy_from_slice(&acute(pair(cosines), pair(sines)).0);
     }
-    for k in (0..room).step_by(LANES) {
-        let pair = |row: &[f64]| Lanes::<LANES>(from_fn(|lane| row[k + lane]));
+    for k in (0..room).step_by(W) {
+        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[k + lane]));
         let own = Lanes(from_fn(|lane| acutes[(k + lane) >> alike]));
-        angles[k..k + LANES].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
+        angles[k..k + W].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
     }
 }
