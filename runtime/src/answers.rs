@@ -4,7 +4,7 @@ use core::array::from_fn;
 use core::ops::Range;
 
 use crate::approach::{LANES, Ways, abreast};
-use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
+use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places};
 use crate::number::{Guard, Lanes, Number};
 use crate::problem::{End, Fit, Problem, everywhere, fit};
 use crate::solution::{Error, Pairs, Solution};
@@ -132,10 +132,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Walks through the blocks, and takes in all candidates.
-    #[inline(always)]
+    #[inline(never)]
     pub fn find(&mut self) -> Result<(), Error> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
-        mechanism.walk(parameters, self);
+        walk(mechanism, parameters, self);
         self.flush();
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
@@ -339,6 +339,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
         false
     }
+}
+
+/// Apart from callers, so that the parameters are known not to change.
+#[inline(never)]
+fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut Answers<'_, M>) {
+    mechanism.walk(parameters, answers);
 }
 
 /// Whether an angle tells two answers apart.
