@@ -48,20 +48,23 @@ struct Fits<M: Mechanism> {
 impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
     #[inline(always)]
     fn is_usual(&mut self, guard: Guard<f64>) -> bool {
-        self.is_ordinary &= guard.here;
+        if !guard.here {
+            self.is_ordinary = false;
+        }
         guard.here
     }
 
     #[inline(always)]
     fn is_rare(&mut self, guard: Guard<f64>) -> bool {
-        self.is_ordinary &= !guard.here;
+        if guard.here {
+            self.is_ordinary = false;
+        }
         guard.here
     }
 
     #[inline(always)]
     fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
-        self.is_ordinary &= !guard.here;
-        guard.here && (guard.beside || !self.suffice_since(before))
+        self.is_rare(guard) && (guard.beside || !self.suffice_since(before))
     }
 
     #[inline(always)]
@@ -156,8 +159,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     /// Whether those that wait are the candidates of an ordinary target.
     #[inline(always)]
     fn are_ordinary(&self) -> bool {
-        let room = self.problem.facts().candidates;
-        self.is_ordinary && self.waiting == room && self.candidates == room
+        let Facts { candidates: room, alike, .. } = self.problem.facts();
+        !alike.is_empty() && self.is_ordinary && self.waiting == room && self.candidates == room
     }
 
     /// So many of the candidates that wait, in a row, miss the equations by the same.
@@ -394,13 +397,17 @@ fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W
 
 /// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
 #[inline(always)]
-fn joints<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Abreast<M>>, is_ordinary: bool) -> Joints<M, Abreast<M>> {
+fn joints<M: Mechanism, const W: usize>(
+    facts: &Facts<'_>,
+    at: &Places<M, Abreast<M>>,
+    is_ordinary: bool,
+) -> Joints<M, Abreast<M>> {
     let mut q: Joints<M, Abreast<M>> = Array::by(facts.joints.len(), |_| Array::by(facts.candidates, |_| 0.0));
     let at = at.as_ref();
     for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
         match *joint {
             Joint::Angle([c, s]) => {
-                let alike = if is_ordinary { alike::<W>(facts, i) } else { 0 };
+                let alike = if is_ordinary { (facts.alike[i] | facts.candidates / W).trailing_zeros() } else { 0 };
                 find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
             }
             Joint::Length(place) => q.clone_from(&at[place]),
@@ -409,21 +416,7 @@ fn joints<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Abreas
     q
 }
 
-/// The binary logarithm of how many angles of a joint in a row differ in signs alone at an ordinary target; at most half of them.
-#[inline(always)]
-fn alike<const W: usize>(facts: &Facts<'_>, joint: usize) -> u32 {
-    let room = facts.candidates;
-    let Some(first) = facts.first.get(joint * room..(joint + 1) * room) else { return 0 };
-    let mut alike = 0;
-    while room % (2 * W << alike) == 0
-        && first.iter().enumerate().all(|(k, &first)| first <= k >> (alike + 1) << (alike + 1))
-    {
-        alike += 1;
-    }
-    alike
-}
-
-/// Finds angles of which so many in a row differ in signs alone.
+/// Finds angles of which a power of two in a row differ in signs alone: one with this logarithm.
 #[inline(always)]
 fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
     let room = cosines.len();

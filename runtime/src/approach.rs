@@ -224,7 +224,11 @@ pub(crate) const LANES: usize = 2;
 
 /// What the equations read of so many candidates, each so many behind the one before.
 #[inline(always)]
-pub(crate) fn abreast<M: Mechanism, const W: usize>(at: &Places<M, Abreast<M>>, first: usize, stride: usize) -> Places<M, Lanes<W>> {
+pub(crate) fn abreast<M: Mechanism, const W: usize>(
+    at: &Places<M, Abreast<M>>,
+    first: usize,
+    stride: usize,
+) -> Places<M, Lanes<W>> {
     let rows = at.as_ref();
     Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }

@@ -126,9 +126,9 @@ pub struct Facts<'a> {
     pub candidates: usize,
     /// So many candidates in a row differ in signs alone, and miss the equations by the same.
     pub twins: usize,
-    /// By joint and candidate of an ordinary target, joint by joint: the first candidate with the same cosine and sine but for signs; empty where many targets are
-    /// solved one by one.
-    pub first: &'a [usize],
+    /// By joint: so many candidates of an ordinary target in a row have the same cosine and sine but for signs; empty where many targets are solved one
+    /// by one.
+    pub alike: &'a [usize],
     /// A length typical of the mechanism.
     pub scale: f64,
     /// The most solutions that a target can have.
@@ -161,7 +161,7 @@ impl Facts<'_> {
         turned: &[],
         candidates: 2,
         twins: 1,
-        first: &[],
+        alike: &[],
         scale: 1.0,
         capacity: 0,
         isolated: None,
