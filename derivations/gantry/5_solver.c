@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 3, 4, 6, 7, 8
 #define GB_FREED 3
-#define GB_FIRST 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
+#define GB_ALIKE 2, 2, 2, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(1.02)
 #define GB_ISOLATED 2
@@ -70,7 +70,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: WristPitch. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T d1, T d2, T d3, T c4, T s4, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T d1, T d2, T d3, T c4, T s4, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r33_ = p[11];
     const T r2 = r13_ * c4 + r23_ * s4, r7 = R(1.0) / GB_(root)(r33_ * r33_ + r2 * r2);
@@ -82,7 +82,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T d1, T d2, T d3, T c4, 
 }
 
 /* Block 1: RailX. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r13_ = p[5], r23_ = p[8], r33_ = p[11], r1 = px - R(0.12) * r13_;
     const T d1 = r1;

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[3, 4, 6, 7, 8],
     candidates: 2,
     twins: 2,
-    first: &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+    alike: &[2, 2, 2, 2, 2, 2],
     scale: 1.02,
     capacity: CAPACITY,
     isolated: Some(2),
@@ -113,6 +113,7 @@ fn block_5<N: Number, C: Candidates<N, Solver>>(p: &[N; 12], found4: Found<N>, [
 }
 
 /// Block 1: RailX.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 12], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, _, r13_, _, _, r23_, _, _, r33_] = *p;
     let r1 = px - 0.12 * r13_; let d1 = r1; let found1 = Found::first(0, 1); let r3 = py - 0.12 * r23_;

@@ -106,6 +106,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: Joint7.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 14], c: &mut C) where f64: With<N> {
     let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, c7, s7] = *p;
     let c7_ = c7; let s7_ = s7; let found1 = Found::first(0, 1); let r3 = r11_ * c7 + r12_ * s7;

@@ -70,7 +70,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: all joints. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11];

@@ -73,7 +73,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 6: A6. */
-static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T c5, T s5, GB_(sink) *c)
+GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T c5, T s5, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
     const T r32_ = p[10], r33_ = p[11], r4 = r13_ * c1 + r23_ * s1, r9 = c2 * r4 - r33_ * s2;
@@ -91,7 +91,7 @@ static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 5: A5. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T f1, T f2, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T f1, T f2, GB_(sink) *c)
 {
     const T r13_ = p[5], r23_ = p[8], r33_ = p[11];
     const size_t before5 = GB_(count)(c);
@@ -123,7 +123,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 4: A2. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, T f1, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r13_ = p[5], r23_ = p[8], r33_ = p[11], magnitude = p[14];
     const size_t before4 = GB_(count)(c);
@@ -153,7 +153,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_
 }
 
 /* Block 1: A3. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r13_ = p[5], r23_ = p[8], r33_ = p[11], c3 = p[12], s3 = p[13];
     const T magnitude = p[14], c3_ = c3, s3_ = s3;

@@ -173,6 +173,7 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 15], found3: Found<N>, [
 }
 
 /// Block 1: A3.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 15], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, _, r13_, _, _, r23_, _, _, r33_, c3, s3, magnitude] = *p;
     let c3_ = c3; let s3_ = s3; let found1 = Found::first(0, 1);

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 8, 10, 11],
     candidates: 8,
     twins: 2,
-    first: &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6],
+    alike: &[8, 2, 2, 2, 2, 2],
     scale: 1.0300064515457703,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -179,6 +179,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [
 }
 
 /// Block 1: Axis1.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, _, _, _, r13_, _, _, r23_, _, _, _, magnitude] = *p;
     let before1 = c.count(); let r1 = 0.16 * r23_ - py; let r3 = px - 0.16 * r13_;

@@ -103,6 +103,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: all joints.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 12], c: &mut C) where f64: With<N> {
     let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_] = *p;
     let six1 = N::alone(&[

@@ -46,7 +46,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: nao_arm_planar. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T py = p[0], pz = p[1], magnitude = p[2];
     const size_t before1 = GB_(count)(c);

@@ -91,6 +91,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: nao_arm_planar.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64: With<N> {
     let [py, pz, magnitude] = *p;
     let before1 = c.count();

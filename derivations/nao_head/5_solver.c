@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2
 #define GB_TURNED 0, 1, 2
 #define GB_FREED 0
-#define GB_FIRST 0, 0, 0, 0
+#define GB_ALIKE 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.1265)
 #define GB_ISOLATED 2
@@ -59,7 +59,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 2: HeadPitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c)
 {
     const T dx = p[0], dy = p[1], dz = p[2], r2 = dx * c1 + dy * s1;
     const T r7 = R(1.0) / GB_(root)(r2 * r2 + dz * dz), c2 = r2 * r7, s2 = R(0.0) - dz * r7;
@@ -68,7 +68,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c
 }
 
 /* Block 1: HeadYaw. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T dx = p[0], dy = p[1];
     const size_t before1 = GB_(count)(c);

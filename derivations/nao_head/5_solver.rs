@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2],
     candidates: 2,
     twins: 2,
-    first: &[0, 0, 0, 0],
+    alike: &[2, 2],
     scale: 0.1265,
     capacity: CAPACITY,
     isolated: Some(2),
@@ -109,6 +109,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], found1: Found<N>, [c
 }
 
 /// Block 1: HeadYaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64: With<N> {
     let [dx, dy, _] = *p;
     let before1 = c.count();

@@ -63,7 +63,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 6: ElbowRoll. */
-static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, GB_(sink) *c)
+GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], dx = p[3], dy = p[4], dz = p[5], r4 = dx * c1 - dz * s1;
     const T r13 = c2 * r4 + dy * s2, r14 = c3 * (dy * c2 - s2 * r4) + s3 * (dz * c1 + dx * s1);
@@ -79,7 +79,7 @@ static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 4: ShoulderRoll. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, T f1, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], dx = p[3], dy = p[4], dz = p[5];
     const T r11 = px - R(0.1137) * dx - R(0.01231) * (sr * vx) + R(0.01231) * (cr * ux);
@@ -116,7 +116,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T cr, T sr, 
 }
 
 /* Block 3: ShoulderPitch. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, GB_(sink) *c)
 {
     const T px = p[0], pz = p[2], dx = p[3], dz = p[5], magnitude = p[6];
     const size_t before3 = GB_(count)(c);
@@ -196,7 +196,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T ux, T uy, T uz, T vx, 
 }
 
 /* Block 1: directions across the ray. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T dx = p[3], dy = p[4], dz = p[5];
     T claim0;

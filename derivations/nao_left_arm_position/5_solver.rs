@@ -148,6 +148,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 6], found2: Found<N>, [c
 }
 
 /// Block 1: ElbowYaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 6], c: &mut C) where f64: With<N> {
     let [px, py, pz, c3, s3, _] = *p;
     let c3_ = c3; let s3_ = s3; let found1 = Found::first(0, 1); let before2 = c.count();

@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_FREED 0, 4, 5
-#define GB_FIRST 0, 0, 2, 2, 4, 4, 6, 6, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4
+#define GB_ALIKE 2, 1, 1, 8, 2, 4
 #define GB_TWINS 1
 #define GB_SCALE R(0.3467054146165801)
 #define GB_ISOLATED 8
@@ -72,7 +72,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, T c5, T s5, T c6, T s6, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, T c5, T s5, T c6, T s6, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11], r4 = r32_ * c6, r5 = r33_ * s6;
@@ -96,7 +96,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, 
 }
 
 /* Block 4: HipYawPitch. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c4, T s4, T c5, T s5, T c6, T s6, T f6, T f5, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c4, T s4, T c5, T s5, T c6, T s6, T f6, T f5, GB_(sink) *c)
 {
     const T r12_ = p[4], r13_ = p[5], r22_ = p[7], r23_ = p[8], r32_ = p[10], r33_ = p[11];
     const size_t before4 = GB_(count)(c);
@@ -128,7 +128,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c4, T s4, T c5, T s5, 
 }
 
 /* Block 3: AnklePitch. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c6, T s6, T f6, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c6, T s6, T f6, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11], magnitude = p[12];
@@ -171,7 +171,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c6, T s6, 
 }
 
 /* Block 1: KneePitch. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r12_ = p[4], r13_ = p[5], r22_ = p[7], r23_ = p[8], r32_ = p[10];
     const T r33_ = p[11], magnitude = p[12];

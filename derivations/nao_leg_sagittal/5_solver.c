@@ -44,7 +44,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: nao_leg_sagittal. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], pz = p[1], magnitude = p[2], r0 = px * px, r1 = pz * pz;
     if (GB_(is_usual)(c, GB_(away)(r0 + r1, R(2.0) * (magnitude * magnitude)))) {

@@ -89,6 +89,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: nao_leg_sagittal.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64: With<N> {
     let [px, pz, magnitude] = *p;
     let r0 = px * px; let r1 = pz * pz;

@@ -346,6 +346,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], found2: Found<N>, [
 }
 
 /// Block 1: KneePitch.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 19], c: &mut C) where f64: With<N> {
     let [left_px, left_py, left_pz, _, left_r12, left_r13, _, left_r22, left_r23, _, left_r32, left_r33, _, _, _, _, _, _, magnitude] = *p;
     let r12 = 2.0 * (left_px * (left_px + 0.04519 * left_r13));

@@ -54,7 +54,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11, 12, 13, 14, 15, 18, 21, 16, 19, 22, 17, 20, 23],
     candidates: 4,
     twins: 1,
-    first: &[0, 0, 0, 0, 0, 0, 2, 2, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0, 2, 2, 0, 0, 2, 2, 0, 1, 2, 3, 0, 1, 2, 3, 0, 0, 2, 2, 0, 1, 2, 3, 0, 1, 2, 3],
+    alike: &[4, 2, 2, 4, 2, 2, 1, 1, 2, 1, 1],
     scale: 0.3467054146165801,
     capacity: CAPACITY,
     freed: &[0, 4, 5, 9, 10],
@@ -382,6 +382,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 25], found1: Found<N>, [
 }
 
 /// Block 1: HipYawPitch.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 25], c: &mut C) where f64: With<N> {
     let [left_px, left_py, left_pz, left_r11, left_r12, _, left_r21, left_r22, _, left_r31, left_r32, _, right_px, right_py, right_pz, right_r11, right_r12, _, right_r21, right_r22, _, right_r31, right_r32, _, magnitude] = *p;
     let before1 = c.count(); let r15 = 0.085 * left_r21 + 0.05 * left_r31 - left_py * left_r31;

@@ -525,6 +525,7 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], found3: Found<N>, [
 }
 
 /// Block 1: TorsoPitch.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 29], c: &mut C) where f64: With<N> {
     let [left_px, left_py, left_pz, left_r11, left_r12, _, left_r21, left_r22, _, left_r31, left_r32, _, left_c2, left_s2, left_c3, left_s3, right_px, right_py, right_pz, right_r11, right_r12, _, right_r21, right_r22, _, right_r31, right_r32, _, magnitude] = *p;
     let left_c2_ = left_c2; let left_s2_ = left_s2; let found1 = Found::first(0, 1); let left_c3_ = left_c3;

@@ -210,6 +210,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 7], found1: Found<N>, [u
 }
 
 /// Block 1: directions across the ray.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 7], c: &mut C) where f64: With<N> {
     let [_, _, _, dx, dy, dz, _] = *p;
     let claim0 = {

@@ -60,7 +60,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 4: ShoulderRoll. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[5];
     const size_t before4 = GB_(count)(c);
@@ -91,7 +91,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_
 }
 
 /* Block 3: ShoulderPitch. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c3_, T s3_, T c4, T s4, T f4, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c3_, T s3_, T c4, T s4, T f4, GB_(sink) *c)
 {
     const T px = p[0], pz = p[2], magnitude = p[5];
     const size_t before3 = GB_(count)(c);
@@ -124,7 +124,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c3_, T s3_, T c4, T s4
 }
 
 /* Block 1: ElbowYaw. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], c3 = p[3], s3 = p[4], c3_ = c3, s3_ = s3;
     const GB_(found) found1 = GB_(first)(0, 1);

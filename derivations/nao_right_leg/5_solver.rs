@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
     candidates: 8,
     twins: 1,
-    first: &[0, 0, 2, 2, 4, 4, 6, 6, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4],
+    alike: &[2, 1, 1, 8, 2, 4],
     scale: 0.3467054146165801,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -184,6 +184,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found2: Found<N>, [
 }
 
 /// Block 1: KneePitch.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, r12_, r13_, _, r22_, r23_, _, r32_, r33_, magnitude] = *p;
     let r14 = 2.0 * (px * (px + 0.04519 * r13_)) + 2.0 * (py * (py + 0.04519 * r23_));

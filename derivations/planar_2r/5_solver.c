@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0
 #define GB_COMPARED 0, 1
 #define GB_FREED 0
-#define GB_FIRST 0, 1, 0, 0
+#define GB_ALIKE 1, 2
 #define GB_TWINS 1
 #define GB_SCALE R(0.9)
 #define GB_ISOLATED 2
@@ -59,7 +59,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: Elbow. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], magnitude = p[2], r3 = R(0.41) - (px * px + py * py);
     const GB_(roots) roots1 = GB_(square_roots)(r3 * r3 - R(0.16000000000000003), GB_(of)(R(1.4142135623730951)));

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1],
     candidates: 2,
     twins: 1,
-    first: &[0, 1, 0, 0],
+    alike: &[1, 2],
     scale: 0.9,
     capacity: CAPACITY,
     isolated: Some(2),
@@ -99,6 +99,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: Elbow.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64: With<N> {
     let [px, py, magnitude] = *p;
     let r3 = 0.41 - (px * px + py * py);

@@ -59,7 +59,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 3: Wrist. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c)
 {
     const T cphi = p[2], sphi = p[3], r4 = sphi * c1 - cphi * s1, r6 = cphi * c1 + sphi * s1;
     const T r10 = c2 * r6 + s2 * r4, r11 = c2 * r4 - s2 * r6, r16 = R(1.0) / GB_(root)(r10 * r10 + r11 * r11);
@@ -69,7 +69,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 1: Elbow. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], cphi = p[2], sphi = p[3], magnitude = p[4];
     const T r10 = R(2.0) * (px * (px - R(0.15) * cphi)) + R(2.0) * (py * (py - R(0.15) * sphi));

@@ -108,6 +108,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 5], found2: Found<N>, [c
 }
 
 /// Block 1: Elbow.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 5], c: &mut C) where f64: With<N> {
     let [px, py, cphi, sphi, magnitude] = *p;
     let r10 = 2.0 * (px * (px - 0.15 * cphi)) + 2.0 * (py * (py - 0.15 * sphi));

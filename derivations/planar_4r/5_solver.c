@@ -62,7 +62,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 4: Wrist. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1_, T s1_, T c2, T s2, T c3, T s3, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1_, T s1_, T c2, T s2, T c3, T s3, GB_(sink) *c)
 {
     const T cphi = p[2], sphi = p[3], r4 = sphi * c1_ - cphi * s1_, r6 = cphi * c1_ + sphi * s1_;
     const T r10 = c2 * r4 - s2 * r6, r12 = c2 * r6 + s2 * r4, r16 = c3 * r12 + s3 * r10;
@@ -73,7 +73,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1_, T s1_, T c2, T s2
 }
 
 /* Block 1: Base. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], cphi = p[2], sphi = p[3], c1 = p[4], s1 = p[5], magnitude = p[6], c1_ = c1;
     const T s1_ = s1;

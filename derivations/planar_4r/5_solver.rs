@@ -109,6 +109,7 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 7], found3: Found<N>, [c
 }
 
 /// Block 1: Base.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 7], c: &mut C) where f64: With<N> {
     let [px, py, cphi, sphi, c1, s1, magnitude] = *p;
     let c1_ = c1; let s1_ = s1; let found1 = Found::first(0, 1); let r1 = px - 0.1 * cphi;

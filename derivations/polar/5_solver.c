@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0
 #define GB_COMPARED 0, 1, 2
 #define GB_FREED 0, 1
-#define GB_FIRST 0, 0, 0, 0, 0, 0, 2, 2, 0, 1, 2, 3
+#define GB_ALIKE 4, 2, 1
 #define GB_TWINS 1
 #define GB_SCALE R(0.8600000000000001)
 #define GB_ISOLATED 4
@@ -60,7 +60,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 3: Slide. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r6 = c2 * (px * c1 - pz * s1) + s2 * (py - R(0.66));
     const T r7 = r6 - R(0.2), d3 = r7;
@@ -69,7 +69,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 2: Pitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[3];
     const size_t before2 = GB_(count)(c);
@@ -102,7 +102,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(si
 }
 
 /* Block 1: Yaw. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], pz = p[2], magnitude = p[3];
     const size_t before1 = GB_(count)(c);

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    first: &[0, 0, 0, 0, 0, 0, 2, 2, 0, 1, 2, 3],
+    alike: &[4, 2, 1],
     scale: 0.8600000000000001,
     capacity: CAPACITY,
     isolated: Some(4),
@@ -133,6 +133,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], found1: Found<N>, [c
 }
 
 /// Block 1: Yaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], c: &mut C) where f64: With<N> {
     let [px, _, pz, magnitude] = *p;
     let before1 = c.count();

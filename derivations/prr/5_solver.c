@@ -43,7 +43,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: Rail. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], pz = p[1], cphi = p[2], sphi = p[3], r1 = px + R(0.3) * sphi;
     const T r10 = R(2.0) * (px * r1) + R(2.0) * (pz * (pz + R(0.3) * cphi));

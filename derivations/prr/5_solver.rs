@@ -89,6 +89,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: Rail.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], c: &mut C) where f64: With<N> {
     let [px, pz, cphi, sphi] = *p;
     let r1 = px + 0.3 * sphi; let r10 = 2.0 * (px * r1) + 2.0 * (pz * (pz + 0.3 * cphi));

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 9, 10, 11],
     candidates: 8,
     twins: 2,
-    first: &[0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6],
+    alike: &[4, 2, 2, 2, 2, 2],
     scale: 1.0150169491833725,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -143,6 +143,7 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found3: Found<N>, [
 }
 
 /// Block 1: Waist.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, _, _, _, _, _, _, _, _, magnitude] = *p;
     let r1 = N::abs(magnitude + 2.0679); let r2 = py * py; let r3 = px * px; let r4 = r2 + r3;

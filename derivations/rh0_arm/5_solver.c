@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0
 #define GB_COMPARED 0, 1, 2
 #define GB_FREED 0, 1
-#define GB_FIRST 0, 1, 2, 3, 0, 1, 2, 3, 0, 0, 0, 0
+#define GB_ALIKE 1, 1, 4
 #define GB_TWINS 1
 #define GB_SCALE R(0.8205551275463989)
 #define GB_ISOLATED 4
@@ -60,7 +60,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 3: Shoulder. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c14, T s14, T c16, T s16, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c14, T s14, T c16, T s16, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[3];
     const size_t before3 = GB_(count)(c);
@@ -90,7 +90,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c14, T s14, T c16, T s
 }
 
 /* Block 1: Elbow. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[3];
     const T r8 = pz * pz + (px * px + py * py) + R(0.4) * px - R(0.6) * py, r9 = r8 + R(0.024);

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    first: &[0, 1, 2, 3, 0, 1, 2, 3, 0, 0, 0, 0],
+    alike: &[1, 1, 4],
     scale: 0.8205551275463989,
     capacity: CAPACITY,
     isolated: Some(4),
@@ -121,6 +121,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], found2: Found<N>, [c
 }
 
 /// Block 1: Elbow.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], c: &mut C) where f64: With<N> {
     let [px, py, pz, magnitude] = *p;
     let r8 = pz * pz + (px * px + py * py) + 0.4 * px - 0.6 * py; let r9 = r8 + 0.024;

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 6, 7, 8, 10, 11
 #define GB_FREED 0, 1, 3
-#define GB_FIRST 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6
+#define GB_ALIKE 8, 2, 4, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.787092354220426)
 #define GB_ISOLATED 8
@@ -73,7 +73,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c12, T s12, T c11, T s11, T c10, T s10, T c9, T s9, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c12, T s12, T c11, T s11, T c10, T s10, T c9, T s9, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
     const T r32_ = p[10], r33_ = p[11], r4 = r22_ * c12 - r12_ * s12, r9 = c11 * r4 + r32_ * s11;
@@ -90,7 +90,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c12, T s12, T c11, T s
 }
 
 /* Block 4: HipPitch. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c12, T s12, T c11, T s11, T c10, T s10, T f12, T f11, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c12, T s12, T c11, T s11, T c10, T s10, T f12, T f11, GB_(sink) *c)
 {
     const T r12_ = p[4], r22_ = p[7], r32_ = p[10];
     const size_t before4 = GB_(count)(c);
@@ -122,7 +122,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c12, T s12, T c11, T s
 }
 
 /* Block 2: KneePitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T c12, T s12, T f12, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c12, T s12, T f12, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r21_ = p[6], r22_ = p[7], r31_ = p[9];
     const T r32_ = p[10], magnitude = p[12], r4 = px * (px + R(0.112) * r11_ - R(0.0265) * r12_);
@@ -168,7 +168,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c12, T s12, T f12, GB_
 }
 
 /* Block 1: AnkleRoll. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], r11_ = p[3], r12_ = p[4], r21_ = p[6], r22_ = p[7], magnitude = p[12];
     const size_t before1 = GB_(count)(c);

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 8, 10, 11],
     candidates: 8,
     twins: 2,
-    first: &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6],
+    alike: &[8, 2, 4, 2, 2, 2],
     scale: 0.787092354220426,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -180,6 +180,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [
 }
 
 /// Block 1: AnkleRoll.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, _, r11_, r12_, _, r21_, r22_, _, _, _, _, magnitude] = *p;
     let before1 = c.count(); let r4 = 0.112 - (px + 0.112 * r11_ - 0.0265 * r12_);

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 6, 7, 8, 10, 11
 #define GB_FREED 0, 1, 3
-#define GB_FIRST 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6
+#define GB_ALIKE 8, 2, 4, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.787092354220426)
 #define GB_ISOLATED 8
@@ -73,7 +73,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
     const T r32_ = p[10], r33_ = p[11], r4 = r22_ * c1 - r12_ * s1, r9 = c2 * r4 + r32_ * s2;
@@ -90,7 +90,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 4: HipPitch. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f1, T f2, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f1, T f2, GB_(sink) *c)
 {
     const T r12_ = p[4], r22_ = p[7], r32_ = p[10];
     const size_t before4 = GB_(count)(c);
@@ -122,7 +122,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 2: KneePitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r21_ = p[6], r22_ = p[7], r31_ = p[9];
     const T r32_ = p[10], magnitude = p[12], r4 = px * (px - R(0.112) * r11_ - R(0.0265) * r12_);
@@ -168,7 +168,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(si
 }
 
 /* Block 1: AnkleRoll. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], r11_ = p[3], r12_ = p[4], r21_ = p[6], r22_ = p[7], magnitude = p[12];
     const size_t before1 = GB_(count)(c);

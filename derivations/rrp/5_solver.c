@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0
 #define GB_COMPARED 0, 1, 2
 #define GB_FREED 1
-#define GB_FIRST 0, 0, 2, 2, 0, 1, 2, 3, 0, 1, 2, 3
+#define GB_ALIKE 2, 1, 1
 #define GB_TWINS 1
 #define GB_SCALE R(1.1302692427176386)
 #define GB_ISOLATED 4
@@ -60,7 +60,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 1: Yaw. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[3], r0 = py * py, r1 = px * px, r2 = r0 + r1;
     const T r3 = magnitude * magnitude, r4 = r3 + r3;

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    first: &[0, 0, 2, 2, 0, 1, 2, 3, 0, 1, 2, 3],
+    alike: &[2, 1, 1],
     scale: 1.1302692427176386,
     capacity: CAPACITY,
     isolated: Some(4),
@@ -100,6 +100,7 @@ impl Mechanism for Solver {
 }
 
 /// Block 1: Yaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], c: &mut C) where f64: With<N> {
     let [px, py, pz, magnitude] = *p;
     let r0 = py * py; let r1 = px * px; let r2 = r0 + r1; let r3 = magnitude * magnitude; let r4 = r3 + r3;

@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_FREED 0
-#define GB_FIRST 0, 1, 0, 0, 0, 0, 0, 1
+#define GB_ALIKE 1, 2, 2, 1
 #define GB_TWINS 1
 #define GB_SCALE R(0.7803652144736517)
 #define GB_CONDITIONS GB_ROTATION(3)
@@ -71,7 +71,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 4: Tool. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T d3, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T d3, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r21_ = p[6], r22_ = p[7];
     const T r16 = s2 * (r12_ * c1 + r22_ * s1) - c2 * (r22_ * c1 - r12_ * s1);
@@ -82,7 +82,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 1: Quill. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], magnitude = p[12], r0 = R(0.387) - pz, d3 = r0;
     const GB_(found) found1 = GB_(first)(0, 1);

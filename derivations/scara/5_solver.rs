@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
     candidates: 2,
     twins: 1,
-    first: &[0, 1, 0, 0, 0, 0, 0, 1],
+    alike: &[1, 2, 2, 1],
     scale: 0.7803652144736517,
     capacity: CAPACITY,
     freed: &[0],
@@ -113,6 +113,7 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found3: Found<N>, [
 }
 
 /// Block 1: Quill.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, _, _, _, _, _, _, _, _, magnitude] = *p;
     let r0 = 0.387 - pz; let d3 = r0; let found1 = Found::first(0, 1);

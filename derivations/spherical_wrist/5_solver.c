@@ -77,7 +77,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: Wrist2. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
     const T r32_ = p[10], r33_ = p[11], r2 = R(0.6666666666666666) * r12_ - R(0.3333333333333333) * r11_;
@@ -170,7 +170,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 4: Wrist1. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f3, T f1, T f2, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f3, T f1, T f2, GB_(sink) *c)
 {
     const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
     const T r32_ = p[10], r33_ = p[11];
@@ -228,7 +228,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 3: Axis2. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c3, T s3, T f3, T f1, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c3, T s3, T f3, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11], magnitude = p[12];
@@ -311,7 +311,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c3, T s3, T f3, GB_(si
 }
 
 /* Block 1: Axis3. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11], magnitude = p[12];

@@ -304,6 +304,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [
 }
 
 /// Block 1: Axis3.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude] = *p;
     let before1 = c.count(); let r6 = px * (px - 0.12 * r11_ - 0.03 * r12_ - 0.15 * r13_);

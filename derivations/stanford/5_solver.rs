@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[5, 6, 7, 9, 10],
     candidates: 8,
     twins: 2,
-    first: &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4, 4, 4, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6],
+    alike: &[8, 4, 2, 2, 2, 2],
     scale: 1.06,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -173,6 +173,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [
 }
 
 /// Block 1: ShoulderYaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, _, pz, _, _, r13_, _, _, _, _, _, r33_, magnitude] = *p;
     let before1 = c.count(); let r1 = 0.2 * r13_ - px; let r3 = pz - 0.2 * r33_;

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 0, 1, 2, 4, 5
 #define GB_FREED 0, 4
-#define GB_FIRST 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6
+#define GB_ALIKE 2, 2, 2, 8, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.926083810044118)
 #define GB_ISOLATED 8
@@ -73,7 +73,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, T c5, T s5, T c6, T s6, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, T c5, T s5, T c6, T s6, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8];
     const T r32_ = p[10], r33_ = p[11], r10 = r32_ * c6 - r33_ * s6;
@@ -92,7 +92,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, 
 }
 
 /* Block 3: AnkleRoll. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c5, T s5, T f5, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c5, T s5, T f5, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r12_ = p[4], r13_ = p[5], r22_ = p[7], r23_ = p[8], r32_ = p[10];
     const T r33_ = p[11], magnitude = p[12], r11 = R(0.146) * r22_ - R(0.092) * r32_ - px * r12_;
@@ -133,7 +133,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c5, T s5, 
 }
 
 /* Block 1: KneePitch. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r13_ = p[5], r21_ = p[6], r23_ = p[8], r31_ = p[9];
     const T r33_ = p[11], magnitude = p[12];

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2, 4, 5],
     candidates: 8,
     twins: 2,
-    first: &[0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 2, 2, 4, 4, 6, 6],
+    alike: &[2, 2, 2, 8, 2, 2],
     scale: 0.926083810044118,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -154,6 +154,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found2: Found<N>, [
 }
 
 /// Block 1: KneePitch.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, pz, r11_, _, r13_, r21_, _, r23_, r31_, _, r33_, magnitude] = *p;
     let r14 = 2.0 * (px * (px + 0.123005 * r13_)) + 2.0 * (py * (py + 0.123005 * r23_));

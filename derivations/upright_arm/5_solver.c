@@ -61,7 +61,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 10: wrist. */
-static void GB_(block_10)(const T *p, GB_(found) found9, T c2, T s2, T c3, T s3, T c5, T s5, T dradius_, T dheight_, T cazimuth, T sazimuth, GB_(sink) *c)
+GB_INLINE void GB_(block_10)(const T *p, GB_(found) found9, T c2, T s2, T c3, T s3, T c5, T s5, T dradius_, T dheight_, T cazimuth, T sazimuth, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], dradius = p[7], r1 = dradius_ * cazimuth - R(0.03), r3 = dheight_ - R(0.1);
     const T r7 = c2 * r1 - s2 * r3, r10 = c2 * r3 + s2 * r1 - R(0.15), r15 = R(0.13) - (c3 * r10 + s3 * r7);
@@ -90,7 +90,7 @@ static void GB_(block_10)(const T *p, GB_(found) found9, T c2, T s2, T c3, T s3,
 }
 
 /* Block 7: roll. */
-static void GB_(block_7)(const T *p, GB_(found) found6, T croll_, T sroll_, T cpitch_, T spitch_, T cturn, T sturn, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, T fturn, GB_(sink) *c)
+GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T croll_, T sroll_, T cpitch_, T spitch_, T cturn, T sturn, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, T fturn, GB_(sink) *c)
 {
     const T r4 = sroll_ * spitch_, r13 = cazimuth * (cpitch_ * sturn) + sazimuth * (cpitch_ * cturn);
     const T r14 = cazimuth * (croll_ * cturn - sturn * r4) - sazimuth * (cturn * r4 + croll_ * sturn);
@@ -141,7 +141,7 @@ static void GB_(block_7)(const T *p, GB_(found) found6, T croll_, T sroll_, T cp
 }
 
 /* Block 6: turn. */
-static void GB_(block_6)(const T *p, GB_(found) found5, T croll_, T sroll_, T cpitch_, T spitch_, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, GB_(sink) *c)
+GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T croll_, T sroll_, T cpitch_, T spitch_, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, GB_(sink) *c)
 {
     const size_t before6 = GB_(count)(c);
     const T r0 = croll_ * spitch_, r5 = sroll_ * cazimuth + sazimuth * r0;
@@ -175,7 +175,7 @@ static void GB_(block_6)(const T *p, GB_(found) found5, T croll_, T sroll_, T cp
 }
 
 /* Block 1: roll2. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T croll = p[3], sroll = p[4], cpitch = p[5], spitch = p[6], dradius = p[7], dheight = p[8];
     const T croll_ = croll, sroll_ = sroll;

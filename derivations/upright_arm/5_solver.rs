@@ -184,6 +184,7 @@ fn block_6<N: Number, C: Candidates<N, Solver>>(p: &[N; 9], found5: Found<N>, [c
 }
 
 /// Block 1: roll2.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 9], c: &mut C) where f64: With<N> {
     let [_, _, _, croll, sroll, cpitch, spitch, dradius, dheight] = *p;
     let croll_ = croll; let sroll_ = sroll; let found1 = Found::first(0, 1); let cpitch_ = cpitch;

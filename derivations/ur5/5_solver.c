@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_FREED 1, 5
-#define GB_FIRST 0, 0, 0, 0, 4, 4, 4, 4, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4
+#define GB_ALIKE 4, 1, 2, 1, 2, 4
 #define GB_TWINS 1
 #define GB_SCALE R(1.192509)
 #define GB_ISOLATED 8
@@ -72,7 +72,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 6: Wrist1. */
-static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T c5, T s5, T c6, T s6, GB_(sink) *c)
+GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T c5, T s5, T c6, T s6, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r13_ = p[5], r23_ = p[8], r33_ = p[11];
     const T r6 = c1 * (px - R(0.0823) * r13_) + s1 * (py - R(0.0823) * r23_);
@@ -85,7 +85,7 @@ static void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, 
 }
 
 /* Block 3: Wrist2. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c6, T s6, T f6, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c6, T s6, T f6, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7];
     const T r23_ = p[8], r31_ = p[9], r32_ = p[10], r33_ = p[11], magnitude = p[12];
@@ -136,7 +136,7 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c6, T s6, 
 }
 
 /* Block 1: ShoulderPan. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8];
     const T magnitude = p[12], r1 = py - R(0.0823) * r23_, r3 = R(0.0823) * r13_ - px;

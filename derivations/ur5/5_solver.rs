@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
     candidates: 8,
     twins: 1,
-    first: &[0, 0, 0, 0, 4, 4, 4, 4, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 1, 2, 3, 4, 5, 6, 7, 0, 0, 2, 2, 4, 4, 6, 6, 0, 0, 0, 0, 4, 4, 4, 4],
+    alike: &[4, 1, 2, 1, 2, 4],
     scale: 1.192509,
     capacity: CAPACITY,
     isolated: Some(8),
@@ -155,6 +155,7 @@ fn block_3<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found2: Found<N>, [
 }
 
 /// Block 1: ShoulderPan.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, py, _, r11_, r12_, r13_, r21_, r22_, r23_, _, _, _, magnitude] = *p;
     let r1 = py - 0.0823 * r23_; let r3 = 0.0823 * r13_ - px; let r5 = N::abs(magnitude + 1.946082);

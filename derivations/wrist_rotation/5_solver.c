@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 3, 6, 1, 4, 7, 2, 5, 8
 #define GB_TURNED 0, 1, 2, 4, 5
 #define GB_FREED 0
-#define GB_FIRST 0, 0, 0, 0, 0, 0
+#define GB_ALIKE 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(1.0)
 #define GB_ISOLATED 2
@@ -66,7 +66,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 2: Pitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c)
 {
     const T r11_ = p[0], r12_ = p[1], r13_ = p[2], r21_ = p[3], r22_ = p[4], r23_ = p[5], r31_ = p[6];
     const T r2 = r11_ * c1 + r21_ * s1, r7 = R(1.0) / GB_(root)(r2 * r2 + r31_ * r31_), c2 = r2 * r7;
@@ -77,7 +77,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c
 }
 
 /* Block 1: Yaw. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T r11_ = p[0], r21_ = p[3];
     const size_t before1 = GB_(count)(c);

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2, 4, 5],
     candidates: 2,
     twins: 2,
-    first: &[0, 0, 0, 0, 0, 0],
+    alike: &[2, 2, 2],
     scale: 1.0,
     capacity: CAPACITY,
     isolated: Some(2),
@@ -112,6 +112,7 @@ fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 9], found1: Found<N>, [c
 }
 
 /// Block 1: Yaw.
+#[inline(always)]
 fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 9], c: &mut C) where f64: With<N> {
     let [r11_, _, _, r21_, _, _, _, _, _] = *p;
     let before1 = c.count();

@@ -468,8 +468,8 @@ static const unsigned char gb_compared[GB_EQUATIONS] = {GB_COMPARED};
 #ifdef GB_CONDITIONS
 static const gb_condition gb_conditions[] = {GB_CONDITIONS};
 #endif
-#ifdef GB_FIRST
-GB_UNUSED static const unsigned char gb_first[GB_JOINTS * GB_CANDIDATES] = {GB_FIRST};
+#ifdef GB_ALIKE
+GB_UNUSED static const unsigned char gb_alike[GB_JOINTS] = {GB_ALIKE};
 #endif
 
 #define GB_PUBLIC(name) GB_JOIN(GB_ROBOT, _, name)
@@ -909,9 +909,10 @@ GB_INLINE T GB_(acute)(T across, T up)
     const GB_(truth) steep = GB_(exceeds)(up, across);
     const T low = GB_(pick)(across, up, steep), high = GB_(pick)(up, across, steep);
     const GB_(truth) far = GB_(exceeds)(low, GB_EIGHTH * high);
-    const T z = GB_(pick)(low - high, low, far) / GB_(pick)(low + high, high, far);
+    const T none = GB_(of)(R(0.0)), quarter = GB_(pick)(GB_(of)(GB_PI / R(4.0)), none, far), rest = GB_(pick)(GB_(of)(GB_REST), none, far);
+    const T z = (low - GB_(pick)(high, none, far)) / (high + GB_(pick)(low, none, far));
     const T small = z + z * (z * z) * GB_(series)(z * z);
-    const T angle = GB_(pick)(GB_PI / R(4.0) + (small + GB_REST), small, far);
+    const T angle = quarter + (small + rest);
     return GB_(pick)(GB_PI / R(2.0) - (angle - R(2.0) * GB_REST), angle, steep);
 }
 
@@ -938,7 +939,7 @@ GB_INLINE GB_(truth) GB_(make_rotation)(T *r)
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             excess[i][j] = GB_(dot)(r + 3 * i, r + 3 * j) - (i == j ? R(1.0) : R(0.0));
-            deviation = GB_(above)(GB_(abs)(excess[i][j]), deviation);
+            deviation = GB_(greater)(deviation, GB_(abs)(excess[i][j]));
         }
     }
     const T determinant = r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
@@ -1155,6 +1156,8 @@ struct gb_sink_1 {
     /* Where pairs are written instead, or null, and whether all candidates so far can be. */
     gb_pairs *pairs;
     bool is_usual;
+    /* Whether usual cases alone have run. */
+    bool is_ordinary;
     size_t waiting;
     gb_real at[GB_PLACES][GB_CANDIDATES];
     gb_found_1 found[GB_CANDIDATES];
@@ -1253,7 +1256,9 @@ GB_INLINE GB_(found) GB_(by_answer)(GB_(found) found, const gb_six_answer *answe
 GB_INLINE bool GB_(is_usual)(GB_(sink) *c, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
-    (void)c;
+    if (GB_SELDOM(!guard.here)) {
+        c->is_ordinary = false;
+    }
     return guard.here;
 #else
     c->doubt |= ~guard.here;
@@ -1265,7 +1270,9 @@ GB_INLINE bool GB_(is_usual)(GB_(sink) *c, GB_(guard) guard)
 GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
-    (void)c;
+    if (GB_SELDOM(guard.here)) {
+        c->is_ordinary = false;
+    }
     return GB_SELDOM(guard.here);
 #else
     c->doubt |= guard.here;
@@ -1277,7 +1284,7 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
-    return GB_SELDOM(guard.here) && (guard.beside || !gb_suffice_since(c, before));
+    return GB_(is_rare)(c, guard) && (guard.beside || !gb_suffice_since(c, before));
 #else
     (void)before;
     return GB_(is_rare)(c, guard);
@@ -1354,7 +1361,7 @@ GB_INLINE void GB_(finish)(GB_(sink) *c, GB_(found) found, const T *at)
 }
 
 
-#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_FIRST)
+#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_ALIKE)
 /* ---- Many targets, several at once ---- */
 
 /* The numbers of up to so many targets, of which there is one at least; where one is infinite, not a number, or breaks a condition, all are doubtful. */
@@ -1433,7 +1440,7 @@ GB_INLINE void GB_(find_joints)(GB_(sink) *c, bool wants_angles)
                 c->q[k][i] = cosine;
                 sound = GB_(exceeds)(GB_(of)(GB_GREATEST), GB_(abs)(cosine));
             } else {
-                if (gb_first[i * GB_CANDIDATES + k] == k) {
+                if (k % gb_alike[i] == 0) {
                     sound = GB_(exceeds)(GB_(of)(GB_ROUNDING), GB_(abs)(cosine * cosine + sine * sine - R(1.0)));
                     acute = wants_angles ? GB_(acute)(GB_(abs)(cosine), GB_(abs)(sine)) : acute;
                 }
@@ -1688,62 +1695,88 @@ GB_INLINE void gb_everywhere(const gb_real *p, GB_PAIR(number) *all)
     }
 }
 
-/* Measures the candidates that wait. */
-static GB_APART void gb_measure_waiting(const gb_sink_1 *c, gb_fits *fits)
+/* Whether those that wait are the candidates of an ordinary target. */
+GB_INLINE bool gb_are_ordinary(const gb_sink_1 *c)
+{
+    return c->is_ordinary && c->waiting == GB_CANDIDATES && c->all.candidates == GB_CANDIDATES;
+}
+
+/* So many of the candidates that wait, in a row, miss the equations by the same. */
+GB_INLINE size_t gb_twins(const gb_sink_1 *c)
+{
+    return GB_CANDIDATES % (GB_STEP * GB_TWINS) == 0 && gb_are_ordinary(c) ? GB_TWINS : 1;
+}
+
+/* Measures the candidates that wait, of which some in a row may be alike. */
+static GB_APART void gb_measure_waiting(const gb_sink_1 *c, size_t alike, gb_fits *fits)
 {
     GB_PAIR(number) p[GB_PARAMETERS], at[GB_PLACES], residual, relative;
     gb_everywhere(c->all.problem.p, p);
-    for (size_t first = 0; first < c->waiting; first += GB_STEP) {
+    for (size_t first = 0; first < c->waiting; first += GB_STEP * alike) {
+        gb_real fit[3][GB_STEP];
         GB_UNROLL
         for (int i = 0; i < GB_PLACES; i++) {
-            at[i] = GB_PAIR(load)(&c->at[i][first]);
+            const gb_real *row = &c->at[i][first];
+            at[i] = GB_TWINS == 1 ? GB_PAIR(load)(row) : GB_PAIR(lanes_of)(row[0], row[(GB_STEP - 1) * alike]);
         }
         GB_PAIR(fit)(p, at, &residual, &relative);
-        GB_PAIR(store)(&fits->residual[first], residual);
-        GB_PAIR(store)(&fits->relative[first], relative);
-        GB_PAIR(store)(&fits->sound[first], GB_PAIR(sound)(at));
+        GB_PAIR(store)(fit[0], residual);
+        GB_PAIR(store)(fit[1], relative);
+        GB_PAIR(store)(fit[2], GB_PAIR(sound)(at));
+        for (size_t lane = 0; lane < GB_STEP; lane++) {
+            for (size_t k = first + lane * alike; k < first + (lane + 1) * alike; k++) {
+                fits->residual[k] = fit[0][lane];
+                fits->relative[k] = fit[1][lane];
+                fits->sound[k] = fit[2][lane];
+            }
+        }
     }
 }
 
-/* The acute angles of the candidates that wait, one behind the other, and by joint and candidate which of them is its own. Those that only differ in
- * signs from those of the candidate before are not computed again. */
-GB_INLINE void gb_find_acutes(const gb_sink_1 *c, gb_real *acute, size_t (*which)[GB_CANDIDATES])
+/* The binary logarithm of how many angles of a joint in a row are computed as one at an ordinary target. */
+GB_INLINE int gb_alike_of(int joint)
 {
-    gb_real up[GB_JOINTS * GB_CANDIDATES + 1];
+    int alike = 0;
+#ifdef GB_ALIKE
+    while (((gb_alike[joint] | GB_CANDIDATES / GB_STEP) >> alike & 1) == 0) {
+        alike++;
+    }
+#endif
+    (void)joint;
+    return alike;
+}
+
+/* By joint and candidate that waits, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once. */
+static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDATES])
+{
+    const bool is_ordinary = gb_are_ordinary(c);
+    gb_real acute[GB_JOINTS * GB_CANDIDATES + 1], up[GB_JOINTS * GB_CANDIDATES + 1];
     size_t count = 0;
     for (int i = 0; i < GB_JOINTS; i++) {
         const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
-        gb_real before[2] = {R(-1.0), R(-1.0)};
-        for (size_t k = 0; gb_joints[i].is_angle && k < c->waiting; k++) {
-            const gb_real pair[2] = {gb_magnitude(cosines[k]), gb_magnitude(sines[k])};
-            count += memcmp(&pair[0], &before[0], sizeof *pair) != 0 || memcmp(&pair[1], &before[1], sizeof *pair) != 0;
-            acute[count - 1] = before[0] = pair[0];
-            up[count - 1] = before[1] = pair[1];
-            which[i][k] = count - 1;
+        const size_t stride = (size_t)1 << (is_ordinary ? gb_alike_of(i) : 0);
+        for (size_t k = 0; gb_joints[i].is_angle && k < c->waiting; k += stride) {
+            acute[count] = gb_magnitude(cosines[k]);
+            up[count++] = gb_magnitude(sines[k]);
         }
     }
     acute[count] = up[count] = R(1.0);
     for (size_t first = 0; first < count; first += GB_STEP) {
         GB_PAIR(store)(&acute[first], GB_PAIR(acute)(GB_PAIR(load)(&acute[first]), GB_PAIR(load)(&up[first])));
     }
-}
-
-/* By joint and candidate that waits, the joint values. */
-static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDATES])
-{
-    gb_real acute[GB_JOINTS * GB_CANDIDATES + 1];
-    size_t which[GB_JOINTS][GB_CANDIDATES];
-    gb_find_acutes(c, acute, which);
+    const gb_real *own = acute;
     for (int i = 0; i < GB_JOINTS; i++) {
         const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
+        const int alike = is_ordinary ? gb_alike_of(i) : 0;
         if (!gb_joints[i].is_angle) {
             memcpy(q[i], cosines, sizeof q[i]);
             continue;
         }
         for (size_t k = 0; k < c->waiting; k += GB_STEP) {
-            const GB_PAIR(number) own = GB_PAIR(lanes_of)(acute[which[i][k]], acute[which[i][k + (k + 1 < c->waiting)]]);
-            GB_PAIR(store)(&q[i][k], GB_PAIR(unfold)(own, GB_PAIR(load)(&cosines[k]), GB_PAIR(load)(&sines[k])));
+            const GB_PAIR(number) pair = GB_PAIR(lanes_of)(own[k >> alike], own[(k + GB_STEP - 1) >> alike]);
+            GB_PAIR(store)(&q[i][k], GB_PAIR(unfold)(pair, GB_PAIR(load)(&cosines[k]), GB_PAIR(load)(&sines[k])));
         }
+        own += c->waiting >> alike;
     }
 }
 
@@ -1761,10 +1794,10 @@ GB_INLINE bool gb_are_apart(const gb_sink_1 *c, size_t k, size_t other)
     return false;
 }
 
-/* Writes a candidate that holds if there is room, and it is apart from all before it. */
-GB_INLINE bool gb_write_apart(gb_sink_1 *c, size_t k, const gb_real *q, gb_real residual, gb_real relative)
+/* Writes a candidate that holds if there is room, and it is apart from others from the `nearest` on. */
+GB_INLINE bool gb_write_apart(gb_sink_1 *c, size_t nearest, size_t k, const gb_real *q, gb_real residual, gb_real relative)
 {
-    for (size_t other = 0; other < k; other++) {
+    for (size_t other = nearest; other < k; other++) {
         if (!gb_are_apart(c, k, other)) {
             return false;
         }
@@ -1943,7 +1976,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
             continue;
         }
         const bool holds = approach.pivot >= approach.missed * (c->found[k].close ? GB_STEEP : GB_MILD);
-        if (holds && is_usual && gb_write_apart(c, k, approach.end, approach.fit.residual, approach.fit.relative)) {
+        if (holds && is_usual && gb_write_apart(c, 0, k, approach.end, approach.fit.residual, approach.fit.relative)) {
             continue;
         }
         is_usual = false;
@@ -1957,14 +1990,17 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 {
     gb_fits fits;
-    gb_measure_waiting(c, &fits);
+    const size_t twins = gb_twins(c);
+    gb_measure_waiting(c, twins, &fits);
     bool is_usual = c->all.count == 0;
     for (size_t k = 0; k < c->waiting; k++) {
         const gb_fit fit = {fits.residual[k], fits.relative[k], true};
         const bool holds = c->found[k].free == 0 && !c->found[k].close && fit.relative < GB_ROUNDING && fits.sound[k] > R(0.0);
         gb_real q[GB_JOINTS];
         gb_joints_of(joints, k, q);
-        if (holds && is_usual && gb_write_apart(c, k, q, fit.residual, fit.relative)) {
+        /* The second of two that are alike is as far from those before as the first. */
+        const size_t nearest = k % twins == 0 ? 0 : k - 1;
+        if (holds && is_usual && gb_write_apart(c, nearest, k, q, fit.residual, fit.relative)) {
             continue;
         }
         is_usual = false;
@@ -2015,7 +2051,7 @@ static bool gb_write_pairs(gb_sink_1 *c, size_t k, gb_real residual)
 static void gb_keep_pairs(gb_sink_1 *c)
 {
     gb_fits fits;
-    gb_measure_waiting(c, &fits);
+    gb_measure_waiting(c, gb_twins(c), &fits);
     c->is_usual = c->is_usual && !gb_this.is_nearby;
     for (size_t k = 0; c->is_usual && k < c->waiting; k++) {
         const bool holds = c->found[k].free == 0 && !c->found[k].close && fits.relative[k] < GB_ROUNDING && fits.sound[k] > R(0.0);
@@ -2076,7 +2112,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.count = c->all.candidates = c->all.unsound = c->waiting = 0;
     c->all.is_open = c->all.has_nearest = false;
     c->pairs = pairs;
-    c->is_usual = true;
+    c->is_usual = c->is_ordinary = true;
     gb_walk_1(p, c);
     gb_flush(c);
     return c->all.is_open ? GB_OPEN_STRATUM : 0;
@@ -2188,7 +2224,7 @@ static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, 
     return count;
 }
 
-#if GB_LANES > 1 && defined(GB_FIRST)
+#if GB_LANES > 1 && defined(GB_ALIKE)
 #define GB_SOLVE_MANY GB_JOIN(gb_solve_many, _, GB_LANES)
 #else
 #define GB_SOLVE_MANY gb_solve_singly

@@ -1,7 +1,10 @@
 //! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
 
+use core::array::from_fn;
+use core::ops::Range;
+
 use crate::approach::{LANES, Ways, abreast};
-use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Places};
+use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places};
 use crate::number::{Guard, Lanes, Number};
 use crate::problem::{End, Fit, Problem, everywhere, fit};
 use crate::solution::{Error, Pairs, Solution};
@@ -20,6 +23,8 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pairs: Option<&'a mut [Pairs<M>]>,
     usual: bool,
     pub count: usize,
+    /// Whether usual cases alone have run.
+    is_ordinary: bool,
     /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     pub unsound: usize,
@@ -43,17 +48,23 @@ struct Fits<M: Mechanism> {
 impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
     #[inline(always)]
     fn is_usual(&mut self, guard: Guard<f64>) -> bool {
+        if !guard.here {
+            self.is_ordinary = false;
+        }
         guard.here
     }
 
     #[inline(always)]
     fn is_rare(&mut self, guard: Guard<f64>) -> bool {
+        if guard.here {
+            self.is_ordinary = false;
+        }
         guard.here
     }
 
     #[inline(always)]
     fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
-        guard.here && (guard.beside || !self.suffice_since(before))
+        self.is_rare(guard) && (guard.beside || !self.suffice_since(before))
     }
 
     #[inline(always)]
@@ -104,6 +115,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             out,
             pairs,
             usual: true,
+            is_ordinary: true,
             count: 0,
             candidates: 0,
             unsound: 0,
@@ -123,10 +135,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Walks through the blocks, and takes in all candidates.
-    #[inline(always)]
+    #[inline(never)]
     pub fn find(&mut self) -> Result<(), Error> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
-        mechanism.walk(parameters, self);
+        walk(mechanism, parameters, self);
         self.flush();
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
@@ -144,17 +156,51 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.usual && self.problem.facts().isolated.is_none_or(|most| self.count <= most)
     }
 
+    /// Whether those that wait are the candidates of an ordinary target.
+    #[inline(always)]
+    fn are_ordinary(&self) -> bool {
+        let Facts { candidates: room, alike, .. } = self.problem.facts();
+        !alike.is_empty() && self.is_ordinary && self.waiting == room && self.candidates == room
+    }
+
+    /// So many of the candidates that wait, in a row, miss the equations by the same.
+    #[inline(always)]
+    fn twins<const W: usize>(&self) -> usize {
+        let Facts { candidates, twins, .. } = self.problem.facts();
+        if candidates % (W * twins) == 0 && self.are_ordinary() { twins } else { 1 }
+    }
+
     /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
     #[inline(never)]
+    #[allow(unsafe_code)]
     pub fn flush(&mut self) {
-        if self.pairs.is_some() {
-            return self.flush_pairs();
+        #[cfg(all(target_arch = "x86_64", feature = "std"))]
+        if self.problem.facts().candidates % 4 == 0 && std::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has what the function is compiled for.
+            return unsafe { self.flush_by_4() };
         }
-        let joints = joints(self.problem.mechanism, &self.at);
+        self.flush_by::<LANES>();
+    }
+
+    #[cfg(all(target_arch = "x86_64", feature = "std"))]
+    #[target_feature(enable = "avx2")]
+    fn flush_by_4(&mut self) {
+        self.flush_by::<4>();
+    }
+
+    /// The same, so many at once.
+    #[inline(always)]
+    fn flush_by<const W: usize>(&mut self) {
+        if self.pairs.is_some() {
+            return self.flush_pairs::<W>();
+        }
+        let facts = self.problem.facts();
+        let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
             return self.flush_nearby(&joints);
         }
-        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let twins = self.twins::<W>();
+        let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, twins);
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
@@ -164,7 +210,9 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let (residual, relative) = (fits.residual.as_ref()[k], fits.relative.as_ref()[k]);
             let fit = Fit { residual, relative, accepted: true };
             let holds = free == 0 && !close && relative < ROUNDING && fits.sound.as_ref()[k] > 0.0;
-            if holds && usual && self.write_apart(k, &q, &fit) {
+            // The second of two that are alike is as far from those before as the first.
+            let nearest = if k % twins == 0 { 0 } else { k - 1 };
+            if holds && usual && self.write_apart(nearest..k, k, &q, &fit) {
                 continue;
             }
             usual = false;
@@ -200,7 +248,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
                 continue;
             };
             let holds = approach.pivot >= approach.missed * if found.close { STEEP } else { MILD };
-            if holds && usual && self.write_apart(k, &approach.end, &approach.fit) {
+            if holds && usual && self.write_apart(0..k, k, &approach.end, &approach.fit) {
                 continue;
             }
             usual = false;
@@ -209,10 +257,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Writes a candidate that holds if there is room, and it is apart from all before it.
+    /// Writes a candidate that holds if there is room, and it is apart from others.
     #[inline(always)]
-    fn write_apart(&mut self, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
-        let is_apart = self.count < self.out.len() && (0..k).all(|other| self.are_apart(k, other));
+    fn write_apart(&mut self, mut others: Range<usize>, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
+        let is_apart = self.count < self.out.len() && others.all(|other| self.are_apart(k, other));
         if is_apart {
             self.write(&self.found.as_ref()[k].clone(), q.clone(), fit);
         }
@@ -253,10 +301,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
-    #[inline(never)]
-    fn flush_pairs(&mut self) {
+    #[inline(always)]
+    fn flush_pairs<const W: usize>(&mut self) {
         let facts = self.problem.facts();
-        let fits = Fits::new(&self.problem, &self.at, self.waiting);
+        let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, self.twins::<W>());
         let waiting = core::mem::take(&mut self.waiting).min(facts.candidates);
         let Some(pairs) = &mut self.pairs else { return };
         self.usual &= facts.nearby.is_none();
@@ -286,11 +334,20 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     fn are_apart(&self, k: usize, other: usize) -> bool {
         let at = self.at.as_ref();
         let cosine = |place: usize| at[place].as_ref()[k] * at[place].as_ref()[other];
-        self.problem.facts().last_first.iter().any(|&i| match self.problem.facts().joints[i] {
-            Joint::Angle([c, s]) => cosine(c) + cosine(s) < FAR_APART,
-            Joint::Length(_) => false,
-        })
+        for &i in self.problem.facts().last_first {
+            let Joint::Angle([c, s]) = self.problem.facts().joints[i] else { continue };
+            if cosine(c) + cosine(s) < FAR_APART {
+                return true;
+            }
+        }
+        false
     }
+}
+
+/// Apart from callers, so that the parameters are known not to change.
+#[inline(never)]
+fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut Answers<'_, M>) {
+    mechanism.walk(parameters, answers);
 }
 
 /// Whether an angle tells two answers apart.
@@ -301,21 +358,21 @@ fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Join
 }
 
 impl<M: Mechanism> Fits<M> {
-    /// Those of the first so many candidates.
-    #[inline(never)]
-    fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+    /// Those of the first so many candidates, of which some in a row may be alike.
+    #[inline(always)]
+    fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize, alike: usize) -> Self {
         let room = problem.facts().candidates;
         let none = || Array::by(room, |_| 0.0);
         let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };
-        let p = everywhere::<M, LANES>(problem);
-        for first in (0..waiting.min(room)).step_by(LANES) {
-            let at: Places<M, Lanes<LANES>> = abreast::<M>(at, first);
-            let [residual, relative] = fit::<M, LANES>(problem.mechanism, &p, &at);
-            let sound = sound::<M>(&problem.facts(), &at);
-            for lane in 0..LANES {
-                fits.residual.as_mut()[first + lane] = residual.0[lane];
-                fits.relative.as_mut()[first + lane] = relative.0[lane];
-                fits.sound.as_mut()[first + lane] = sound.0[lane];
+        let p = everywhere::<M, W>(problem);
+        for first in (0..waiting.min(room)).step_by(W * alike) {
+            let at: Places<M, Lanes<W>> = abreast::<M, W>(at, first, alike);
+            let [residual, relative] = fit::<M, W>(problem.mechanism, &p, &at);
+            let sound = sound::<M, W>(&problem.facts(), &at);
+            for k in 0..W * alike {
+                fits.residual.as_mut()[first + k] = residual.0[k / alike];
+                fits.relative.as_mut()[first + k] = relative.0[k / alike];
+                fits.sound.as_mut()[first + k] = sound.0[k / alike];
             }
         }
         fits
@@ -324,8 +381,8 @@ impl<M: Mechanism> Fits<M> {
 
 /// Whether candidates are of joints at all: 1, else 0.
 #[inline(always)]
-fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes<LANES> {
-    let (mut sound, at) = (Lanes([1.0; LANES]), at.as_ref());
+fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W>>) -> Lanes<W> {
+    let (mut sound, at) = (Lanes([1.0; W]), at.as_ref());
     for joint in facts.joints {
         sound = match *joint {
             Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ROUNDING),
@@ -338,50 +395,40 @@ fn sound<M: Mechanism>(facts: &Facts<'_>, at: &Places<M, Lanes<LANES>>) -> Lanes
     sound
 }
 
-/// By joint and candidate, the joint values. Angles that only differ in signs from those of the candidate before are not computed again.
-#[inline(never)]
-fn joints<M: Mechanism>(mechanism: &M, at: &Places<M, Abreast<M>>) -> Joints<M, Abreast<M>> {
-    let Facts { joints, candidates: room, .. } = mechanism.facts();
-    let mut across: Joints<M, Abreast<M>> = Array::by(joints.len(), |_| Array::by(room, |_| 0.0));
-    let mut up = across.clone();
-    let mut which: Joints<M, Abreast<M, usize>> = Array::by(joints.len(), |_| Array::by(room, |_| 0));
-    let mut count = 0;
-    for (joint, which) in joints.iter().zip(which.as_mut()) {
-        let Joint::Angle([c, s]) = *joint else { continue };
-        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
-        let mut before = [f64::NAN; 2];
-        for k in 0..room {
-            let pair = [cosines[k].abs(), sines[k].abs()];
-            count += usize::from((k == 0) | (pair[0] != before[0]) | (pair[1] != before[1]));
-            let place = usize::min(count - 1, joints.len() * room - 1);
-            across.as_mut()[place / room].as_mut()[place % room] = pair[0];
-            up.as_mut()[place / room].as_mut()[place % room] = pair[1];
-            (which.as_mut()[k], before) = (place, pair);
+/// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
+#[inline(always)]
+fn joints<M: Mechanism, const W: usize>(
+    facts: &Facts<'_>,
+    at: &Places<M, Abreast<M>>,
+    is_ordinary: bool,
+) -> Joints<M, Abreast<M>> {
+    let mut q: Joints<M, Abreast<M>> = Array::by(facts.joints.len(), |_| Array::by(facts.candidates, |_| 0.0));
+    let at = at.as_ref();
+    for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
+        match *joint {
+            Joint::Angle([c, s]) => {
+                let alike = if is_ordinary { (facts.alike[i] | facts.candidates / W).trailing_zeros() } else { 0 };
+                find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
+            }
+            Joint::Length(place) => q.clone_from(&at[place]),
         }
     }
-    for first in (0..count).step_by(LANES) {
-        let (row, first) = (first / room, first % room);
-        let pair = |rows: &Joints<M, Abreast<M>>| {
-            Lanes::<LANES>(core::array::from_fn(|lane| rows.as_ref()[row].as_ref()[first + lane]))
-        };
-        let acutes = acute(pair(&across), pair(&up));
-        across.as_mut()[row].as_mut()[first..first + LANES].copy_from_slice(&acutes.0);
+    q
+}
+
+/// Finds angles of which a power of two in a row differ in signs alone: one with this logarithm.
+#[inline(always)]
+fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
+    let room = cosines.len();
+    let mut acutes: Abreast<M> = Array::by(room, |_| 0.0);
+    let acutes = acutes.as_mut();
+    for k in (0..room >> alike).step_by(W) {
+        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[(k + lane) << alike].abs()));
+        acutes[k..k + W].copy_from_slice(&acute(pair(cosines), pair(sines)).0);
     }
-    for ((joint, which), q) in joints.iter().zip(which.as_ref()).zip(up.as_mut()) {
-        let Joint::Angle([c, s]) = *joint else {
-            continue;
-        };
-        let (cosines, sines) = (at.as_ref()[c].as_ref(), at.as_ref()[s].as_ref());
-        for k in 0..room {
-            let place = which.as_ref()[k];
-            let acute = across.as_ref()[place / room].as_ref()[place % room];
-            q.as_mut()[k] = unfold(acute, cosines[k], sines[k]);
-        }
+    for k in (0..room).step_by(W) {
+        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[k + lane]));
+        let own = Lanes(from_fn(|lane| acutes[(k + lane) >> alike]));
+        angles[k..k + W].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
     }
-    for (joint, q) in joints.iter().zip(up.as_mut()) {
-        if let Joint::Length(place) = *joint {
-            q.clone_from(&at.as_ref()[place]);
-        }
-    }
-    up
 }

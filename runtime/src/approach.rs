@@ -176,7 +176,7 @@ impl<M: Mechanism> Ways<M> {
         waiting: usize,
     ) {
         let joints = problem.joints();
-        let mut here: Places<M, Lanes<LANES>> = abreast::<M>(at, first);
+        let mut here: Places<M, Lanes<LANES>> = abreast::<M, LANES>(at, first, 1);
         let mut steps: Joints<M, Lanes<LANES>> = Array::by(joints, |_| Lanes([0.0; LANES]));
         let mut sound = Lanes([1.0; LANES]);
         step_back_abreast(problem, &steps, &mut here, &mut sound);
@@ -222,11 +222,15 @@ impl<M: Mechanism> Ways<M> {
 /// How many candidates are measured at once.
 pub(crate) const LANES: usize = 2;
 
-/// What the equations read of [`LANES`] candidates.
+/// What the equations read of so many candidates, each so many behind the one before.
 #[inline(always)]
-pub(crate) fn abreast<M: Mechanism>(at: &Places<M, Abreast<M>>, first: usize) -> Places<M, Lanes<LANES>> {
+pub(crate) fn abreast<M: Mechanism, const W: usize>(
+    at: &Places<M, Abreast<M>>,
+    first: usize,
+    stride: usize,
+) -> Places<M, Lanes<W>> {
     let rows = at.as_ref();
-    Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane])))
+    Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }
 
 /// As [`Problem::step_back`], of several candidates at once; those with a long step, or a pair far from the circle, are not sound.

@@ -46,7 +46,7 @@ where
     for i in 0..3 {
         for j in 0..3 {
             excess[i][j] = dot(&r[3 * i..], &r[3 * j..]) - if i == j { 1.0 } else { 0.0 };
-            deviation = N::max(excess[i][j].abs(), deviation);
+            deviation = deviation.greater(excess[i][j].abs());
         }
     }
     let determinant =

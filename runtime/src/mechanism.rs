@@ -61,8 +61,11 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>,
     {
-        let (tip, compared) = (self.tip(at), self.facts().compared);
-        Array::by(compared.len(), |i| tip.as_ref()[i] - p.as_ref()[compared[i]])
+        let mut values = self.tip(at);
+        for (value, &parameter) in values.as_mut().iter_mut().zip(self.facts().compared) {
+            *value = *value - p.as_ref()[parameter];
+        }
+        values
     }
 
     /// The sizes of equations: sums of their terms' magnitudes.
@@ -123,9 +126,9 @@ pub struct Facts<'a> {
     pub candidates: usize,
     /// So many candidates in a row differ in signs alone, and miss the equations by the same.
     pub twins: usize,
-    /// By joint and candidate of an ordinary target, joint by joint: the first candidate with the same cosine and sine but for signs; empty where many targets are
-    /// solved one by one.
-    pub first: &'a [usize],
+    /// By joint: so many candidates of an ordinary target in a row have the same cosine and sine but for signs; empty where many targets are solved one
+    /// by one.
+    pub alike: &'a [usize],
     /// A length typical of the mechanism.
     pub scale: f64,
     /// The most solutions that a target can have.
@@ -158,7 +161,7 @@ impl Facts<'_> {
         turned: &[],
         candidates: 2,
         twins: 1,
-        first: &[],
+        alike: &[],
         scale: 1.0,
         capacity: 0,
         isolated: None,

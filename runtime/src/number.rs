@@ -96,7 +96,7 @@ pub trait Number:
     /// The greatest among a positive number and magnitudes.
     #[inline(always)]
     fn largest(least: f64, others: &[Self]) -> Self {
-        others.iter().fold(Self::of(least), |largest, other| largest.max(other.abs()))
+        others.iter().fold(Self::of(least), |largest, other| largest.greater(other.abs()))
     }
 
     /// The number where another is below a limit, and zero elsewhere.

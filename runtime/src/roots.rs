@@ -63,17 +63,15 @@ impl<const D: usize> Roots<f64, D> {
 /// All real roots of `x^2 + constant`; a miss is measured against the unknown's typical size `scale`.
 #[inline(always)]
 pub(crate) fn of_square(constant: f64, scale: f64, tangent: f64) -> Roots<f64, 2> {
-    if constant.is_nan() || constant > tangent * f64::max(constant, scale * scale) {
+    let is_met = f64::MIN <= constant && constant <= tangent * constant.greater(scale * scale);
+    if !is_met {
         return Roots::NONE;
     }
     if constant >= 0.0 {
         return Roots { values: [0.0; 2], count: 1, doubts: [true; 2] };
     }
     let root = Arithmetic::sqrt(-constant);
-    let mut roots = Roots { doubts: [root <= MEETING * scale; 2], ..Roots::NONE };
-    roots.push(-root);
-    roots.push(root);
-    roots
+    Roots { values: [-root, root], count: 2, doubts: [root <= MEETING * scale; 2] }
 }
 
 /// The roots of the first polynomial whose leading coefficient is not negligible, or of the last one.

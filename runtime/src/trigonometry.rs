@@ -61,9 +61,10 @@ where
     let steep = up.exceeds(across);
     let (low, high) = (across.or(up, steep), up.or(across, steep));
     let far = low.exceeds(EIGHTH * high);
-    let z = (low - high).or(low, far) / (low + high).or(high, far);
+    let where_far = |number: N| number.or(N::of(0.0), far);
+    let z = (low - where_far(high)) / (high + where_far(low));
     let angle = z + z * (z * z) * series(z * z);
-    let angle = (FRAC_PI_4 + (angle + REST)).or(angle, far);
+    let angle = where_far(N::of(FRAC_PI_4)) + (angle + where_far(N::of(REST)));
     (FRAC_PI_2 - (angle - REST_OF[0])).or(angle, steep)
 }
 

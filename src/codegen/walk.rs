@@ -18,7 +18,7 @@ pub(super) struct Function {
     /// The names that it is told, behind the parameters.
     pub known: Vec<String>,
     pub lines: Vec<String>,
-    /// Whether one case that often runs leads here, so that a language had better put it in that place.
+    /// Whether one place that is often passed leads here, so that a language had better put it in that place.
     pub is_inlined: bool,
 }
 
@@ -43,7 +43,7 @@ pub(super) fn functions(scene: &Scene<'_>, dialect: &dyn Dialect) -> Vec<Functio
         let is_told = |unknown: &usize| known[*unknown] && reads(&lines, &scene.names.unknowns[*unknown]);
         let known = (0..known.len()).filter(is_told).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
         let before = index.checked_sub(1).map_or(&[][..], |before| &blocks[before].cases);
-        let is_inlined = before.iter().filter(|case| !case.is_rare()).count() == 1;
+        let is_inlined = index == 0 || before.iter().filter(|case| !case.is_rare()).count() == 1;
         functions.push(Function { number: index + 1, label: remark(&blocks[index].label), known, lines, is_inlined });
     }
     functions

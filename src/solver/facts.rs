@@ -36,8 +36,8 @@ pub(crate) struct Facts {
     pub turned: Vec<usize>,
     pub candidates: usize,
     pub twins: usize,
-    /// By joint and candidate, joint by joint; empty where several targets are not solved at once.
-    pub first: Vec<usize>,
+    /// By joint; empty where several targets are not solved at once.
+    pub alike: Vec<usize>,
     pub scale: f64,
     pub capacity: usize,
     pub isolated: Option<usize>,
@@ -67,7 +67,6 @@ impl Facts {
         let size_of = |size: &Operand| sizes.iter().position(|other| other == size).unwrap_or(0);
         let keeps = || layout.mirror.as_ref().is_some_and(|mirror| mirror.keeps_misses(program));
         let is_abreast = is_solved_abreast(program);
-        let row = |joint| first(layout, joint);
         Facts {
             inputs: program.inputs.len(),
             joints: layout.stands(),
@@ -82,7 +81,7 @@ impl Facts {
             turned,
             candidates: room(program),
             twins: if is_abreast && keeps() { 2 } else { 1 },
-            first: if is_abreast { (0..program.joints.len()).flat_map(row).collect() } else { Vec::new() },
+            alike: if is_abreast { (0..program.joints.len()).map(|joint| alike(layout, joint)).collect() } else { Vec::new() },
             scale: program.scale,
             capacity: program.capacity,
             isolated: program.isolated,
@@ -194,14 +193,13 @@ pub(crate) fn candidates(program: &Program, block: usize) -> usize {
     program.blocks[block..].iter().filter_map(usual).map(Program::branches).fold(1, usize::saturating_mul)
 }
 
-/// By candidate: the first one in which an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and
+/// In how many candidates in a row an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and
 /// the two of a root that turns signs of the cosine and the sine.
-pub(crate) fn first(layout: &Layout<'_>, joint: usize) -> Vec<usize> {
+pub(crate) fn alike(layout: &Layout<'_>, joint: usize) -> usize {
     let (program, block) = (layout.program, layout.finder(joint));
     let unknowns = program.joints[joint].value.unknowns();
     let later = candidates(program, block + 1);
     let is_mirrored = usual(&program.blocks[block]).is_some_and(|case| mirror::turns(program, case, &unknowns));
     let is_behind = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
-    let row = if is_mirrored || is_behind { 2 * later } else { later };
-    (0..candidates(program, 0)).map(|candidate| candidate - candidate % row).collect()
+    if is_mirrored || is_behind { 2 * later } else { later }
 }
