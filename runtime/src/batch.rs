@@ -7,6 +7,7 @@ use crate::mechanism::{
 };
 use crate::number::{Guard, Lanes, Mask, Number};
 use crate::problem::fit;
+use crate::registers::in_widest;
 use crate::solution::{Error, Pairs, Solution};
 use crate::solve::Solve;
 use crate::storage::Array;
@@ -89,8 +90,14 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
         return solve_singly(mechanism, targets, out, counts);
     }
     if M::IS_TOLD {
-        let solve = if mechanism.facts().alike.is_empty() { solve_singly::<M, A> } else { solve_by::<M, A, 16> };
-        return solve(mechanism, targets, out, counts);
+        return if mechanism.facts().alike.is_empty() {
+            solve_singly(mechanism, targets, out, counts)
+        } else {
+            in_widest(
+                #[inline(always)]
+                || solve_by::<M, A, 16>(mechanism, targets, out, counts),
+            )
+        };
     }
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     {

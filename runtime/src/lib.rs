@@ -22,6 +22,7 @@ pub mod number;
 mod problem;
 mod quartic;
 mod refine;
+pub mod registers;
 pub mod roots;
 mod self_motion;
 pub mod six_axes;

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 21] = [
+pub const RUST: [(&str, &str); 22] = [
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
@@ -16,6 +16,7 @@ pub const RUST: [(&str, &str); 21] = [
     ("problem", include_str!("problem.rs")),
     ("quartic", include_str!("quartic.rs")),
     ("refine", include_str!("refine.rs")),
+    ("registers", include_str!("registers.rs")),
     ("roots", include_str!("roots.rs")),
     ("self_motion", include_str!("self_motion.rs")),
     ("solution", include_str!("solution.rs")),

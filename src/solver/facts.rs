@@ -81,7 +81,11 @@ impl Facts {
             turned,
             candidates: room(program),
             twins: if is_abreast && keeps() { 2 } else { 1 },
-            alike: if is_abreast { (0..program.joints.len()).map(|joint| alike(layout, joint)).collect() } else { Vec::new() },
+            alike: if is_abreast {
+                (0..program.joints.len()).map(|joint| alike(layout, joint)).collect()
+            } else {
+                Vec::new()
+            },
             scale: program.scale,
             capacity: program.capacity,
             isolated: program.isolated,

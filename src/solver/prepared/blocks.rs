@@ -97,8 +97,7 @@ pub(super) enum JointPlace {
 impl Blocks {
     pub fn new(layout: &Layout<'_>) -> Self {
         let program = layout.program;
-        let registers = program.blocks.iter().map(Block::registers).sum();
-        let mut assembler = Assembler::new(program.parameters.len(), (0..program.unknowns.len()).collect(), registers);
+        let mut assembler = Assembler::new(program.parameters.len(), (0..program.unknowns.len()).collect());
         let mut preparing = Preparing { layout, assembler: &mut assembler };
         let list = (0..program.blocks.len()).map(|index| preparing.block(index)).collect();
         let places = layout.places().into_iter().map(|unknown| assembler.place(Operand::Unknown(unknown))).collect();
@@ -120,7 +119,6 @@ impl Preparing<'_> {
         let code = self.assembler.code(&block.code, &demand);
         let first = (0..block.cases.len()).filter(|&case| block.opens_group(case));
         let turns = first.map(|first| self.turn(block, first, &wanted)).collect();
-        self.assembler.base += block.registers();
         Prepared { code, radix: block.branches(), turns }
     }
 
@@ -133,7 +131,8 @@ impl Preparing<'_> {
         let mut members = Vec::new();
         for case in &block.cases {
             if let Some(own) = case.pivot.filter(|own| own.group == pivot.group) {
-                members.push((self.assembler.place(own.value), self.told(case, wanted)));
+                let told = self.told(case, wanted);
+                members.push((self.assembler.place(own.value), told));
             }
         }
         Turn::Elected(members)

@@ -22,7 +22,7 @@ impl Equations {
         let places = layout.places();
         let place_of = |unknown| places.iter().position(|&other| other == unknown).unwrap_or(0);
         let place_of = (0..program.unknowns.len()).map(place_of).collect();
-        let mut assembler = Assembler::new(program.parameters.len(), place_of, code.len());
+        let mut assembler = Assembler::new(program.parameters.len(), place_of);
         let demand = Demand::of_code(code, results.clone());
         let code = assembler.code(code, &demand);
         let results = results.into_iter().map(|&result| assembler.place(result)).collect();

@@ -24,7 +24,7 @@ impl Parameters {
     pub fn new(program: &Program) -> Self {
         let computed = |(index, parameter): (usize, &crate::solver::ParameterRule)| match &parameter.rule {
             Rule::Root { code, value } => {
-                let mut assembler = Assembler::new(index, Vec::new(), code.len());
+                let mut assembler = Assembler::new(index, Vec::new());
                 let prepared = assembler.code(code, &Demand::of_code(code, [value]));
                 let value = assembler.place(*value);
                 Computed::Root { code: prepared, memory: assembler.memory(), value }
