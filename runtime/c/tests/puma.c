@@ -2,7 +2,6 @@
 #ifndef GB_ROBOT
 
 #include "puma.h"
-#include <math.h>
 
 #define GB_ROBOT puma
 #define GB_INPUTS PUMA_INPUTS
@@ -19,20 +18,18 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 6, 7, 8, 10, 11
 #define GB_FREED 0, 1, 3
-#define GB_ALIKE 8, 2, 4, 2, 2, 2
+#define GB_RUNS 8, 2, 4, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(1.674)
 #define GB_ISOLATED 8
 #define GB_CONDITIONS GB_ROTATION(3)
-#define GB_REACHED GB_VALUE(0), GB_VALUE(1), GB_VALUE(2), GB_VALUE(3), GB_VALUE(6), GB_VALUE(9), GB_VALUE(4), \
-    GB_VALUE(7), GB_VALUE(10), GB_VALUE(5), GB_VALUE(8), GB_VALUE(11)
+#define GB_REACHED GB_VALUE(0), GB_VALUE(1), GB_VALUE(2), GB_VALUE(3), GB_VALUE(6), GB_VALUE(9), GB_VALUE(4), GB_VALUE(7), GB_VALUE(10), GB_VALUE(5), GB_VALUE(8), GB_VALUE(11)
 
-const char *const puma_input_names[PUMA_INPUTS] = {"px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31",
-    "r32", "r33"};
-const char *const puma_joint_names[PUMA_JOINTS] = {"ShoulderYaw", "ShoulderPitch", "ElbowPitch", "WristYaw",
-    "WristPitch", "WristRoll"};
-const gb_real puma_limits[2 * PUMA_JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY,
-    -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY};
+#include <math.h>
+
+const char *const puma_input_names[PUMA_INPUTS] = {"px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"};
+const char *const puma_joint_names[PUMA_JOINTS] = {"ShoulderYaw", "ShoulderPitch", "ElbowPitch", "WristYaw", "WristPitch", "WristRoll"};
+const gb_real puma_limits[2 * PUMA_JOINTS] = {-INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY};
 
 /* The rest is for each type of number: this file includes itself. */
 #include "puma.c"
@@ -42,34 +39,52 @@ const gb_real puma_limits[2 * PUMA_JOINTS] = {-INFINITY, INFINITY, -INFINITY, IN
 
 #if GB_WIDTH == 1
 /* Where cases put a free joint: cosine and sine. */
-static const gb_real samples_1[8][2] = {
-    {-R(0.9210609940028851), -R(0.3894183423086505)}, {-R(0.37592812418099103), -R(0.926648825310733)},
+static const gb_real samples_1[][2] = {
+    {-R(0.9210609940028851), -R(0.3894183423086505)},
+    {-R(0.37592812418099103), -R(0.926648825310733)},
     {R(0.38941834230865047), -R(0.9210609940028851)}, {R(0.926648825310733), -R(0.375928124180991)},
     {R(0.9210609940028851), R(0.3894183423086505)}, {R(0.37592812418099114), R(0.926648825310733)},
-    {-R(0.38941834230865036), R(0.9210609940028851)}, {-R(0.9266488253107329), R(0.3759281241809912)},
+    {-R(0.38941834230865036), R(0.9210609940028851)},
+    {-R(0.9266488253107329), R(0.3759281241809912)},
 };
 #endif
 
 /* The numbers of a target that the walk and the equations read. */
 GB_INLINE void GB_(parameters)(const T *target, T *p)
 {
-    memcpy(p, target, 12 * sizeof(T));
-    p[12] = GB_(largest)(R(1.674), target, 12);
+    const T px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
+    const T r13_ = target[5], r21_ = target[6], r22_ = target[7], r23_ = target[8], r31_ = target[9];
+    const T r32_ = target[10], r33_ = target[11];
+    const T all[] = {px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_};
+    const T magnitude = GB_(largest)(R(1.674), all, 12);
+    p[0] = px;
+    p[1] = py;
+    p[2] = pz;
+    p[3] = r11_;
+    p[4] = r12_;
+    p[5] = r13_;
+    p[6] = r21_;
+    p[7] = r22_;
+    p[8] = r23_;
+    p[9] = r31_;
+    p[10] = r32_;
+    p[11] = r33_;
+    p[12] = magnitude;
 }
 
 /* Block 5: WristPitch. */
 GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c)
 {
-    const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9], r32_ = p[10],
-        r33_ = p[11];
-    const T r5 = r33_ * c1 + r13_ * s1, r9 = r23_ * c2 + s2 * r5, r11 = c2 * r5 - r23_ * s2, r19 = c3 * r9 + s3 * r11,
-        r20 = c4 * (c3 * r11 - s3 * r9) + s4 * (r13_ * c1 - r33_ * s1),
-        r25 = R(1.0) / GB_(root)(r20 * r20 + r19 * r19), c5 = r20 * r25, s5 = R(0.0) - r19 * r25,
-        r34 = r32_ * c1 + r12_ * s1, r43 = c4 * (r12_ * c1 - r32_ * s1),
-        r44 = c3 * (c2 * r34 - r22_ * s2) - s3 * (r22_ * c2 + s2 * r34), r45 = s4 * r44, r51 = r31_ * c1 + r11_ * s1,
-        r61 = c3 * (c2 * r51 - r21_ * s2) - s3 * (r21_ * c2 + s2 * r51),
-        r63 = c4 * (r11_ * c1 - r31_ * s1) - s4 * r61, r64 = r45 - r43,
-        r69 = R(1.0) / GB_(root)(r63 * r63 + r64 * r64), c6 = r63 * r69, s6 = r64 * r69;
+    const T r11_ = p[3], r12_ = p[4], r13_ = p[5], r21_ = p[6], r22_ = p[7], r23_ = p[8], r31_ = p[9];
+    const T r32_ = p[10], r33_ = p[11], r5 = r33_ * c1 + r13_ * s1, r9 = r23_ * c2 + s2 * r5;
+    const T r11 = c2 * r5 - r23_ * s2, r19 = c3 * r9 + s3 * r11;
+    const T r20 = c4 * (c3 * r11 - s3 * r9) + s4 * (r13_ * c1 - r33_ * s1);
+    const T r25 = R(1.0) / GB_(root)(r20 * r20 + r19 * r19), c5 = r20 * r25, s5 = R(0.0) - r19 * r25;
+    const T r34 = r32_ * c1 + r12_ * s1, r43 = c4 * (r12_ * c1 - r32_ * s1);
+    const T r44 = c3 * (c2 * r34 - r22_ * s2) - s3 * (r22_ * c2 + s2 * r34), r45 = s4 * r44;
+    const T r51 = r31_ * c1 + r11_ * s1, r61 = c3 * (c2 * r51 - r21_ * s2) - s3 * (r21_ * c2 + s2 * r51);
+    const T r63 = c4 * (r11_ * c1 - r31_ * s1) - s4 * r61, r64 = r45 - r43;
+    const T r69 = R(1.0) / GB_(root)(r63 * r63 + r64 * r64), c6 = r63 * r69, s6 = r64 * r69;
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
@@ -79,25 +94,28 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s
 {
     const T r13_ = p[5], r23_ = p[8], r33_ = p[11];
     const size_t before4 = GB_(count)(c);
-    const T r5 = r33_ * c1 + r13_ * s1, r13 = r33_ * s1 - r13_ * c1,
-        r14 = c3 * (c2 * r5 - r23_ * s2) - s3 * (r23_ * c2 + s2 * r5);
+    const T r5 = r33_ * c1 + r13_ * s1, r13 = r33_ * s1 - r13_ * c1;
+    const T r14 = c3 * (c2 * r5 - r23_ * s2) - s3 * (r23_ * c2 + s2 * r5);
     /* Case 1: generic, where A^2 + B^2 is not zero. */
     {
         const T r15 = r13 * r13, r16 = r14 * r14, r17 = r15 + r16;
         if (GB_(is_usual)(c, GB_(away)(r17, GB_(of)(R(6784.0))))) {
             const GB_(roots) roots1 = GB_(square_roots)(R(0.0) - r15 - r16, f2 * (R(20.591260281974) * f1));
             if (roots1.count > 0) {
-                const T w4 = roots1.values[0], r24 = R(1.0) / r17, c4 = R(0.0) - w4 * r14 * r24, s4 = w4 * r13 * r24;
-                GB_(block_5)(p, GB_(by_pair)(GB_(next)(found3, 3, 0), &roots1), c1, s1, c2, s2, c3, s3, c4, s4, c);
+                const T w4 = roots1.values[0], r24 = R(1.0) / r17, c4 = R(0.0) - w4 * r14 * r24;
+                const T s4 = w4 * r13 * r24;
+                const GB_(found) found4 = GB_(by_pair)(GB_(next)(found3, 3, 0), &roots1);
+                GB_(block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
             }
         }
     }
     /* Case 2: A = 0, B = 0, C = 0, where A^2 + B^2 is near zero; free: WristYaw. */
     {
         if (GB_(is_due)(c, before4, GB_(near)(r13 * r13 + r14 * r14, GB_(of)(R(4.24e-5))))) {
-            for (size_t i = 0; i < 8; i++) {
-                const T c4 = GB_(of)(samples_1[i][0]), s4 = GB_(of)(samples_1[i][1]);
-                GB_(block_5)(p, GB_(freeing)(GB_(next)(found3, 3, 2), 0x8u), c1, s1, c2, s2, c3, s3, c4, s4, c);
+            for (size_t i2 = 0; i2 < 8; i2++) {
+                const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
+                const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x8u);
+                GB_(block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
             }
         }
     }
@@ -107,37 +125,37 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s
 GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
 {
     const T px = p[0], py = p[1], pz = p[2], r13_ = p[5], r23_ = p[8], r33_ = p[11], magnitude = p[12];
-    const T r14 = R(2.0) * (px * (px - R(0.15) * r13_)) + R(2.0) * (py * (py - R(0.15) * r23_)),
-        r17 = r14 + R(2.0) * (pz * (pz - R(0.15) * r33_)) - px * px,
-        r23 = r17 - py * py - pz * pz - R(1.32) * py + R(0.198) * r23_, r24 = r23 + R(0.084852);
+    const T r14 = R(2.0) * (px * (px - R(0.15) * r13_)) + R(2.0) * (py * (py - R(0.15) * r23_));
+    const T r17 = r14 + R(2.0) * (pz * (pz - R(0.15) * r33_)) - px * px;
+    const T r23 = r17 - py * py - pz * pz - R(1.32) * py + R(0.198) * r23_, r24 = r23 + R(0.084852);
     const GB_(roots) roots1 = GB_(square_roots)(r24 * r24 - R(0.13931406950400002), R(1.4142135623730951) * f1);
     for (size_t i1 = 0; i1 < roots1.count; i1++) {
-        const T w3 = roots1.values[i1], c3 = R(7.178025906215364) * (R(0.373248) * r24),
-            s3 = R(7.178025906215364) * (R(0.373248) * w3);
+        const T w3 = roots1.values[i1], c3 = R(7.178025906215364) * (R(0.373248) * r24);
+        const T s3 = R(7.178025906215364) * (R(0.373248) * w3);
         const GB_(found) found2 = GB_(by_root)(GB_(next)(found1, 2, i1), &roots1, i1);
         /* Block 3: ShoulderPitch. */
         const size_t before3 = GB_(count)(c);
-        const T r39 = R(0.432) * (c3 + R(1.0)), r40 = R(0.432) * s3, r43 = py - R(0.15) * r23_ - R(0.66),
-            r44 = c1 * (pz - R(0.15) * r33_) + s1 * (px - R(0.15) * r13_), r48 = GB_(abs)(magnitude + R(3.858)),
-            r49 = GB_(abs)(R(2.0) * magnitude + R(6.396));
+        const T r39 = R(0.432) * (c3 + R(1.0)), r40 = R(0.432) * s3, r43 = py - R(0.15) * r23_ - R(0.66);
+        const T r44 = c1 * (pz - R(0.15) * r33_) + s1 * (px - R(0.15) * r13_);
+        const T r48 = GB_(abs)(magnitude + R(3.858)), r49 = GB_(abs)(R(2.0) * magnitude + R(6.396));
         /* Case 1: generic, where A^2 + B^2 is not zero. */
         {
             if (GB_(is_usual)(c, GB_(away)(r39 * r39 + r40 * r40, GB_(of)(R(414.76608000000004))))) {
-                const T f2 = GB_(of)(R(1.0)), r55 = r39 * r44 - r40 * r43, r59 = r40 * r44 - (R(0.0) - r39 * r43),
-                    r64 = R(1.0) / GB_(root)(r59 * r59 + r55 * r55), c2 = r59 * r64, s2 = r55 * r64;
-                GB_(block_4)(p, GB_(next)(found2, 2, 0), c1, s1, c2, s2, c3, s3, f1, f2, c);
+                const T f2 = GB_(of)(R(1.0)), r55 = r39 * r44 - r40 * r43;
+                const T r59 = r40 * r44 - (R(0.0) - r39 * r43);
+                const T r64 = R(1.0) / GB_(root)(r59 * r59 + r55 * r55), c2 = r59 * r64, s2 = r55 * r64;
+                const GB_(found) found3 = GB_(next)(found2, 2, 0);
+                GB_(block_4)(p, found3, c1, s1, c2, s2, c3, s3, f1, f2, c);
             }
         }
-        /* Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero;
-         * free: ShoulderPitch. */
+        /* Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: ShoulderPitch. */
         {
-            const GB_(guard) near1 = GB_(near)(r39 * r39 + r40 * r40, GB_(of)(R(2.5922880000000007e-6))),
-                near2 = GB_(near)(r44, R(0.01) * r49), near3 = GB_(near)(r43, R(0.01) * r48);
-            if (GB_(is_due)(c, before3, GB_(both)(GB_(both)(near1, near2), near3))) {
+            if (GB_(is_due)(c, before3, GB_(both)(GB_(both)(GB_(near)(r39 * r39 + r40 * r40, GB_(of)(R(2.5922880000000007e-6))), GB_(near)(r44, R(0.01) * r49)), GB_(near)(r43, R(0.01) * r48)))) {
                 const T f2 = GB_(of)(R(1000000.0));
-                for (size_t i = 0; i < 8; i++) {
-                    const T c2 = GB_(of)(samples_1[i][0]), s2 = GB_(of)(samples_1[i][1]);
-                    GB_(block_4)(p, GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u), c1, s1, c2, s2, c3, s3, f1, f2, c);
+                for (size_t i2 = 0; i2 < 8; i2++) {
+                    const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
+                    const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u);
+                    GB_(block_4)(p, found3, c1, s1, c2, s2, c3, s3, f1, f2, c);
                 }
             }
         }
@@ -145,7 +163,7 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_
 }
 
 /* Block 1: ShoulderYaw. */
-static void GB_(walk)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T px = p[0], pz = p[2], r13_ = p[5], r33_ = p[11], magnitude = p[12];
     const size_t before1 = GB_(count)(c);
@@ -157,8 +175,10 @@ static void GB_(walk)(const T *p, GB_(sink) *c)
             const T f1 = GB_(of)(R(1.0));
             const GB_(roots) roots1 = GB_(square_roots)(R(0.0) - r6 - r7, GB_(root)(r10));
             for (size_t i1 = 0; i1 < roots1.count; i1++) {
-                const T w1 = roots1.values[i1], r17 = R(1.0) / r8, c1 = R(0.0) - w1 * r3 * r17, s1 = w1 * r1 * r17;
-                GB_(block_2)(p, GB_(by_root)(GB_(first)(i1, 2), &roots1, i1), c1, s1, f1, c);
+                const T w1 = roots1.values[i1], r17 = R(1.0) / r8, c1 = R(0.0) - w1 * r3 * r17;
+                const T s1 = w1 * r1 * r17;
+                const GB_(found) found1 = GB_(by_root)(GB_(first)(i1, 2), &roots1, i1);
+                GB_(block_2)(p, found1, c1, s1, f1, c);
             }
         }
     }
@@ -167,31 +187,39 @@ static void GB_(walk)(const T *p, GB_(sink) *c)
         const T r9 = r5 * r5;
         if (GB_(is_due)(c, before1, GB_(near)(r1 * r1 + r3 * r3, R(1.0000000000000001e-7) * (r9 + r9)))) {
             const T f1 = GB_(of)(R(1000000.0));
-            for (size_t i = 0; i < 8; i++) {
-                const T c1 = GB_(of)(samples_1[i][0]), s1 = GB_(of)(samples_1[i][1]);
-                GB_(block_2)(p, GB_(freeing)(GB_(first)(2, 3), 0x1u), c1, s1, f1, c);
+            for (size_t i2 = 0; i2 < 8; i2++) {
+                const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
+                const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
+                GB_(block_2)(p, found1, c1, s1, f1, c);
             }
         }
     }
 }
 
+/* Walks through the blocks. */
+GB_INLINE void GB_(walk)(const T *p, GB_(sink) *c)
+{
+    GB_(block_1)(p, c);
+}
+
 /* What the equations compare with parameters. */
 GB_INLINE void GB_(tip)(const T *at, T *tip)
 {
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7],
-        c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
-    const T r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2, r6 = c2 * c3,
-        r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3, r17 = s3 * r0 - c3 * r2, r19 = c2 * s3 + s2 * c3, r20 = s4 * r19,
-        r22 = s3 * r1 - c3 * r3, r26 = c4 * r19, r29 = r4 + r5, r31 = c1 * s4 - c4 * r17, r33 = r6 - r7,
-        r36 = r8 + r9, r38 = s1 * s4 + c4 * r22, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26,
-        r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31,
-        r51 = c5 * r33 - s5 * r26, r53 = s1 * c4 - s4 * r22, r55 = c5 * r36 - s5 * r38,
-        r69 = R(0.432) * c2 + R(0.432) * r6 - R(0.432) * r7 - R(0.15) * r42,
-        r78 = R(0.432) * r0 + R(0.432) * r4 + R(0.432) * r5 - R(0.15) * r40,
-        r87 = R(0.432) * r1 + R(0.432) * r8 + R(0.432) * r9 - R(0.15) * r44;
-    tip[0] = r78 + R(0.15) * r41;
-    tip[1] = r69 - R(0.15) * r43 + R(0.66);
-    tip[2] = r87 - R(0.15) * r45;
+    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7];
+    const T c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11], r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2;
+    const T r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2, r6 = c2 * c3, r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3;
+    const T r17 = s3 * r0 - c3 * r2, r19 = c2 * s3 + s2 * c3, r20 = s4 * r19, r22 = s3 * r1 - c3 * r3;
+    const T r26 = c4 * r19, r29 = r4 + r5, r31 = c1 * s4 - c4 * r17, r33 = r6 - r7, r36 = r8 + r9;
+    const T r38 = s1 * s4 + c4 * r22, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26;
+    const T r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31;
+    const T r51 = c5 * r33 - s5 * r26, r53 = s1 * c4 - s4 * r22, r55 = c5 * r36 - s5 * r38;
+    const T r67 = R(0.432) * c2 + R(0.432) * r6 - R(0.432) * r7;
+    const T r76 = R(0.432) * r0 + R(0.432) * r4 + R(0.432) * r5;
+    const T r85 = R(0.432) * r1 + R(0.432) * r8 + R(0.432) * r9;
+    const T r93 = r67 - R(0.15) * r42 - R(0.15) * r43 + R(0.66);
+    tip[0] = r76 - R(0.15) * r40 + R(0.15) * r41;
+    tip[1] = r93;
+    tip[2] = r85 - R(0.15) * r44 - R(0.15) * r45;
     tip[3] = c6 * r46 + s6 * r48;
     tip[4] = c6 * r20 + s6 * r51;
     tip[5] = s6 * r55 - c6 * r53;
@@ -208,49 +236,9 @@ GB_INLINE void GB_(sizes)(const T *p, const T *at, T *sizes)
 {
     sizes[0] = GB_(of)(R(1.674));
     sizes[1] = GB_(of)(R(1.0));
+    (void)p;
+    (void)at;
 }
-
-#if GB_WIDTH == 1
-/* The derivative of each equation by each joint. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
-{
-    const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3], c3 = at[4], s3 = at[5], c4 = at[6], s4 = at[7],
-        c5 = at[8], s5 = at[9], c6 = at[10], s6 = at[11];
-    const T r0 = s1 * s2, r1 = c1 * s2, r2 = s1 * c2, r3 = c1 * c2, r4 = c3 * r0, r5 = s3 * r2, r6 = c2 * c3,
-        r7 = s2 * s3, r8 = c3 * r1, r9 = s3 * r3, r17 = s3 * r0 - c3 * r2, r19 = c2 * s3 + s2 * c3, r20 = s4 * r19,
-        r22 = s3 * r1 - c3 * r3, r26 = c4 * r19, r29 = r4 + r5, r31 = c1 * s4 - c4 * r17, r33 = r6 - r7,
-        r36 = r8 + r9, r38 = s1 * s4 + c4 * r22, r40 = s5 * r29, r41 = c5 * r31, r42 = s5 * r33, r43 = c5 * r26,
-        r44 = s5 * r36, r45 = c5 * r38, r46 = c1 * c4 + s4 * r17, r48 = c5 * r29 + s5 * r31,
-        r51 = c5 * r33 - s5 * r26, r53 = s1 * c4 - s4 * r22, r54 = c6 * r53, r55 = c5 * r36 - s5 * r38,
-        r56 = s6 * r55, r64 = R(0.432) * r6, r66 = R(0.432) * r7, r68 = R(0.15) * r42, r70 = R(0.15) * r43,
-        r71 = R(0.432) * c2 + r64 - r66 - r68 - r70, r73 = R(0.432) * r4, r75 = R(0.432) * r5, r77 = R(0.15) * r40,
-        r79 = R(0.15) * r41, r80 = R(0.432) * r0 + r73 + r75 - r77 + r79, r82 = R(0.432) * r8, r84 = R(0.432) * r9,
-        r86 = R(0.15) * r44, r88 = R(0.15) * r45, r89 = R(0.432) * r1 + r82 + r84 - r86 - r88, r90 = r44 + r45,
-        r91 = r42 + r43, r96 = c6 * r20 + s6 * r51, r97 = c6 * r46 + s6 * r48, r102 = s6 * r53 + c6 * r55,
-        r120 = r64 - r66 - r68 - r70, r131 = r33 * r90, r132 = r36 * r91, r133 = r40 - r41, r134 = r36 * r133,
-        r135 = r29 * r90, r136 = r29 * r91, r137 = r33 * r133, r142 = r46 * r91, r143 = r20 * r133,
-        r147 = r20 * r90 + r53 * r91, r152 = s1 * (r79 + (r73 + r75 - r77)) + c1 * (r82 + r84 - r86 - r88),
-        r157 = r53 * r133 + r46 * r90, r166 = r54 - r56, r167 = s6 * r20 - c6 * r51, r168 = s6 * r46 - c6 * r48,
-        r169 = s1 * r96, r172 = c1 * r96, r195 = c1 * r166 - s1 * r97, r226 = R(0.0) - s1 * r167,
-        r231 = s1 * r168 - c1 * r102, r236 = R(0.0) - c1 * r167, r244 = R(0.0) - s1 * r91,
-        r247 = s1 * r133 + c1 * r90, r249 = R(0.0) - c1 * r91;
-    const gb_real all[] = {
-        r89, s1 * r71, s1 * r120, R(0.0) - R(0.15) * (r131 - r132), R(0.0) - R(0.15) * r147, 0,
-        0, R(0.0) - (s1 * r80 + c1 * r89), R(0.0) - r152, R(0.0) - R(0.15) * (r134 - r135), R(0.15) * r157, 0,
-        R(0.0) - r80, c1 * r71, c1 * r120, R(0.0) - R(0.15) * (r136 - r137), R(0.0) - R(0.15) * (r142 - r143), 0,
-        r56 - r54, r169, r169, R(0.0) - (r33 * r166 + r36 * r96), r53 * r96 - r20 * r166, r91 * r166 + r90 * r96,
-        0, r195, r195, r36 * r97 + r29 * r166, r46 * r166 - r53 * r97, R(0.0) - (r90 * r97 + r133 * r166),
-        R(0.0) - r97, r172, r172, r29 * r96 - r33 * r97, r46 * r96 - r20 * r97, r91 * r97 - r133 * r96,
-        r102, r226, r226, r33 * r102 + r36 * r167, r20 * r102 - r53 * r167, R(0.0) - (r91 * r102 + r90 * r167),
-        0, r231, r231, R(0.0) - (r36 * r168 + r29 * r102), r53 * r168 - r46 * r102, r90 * r168 + r133 * r102,
-        r168, r236, r236, r33 * r168 - r29 * r167, r20 * r168 - r46 * r167, r133 * r167 - r91 * r168,
-        R(0.0) - r90, r244, r244, r132 - r131, R(0.0) - r147, 0,
-        0, r247, r247, r135 - r134, r157, 0,
-        r133, r249, r249, r137 - r136, r143 - r142, 0,
-    };
-    memcpy(rows, all, sizeof all);
-}
-#endif
 
 #include "puma.c"
 #endif
