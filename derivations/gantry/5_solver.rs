@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[3, 4, 6, 7, 8],
     candidates: 2,
     twins: 2,
-    alike: &[2, 2, 2, 2, 2, 2],
+    runs: &[2, 2, 2, 2, 2, 2],
     scale: 1.02,
     capacity: CAPACITY,
     isolated: Some(2),

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 6, 7, 8, 10, 11
 #define GB_FREED 0, 1, 3
-#define GB_ALIKE 8, 2, 2, 2, 2, 2
+#define GB_RUNS 8, 2, 2, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(1.0300064515457703)
 #define GB_ISOLATED 8

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 8, 10, 11],
     candidates: 8,
     twins: 2,
-    alike: &[8, 2, 2, 2, 2, 2],
+    runs: &[8, 2, 2, 2, 2, 2],
     scale: 1.0300064515457703,
     capacity: CAPACITY,
     isolated: Some(8),

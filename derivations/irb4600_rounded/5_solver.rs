@@ -54,7 +54,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 9, 10, 11],
     candidates: 8,
     twins: 1,
-    alike: &[8, 2, 2, 2, 2, 2],
+    runs: &[8, 2, 2, 2, 2, 2],
     scale: 2.8400082014841272,
     capacity: CAPACITY,
     freed: &[0, 1, 3],

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2
 #define GB_TURNED 0, 1, 2
 #define GB_FREED 0
-#define GB_ALIKE 2, 2
+#define GB_RUNS 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.1265)
 #define GB_ISOLATED 2

@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2],
     candidates: 2,
     twins: 2,
-    alike: &[2, 2],
+    runs: &[2, 2],
     scale: 0.1265,
     capacity: CAPACITY,
     isolated: Some(2),

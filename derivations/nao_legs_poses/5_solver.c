@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11, 12, 13, 14, 15, 18, 21, 16, 19, 22, 17, 20, 23
 #define GB_FREED 0, 4, 5, 9, 10
-#define GB_ALIKE 4, 2, 2, 4, 2, 2, 1, 1, 2, 1, 1
+#define GB_RUNS 4, 2, 2, 4, 2, 2, 1, 1, 2, 1, 1
 #define GB_TWINS 1
 #define GB_SCALE R(0.3467054146165801)
 #define GB_CONDITIONS GB_ROTATION(3), GB_ROTATION(15)

@@ -54,7 +54,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11, 12, 13, 14, 15, 18, 21, 16, 19, 22, 17, 20, 23],
     candidates: 4,
     twins: 1,
-    alike: &[4, 2, 2, 4, 2, 2, 1, 1, 2, 1, 1],
+    runs: &[4, 2, 2, 4, 2, 2, 1, 1, 2, 1, 1],
     scale: 0.3467054146165801,
     capacity: CAPACITY,
     freed: &[0, 4, 5, 9, 10],

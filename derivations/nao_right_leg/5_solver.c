@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_FREED 0, 4, 5
-#define GB_ALIKE 2, 1, 1, 8, 2, 4
+#define GB_RUNS 2, 1, 1, 8, 2, 4
 #define GB_TWINS 1
 #define GB_SCALE R(0.3467054146165801)
 #define GB_ISOLATED 8

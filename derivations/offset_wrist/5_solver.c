@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_FREED 1, 5
-#define GB_ALIKE 4, 1, 2, 1, 2, 4
+#define GB_RUNS 4, 1, 2, 1, 2, 4
 #define GB_TWINS 1
 #define GB_SCALE R(1.3254696631613145)
 #define GB_ISOLATED 8

@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0
 #define GB_COMPARED 0, 1
 #define GB_FREED 0
-#define GB_ALIKE 1, 2
+#define GB_RUNS 1, 2
 #define GB_TWINS 1
 #define GB_SCALE R(0.9)
 #define GB_ISOLATED 2

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1],
     candidates: 2,
     twins: 1,
-    alike: &[1, 2],
+    runs: &[1, 2],
     scale: 0.9,
     capacity: CAPACITY,
     isolated: Some(2),

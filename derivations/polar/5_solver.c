@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0
 #define GB_COMPARED 0, 1, 2
 #define GB_FREED 0, 1
-#define GB_ALIKE 4, 2, 1
+#define GB_RUNS 4, 2, 1
 #define GB_TWINS 1
 #define GB_SCALE R(0.8600000000000001)
 #define GB_ISOLATED 4

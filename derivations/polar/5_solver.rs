@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    alike: &[4, 2, 1],
+    runs: &[4, 2, 1],
     scale: 0.8600000000000001,
     capacity: CAPACITY,
     isolated: Some(4),

@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 6, 7, 9, 10, 11
 #define GB_FREED 1, 3
-#define GB_ALIKE 4, 2, 2, 2, 2, 2
+#define GB_RUNS 4, 2, 2, 2, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(1.0150169491833725)
 #define GB_ISOLATED 8

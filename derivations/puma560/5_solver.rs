@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[6, 7, 9, 10, 11],
     candidates: 8,
     twins: 2,
-    alike: &[4, 2, 2, 2, 2, 2],
+    runs: &[4, 2, 2, 2, 2, 2],
     scale: 1.0150169491833725,
     capacity: CAPACITY,
     isolated: Some(8),

@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    alike: &[1, 1, 4],
+    runs: &[1, 1, 4],
     scale: 0.8205551275463989,
     capacity: CAPACITY,
     isolated: Some(4),

@@ -17,7 +17,7 @@
 #define GB_SIZE_OF 0, 0, 0
 #define GB_COMPARED 0, 1, 2
 #define GB_FREED 1
-#define GB_ALIKE 2, 1, 1
+#define GB_RUNS 2, 1, 1
 #define GB_TWINS 1
 #define GB_SCALE R(1.1302692427176386)
 #define GB_ISOLATED 4

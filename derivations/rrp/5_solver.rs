@@ -50,7 +50,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2],
     candidates: 4,
     twins: 1,
-    alike: &[2, 1, 1],
+    runs: &[2, 1, 1],
     scale: 1.1302692427176386,
     capacity: CAPACITY,
     isolated: Some(4),

@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
     candidates: 2,
     twins: 1,
-    alike: &[1, 2, 2, 1],
+    runs: &[1, 2, 2, 1],
     scale: 0.7803652144736517,
     capacity: CAPACITY,
     freed: &[0],

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[5, 6, 7, 9, 10],
     candidates: 8,
     twins: 2,
-    alike: &[8, 4, 2, 2, 2, 2],
+    runs: &[8, 4, 2, 2, 2, 2],
     scale: 1.06,
     capacity: CAPACITY,
     isolated: Some(8),

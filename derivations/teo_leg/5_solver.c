@@ -18,7 +18,7 @@
 #define GB_COMPARED 0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11
 #define GB_TURNED 0, 1, 2, 4, 5
 #define GB_FREED 0, 4
-#define GB_ALIKE 2, 2, 2, 8, 2, 2
+#define GB_RUNS 2, 2, 2, 8, 2, 2
 #define GB_TWINS 2
 #define GB_SCALE R(0.926083810044118)
 #define GB_ISOLATED 8

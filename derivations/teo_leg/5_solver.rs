@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2, 4, 5],
     candidates: 8,
     twins: 2,
-    alike: &[2, 2, 2, 8, 2, 2],
+    runs: &[2, 2, 2, 8, 2, 2],
     scale: 0.926083810044118,
     capacity: CAPACITY,
     isolated: Some(8),

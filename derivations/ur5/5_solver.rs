@@ -51,7 +51,7 @@ const FACTS: Facts<'static> = Facts {
     compared: &[0, 1, 2, 3, 6, 9, 4, 7, 10, 5, 8, 11],
     candidates: 8,
     twins: 1,
-    alike: &[4, 1, 2, 1, 2, 4],
+    runs: &[4, 1, 2, 1, 2, 4],
     scale: 1.192509,
     capacity: CAPACITY,
     isolated: Some(8),

@@ -52,7 +52,7 @@ const FACTS: Facts<'static> = Facts {
     turned: &[0, 1, 2, 4, 5],
     candidates: 2,
     twins: 2,
-    alike: &[2, 2, 2],
+    runs: &[2, 2, 2],
     scale: 1.0,
     capacity: CAPACITY,
     isolated: Some(2),

@@ -468,8 +468,8 @@ static const unsigned char gb_compared[GB_EQUATIONS] = {GB_COMPARED};
 #ifdef GB_CONDITIONS
 static const gb_condition gb_conditions[] = {GB_CONDITIONS};
 #endif
-#ifdef GB_ALIKE
-GB_UNUSED static const unsigned char gb_alike[GB_JOINTS] = {GB_ALIKE};
+#ifdef GB_RUNS
+GB_UNUSED static const unsigned char gb_runs[GB_JOINTS] = {GB_RUNS};
 #endif
 
 #define GB_PUBLIC(name) GB_JOIN(GB_ROBOT, _, name)
@@ -1361,7 +1361,7 @@ GB_INLINE void GB_(finish)(GB_(sink) *c, GB_(found) found, const T *at)
 }
 
 
-#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_ALIKE)
+#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_RUNS)
 /* ---- Many targets, several at once ---- */
 
 /* The numbers of up to so many targets, of which there is one at least; where one is infinite, not a number, or breaks a condition, all are doubtful. */
@@ -1369,10 +1369,11 @@ GB_INLINE GB_(truth) GB_(gather)(const gb_real *targets, size_t count, T *target
 {
     GB_(truth) fine = ~GB_(nowhere)();
     for (int i = 0; i < GB_INPUTS; i++) {
-        target[i] = GB_(of)(targets[i]);
+        T numbers = GB_(of)(targets[i]);
         for (size_t lane = 1; lane < GB_WIDTH; lane++) {
-            target[i][lane] = targets[(size_t)((lane < count ? lane : count - 1) * GB_INPUTS + i)];
+            numbers[lane] = targets[(size_t)((lane < count ? lane : count - 1) * GB_INPUTS + i)];
         }
+        target[i] = numbers;
         fine &= GB_(at_most)(GB_(abs)(target[i]), GB_(of)(GB_GREATEST));
     }
 #ifdef GB_CONDITIONS
@@ -1440,7 +1441,7 @@ GB_INLINE void GB_(find_joints)(GB_(sink) *c, bool wants_angles)
                 c->q[k][i] = cosine;
                 sound = GB_(exceeds)(GB_(of)(GB_GREATEST), GB_(abs)(cosine));
             } else {
-                if (k % gb_alike[i] == 0) {
+                if (k % gb_runs[i] == 0) {
                     sound = GB_(exceeds)(GB_(of)(GB_ROUNDING), GB_(abs)(cosine * cosine + sine * sine - R(1.0)));
                     acute = wants_angles ? GB_(acute)(GB_(abs)(cosine), GB_(abs)(sine)) : acute;
                 }
@@ -1734,11 +1735,11 @@ static GB_APART void gb_measure_waiting(const gb_sink_1 *c, size_t alike, gb_fit
 }
 
 /* The binary logarithm of how many angles of a joint in a row are computed as one at an ordinary target. */
-GB_INLINE int gb_alike_of(int joint)
+GB_INLINE int gb_run_of(int joint)
 {
     int alike = 0;
-#ifdef GB_ALIKE
-    while (((gb_alike[joint] | GB_CANDIDATES / GB_STEP) >> alike & 1) == 0) {
+#ifdef GB_RUNS
+    while (((gb_runs[joint] | GB_CANDIDATES / GB_STEP) >> alike & 1) == 0) {
         alike++;
     }
 #endif
@@ -1754,7 +1755,7 @@ static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDAT
     size_t count = 0;
     for (int i = 0; i < GB_JOINTS; i++) {
         const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
-        const size_t stride = (size_t)1 << (is_ordinary ? gb_alike_of(i) : 0);
+        const size_t stride = (size_t)1 << (is_ordinary ? gb_run_of(i) : 0);
         for (size_t k = 0; gb_joints[i].is_angle && k < c->waiting; k += stride) {
             acute[count] = gb_magnitude(cosines[k]);
             up[count++] = gb_magnitude(sines[k]);
@@ -1767,7 +1768,7 @@ static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDAT
     const gb_real *own = acute;
     for (int i = 0; i < GB_JOINTS; i++) {
         const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
-        const int alike = is_ordinary ? gb_alike_of(i) : 0;
+        const int alike = is_ordinary ? gb_run_of(i) : 0;
         if (!gb_joints[i].is_angle) {
             memcpy(q[i], cosines, sizeof q[i]);
             continue;
@@ -2224,7 +2225,7 @@ static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, 
     return count;
 }
 
-#if GB_LANES > 1 && defined(GB_ALIKE)
+#if GB_LANES > 1 && defined(GB_RUNS)
 #define GB_SOLVE_MANY GB_JOIN(gb_solve_many, _, GB_LANES)
 #else
 #define GB_SOLVE_MANY gb_solve_singly

@@ -159,8 +159,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     /// Whether those that wait are the candidates of an ordinary target.
     #[inline(always)]
     fn are_ordinary(&self) -> bool {
-        let Facts { candidates: room, alike, .. } = self.problem.facts();
-        !alike.is_empty() && self.is_ordinary && self.waiting == room && self.candidates == room
+        let Facts { candidates: room, runs, .. } = self.problem.facts();
+        !runs.is_empty() && self.is_ordinary && self.waiting == room && self.candidates == room
     }
 
     /// So many of the candidates that wait, in a row, miss the equations by the same.
@@ -407,7 +407,7 @@ fn joints<M: Mechanism, const W: usize>(
     for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
         match *joint {
             Joint::Angle([c, s]) => {
-                let alike = if is_ordinary { (facts.alike[i] | facts.candidates / W).trailing_zeros() } else { 0 };
+                let alike = if is_ordinary { (facts.runs[i] | facts.candidates / W).trailing_zeros() } else { 0 };
                 find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
             }
             Joint::Length(place) => q.clone_from(&at[place]),

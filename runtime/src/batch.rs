@@ -90,7 +90,7 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
         return solve_singly(mechanism, targets, out, counts);
     }
     if M::IS_TOLD {
-        return if mechanism.facts().alike.is_empty() {
+        return if mechanism.facts().runs.is_empty() {
             solve_singly(mechanism, targets, out, counts)
         } else {
             in_widest(
@@ -354,7 +354,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
                 match *joint {
                     Joint::Angle([c, s]) => {
                         let (c, s) = (at[k].as_ref()[c], at[k].as_ref()[s]);
-                        if k % facts.alike[i] == 0 {
+                        if k % facts.runs[i] == 0 {
                             sound = Lanes::of(ROUNDING).exceeds((c * c + s * s - 1.0).abs());
                             size = if wants_angles { acute(c.abs(), s.abs()) } else { size };
                         }

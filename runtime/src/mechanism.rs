@@ -128,7 +128,7 @@ pub struct Facts<'a> {
     pub twins: usize,
     /// By joint: so many candidates of an ordinary target in a row have the same cosine and sine but for signs; empty where many targets are solved one
     /// by one.
-    pub alike: &'a [usize],
+    pub runs: &'a [usize],
     /// A length typical of the mechanism.
     pub scale: f64,
     /// The most solutions that a target can have.
@@ -161,7 +161,7 @@ impl Facts<'_> {
         turned: &[],
         candidates: 2,
         twins: 1,
-        alike: &[],
+        runs: &[],
         scale: 1.0,
         capacity: 0,
         isolated: None,

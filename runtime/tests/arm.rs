@@ -18,7 +18,7 @@ const FACTS: Facts<'static> = Facts {
     sizes: 1,
     compared: &[0, 1],
     candidates: 2,
-    alike: &[1, 2],
+    runs: &[1, 2],
     scale: 1.5,
     capacity: 2,
     isolated: Some(2),

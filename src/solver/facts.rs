@@ -37,7 +37,7 @@ pub(crate) struct Facts {
     pub candidates: usize,
     pub twins: usize,
     /// By joint; empty where several targets are not solved at once.
-    pub alike: Vec<usize>,
+    pub runs: Vec<usize>,
     pub scale: f64,
     pub capacity: usize,
     pub isolated: Option<usize>,
@@ -81,8 +81,8 @@ impl Facts {
             turned,
             candidates: room(program),
             twins: if is_abreast && keeps() { 2 } else { 1 },
-            alike: if is_abreast {
-                (0..program.joints.len()).map(|joint| alike(layout, joint)).collect()
+            runs: if is_abreast {
+                (0..program.joints.len()).map(|joint| run(layout, joint)).collect()
             } else {
                 Vec::new()
             },
@@ -199,7 +199,7 @@ pub(crate) fn candidates(program: &Program, block: usize) -> usize {
 
 /// In how many candidates in a row an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and
 /// the two of a root that turns signs of the cosine and the sine.
-pub(crate) fn alike(layout: &Layout<'_>, joint: usize) -> usize {
+pub(crate) fn run(layout: &Layout<'_>, joint: usize) -> usize {
     let (program, block) = (layout.program, layout.finder(joint));
     let unknowns = program.joints[joint].value.unknowns();
     let later = candidates(program, block + 1);

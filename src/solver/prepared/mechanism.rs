@@ -26,7 +26,7 @@ impl Mechanism for Solver {
             turned: &facts.turned,
             candidates: facts.candidates,
             twins: facts.twins,
-            alike: &facts.alike,
+            runs: &facts.runs,
             scale: facts.scale,
             capacity: facts.capacity,
             isolated: facts.isolated,
