@@ -14,7 +14,7 @@ mod pairs;
 pub mod samples;
 mod single;
 mod six_axes;
-mod stored;
+pub mod stored;
 mod text;
 mod turns;
 
@@ -25,7 +25,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 use samples::{arm, leg, pan_tilt, polar, quartic, wrist};
 
 /// Numbers that are the same in every run.
-fn random() -> impl FnMut(f64, f64) -> f64 {
+pub fn random() -> impl FnMut(f64, f64) -> f64 {
     use proptest::prelude::Rng;
     let mut source = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     move |low, high| low + (high - low) * (source.next_u64() >> 11) as f64 / (1u64 << 53) as f64

@@ -3,6 +3,7 @@
 mod batch;
 mod compose;
 mod damaged;
+mod derivatives;
 mod refused;
 
 use std::f64::consts::{FRAC_PI_2, PI};
