@@ -175,7 +175,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     #[allow(unsafe_code)]
     pub fn flush(&mut self) {
         #[cfg(all(target_arch = "x86_64", feature = "std"))]
-        if self.problem.facts().candidates % 4 == 0 && std::is_x86_feature_detected!("avx2") {
+        if self.problem.facts().candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has what the function is compiled for.
             return unsafe { self.flush_by_4() };
         }
@@ -407,7 +407,7 @@ fn joints<M: Mechanism, const W: usize>(
     for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
         match *joint {
             Joint::Angle([c, s]) => {
-                let alike = if is_ordinary { (facts.runs[i] | facts.candidates / W).trailing_zeros() } else { 0 };
+                let alike = if is_ordinary { (facts.runs[i] | (facts.candidates / W)).trailing_zeros() } else { 0 };
                 find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
             }
             Joint::Length(place) => q.clone_from(&at[place]),
