@@ -82,7 +82,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 12: AnkleRoll. */
-GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_c5, T right_s5, GB_(sink) *c)
+static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_c5, T right_s5, GB_(sink) *c)
 {
     const T right_dx = p[15], right_dy = p[16], right_dz = p[17], r1 = right_dz - right_dy;
     const T r9 = R(0.5) * right_dy + R(0.5) * right_dz, r11 = r9 + R(0.5) * (left_c1 * (right_dy - right_dz));
@@ -103,7 +103,7 @@ GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s
 }
 
 /* Block 11: AnklePitch. */
-GB_INLINE void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_f2, T right_f3, GB_(sink) *c)
+static void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_f2, T right_f3, GB_(sink) *c)
 {
     const T right_dx = p[15], right_dy = p[16], right_dz = p[17];
     const size_t before11 = GB_(count)(c);
@@ -141,7 +141,7 @@ GB_INLINE void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s
 }
 
 /* Block 9: KneePitch. */
-GB_INLINE void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_f2, GB_(sink) *c)
+static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_f2, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_dx = p[15], right_dy = p[16];
     const T right_dz = p[17], magnitude = p[18], r2 = right_px * (right_px + R(0.04519) * right_dx);
@@ -232,7 +232,7 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
 }
 
 /* Block 5: HipRoll. */
-GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
+static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -292,7 +292,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1,
 }
 
 /* Block 4: HipYawPitch. */
-GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_f6, T left_f5, GB_(sink) *c)
+static void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_f6, T left_f5, GB_(sink) *c)
 {
     const T left_r12 = p[4], left_r13 = p[5], left_r22 = p[7], left_r23 = p[8], left_r32 = p[10];
     const T left_r33 = p[11];
@@ -326,7 +326,7 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4,
 }
 
 /* Block 3: AnklePitch. */
-GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4, T left_c6, T left_s6, T left_f6, GB_(sink) *c)
+static void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4, T left_c6, T left_s6, T left_f6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -375,7 +375,7 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4,
 }
 
 /* Block 1: KneePitch. */
-GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
+static void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[18];

@@ -90,7 +90,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 10: HipRoll. */
-GB_INLINE void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c5, T right_s5, T right_c6, T right_s6, GB_(sink) *c)
+static void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c5, T right_s5, T right_c6, T right_s6, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_r11 = p[15], right_r12 = p[16];
     const T right_r13 = p[17], right_r21 = p[18], right_r22 = p[19], right_r23 = p[20], right_r31 = p[21];
@@ -124,7 +124,7 @@ GB_INLINE void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1
 }
 
 /* Block 9: AnklePitch. */
-GB_INLINE void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c6, T right_s6, GB_(sink) *c)
+static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c6, T right_s6, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_r11 = p[15], right_r12 = p[16];
     const T right_r13 = p[17], right_r21 = p[18], right_r22 = p[19], right_r23 = p[20], right_r31 = p[21];
@@ -174,7 +174,7 @@ GB_INLINE void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1,
 }
 
 /* Block 5: HipRoll. */
-GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
+static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -285,7 +285,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1,
 }
 
 /* Block 4: AnklePitch. */
-GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c4, T left_s4, T left_c6, T left_s6, GB_(sink) *c)
+static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c4, T left_s4, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -333,7 +333,7 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1,
 }
 
 /* Block 2: KneePitch. */
-GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB_(sink) *c)
+static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[24];
@@ -419,7 +419,7 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1,
 }
 
 /* Block 1: HipYawPitch. */
-GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
+static void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r21 = p[6];
     const T left_r22 = p[7], left_r31 = p[9], left_r32 = p[10], right_px = p[12], right_py = p[13];

@@ -110,7 +110,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 13: HipRoll. */
-GB_INLINE void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c8, T right_s8, T right_c9, T right_s9, GB_(sink) *c)
+static void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c8, T right_s8, T right_c9, T right_s9, GB_(sink) *c)
 {
     const T right_px = p[16], right_py = p[17], right_pz = p[18], right_r11 = p[19], right_r12 = p[20];
     const T right_r13 = p[21], right_r21 = p[22], right_r22 = p[23], right_r23 = p[24], right_r31 = p[25];
@@ -155,7 +155,7 @@ GB_INLINE void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s
 }
 
 /* Block 12: AnklePitch. */
-GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c9, T right_s9, GB_(sink) *c)
+static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c9, T right_s9, GB_(sink) *c)
 {
     const T right_px = p[16], right_py = p[17], right_pz = p[18], right_r11 = p[19], right_r12 = p[20];
     const T right_r13 = p[21], right_r21 = p[22], right_r22 = p[23], right_r23 = p[24], right_r31 = p[25];
@@ -204,7 +204,7 @@ GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s
 }
 
 /* Block 8: HipRoll. */
-GB_INLINE void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, GB_(sink) *c)
+static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -339,7 +339,7 @@ GB_INLINE void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1,
 }
 
 /* Block 7: AnklePitch. */
-GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c9, T left_s9, GB_(sink) *c)
+static void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c9, T left_s9, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -388,7 +388,7 @@ GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1,
 }
 
 /* Block 5: KneePitch. */
-GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, GB_(sink) *c)
+static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[28];
@@ -585,7 +585,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
 }
 
 /* Block 1: TorsoPitch. */
-GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
+static void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r21 = p[6];
     const T left_r22 = p[7], left_r31 = p[9], left_r32 = p[10], left_c2 = p[12], left_s2 = p[13];
