@@ -7,7 +7,7 @@ use crate::mechanism::{
 };
 use crate::number::{Guard, Lanes, Mask, Number};
 use crate::problem::fit;
-use crate::registers::in_widest;
+use crate::registers::{in_avx2, in_avx512, in_widest};
 use crate::solution::{Error, Pairs, Solution};
 use crate::solve::Solve;
 use crate::storage::Array;
@@ -79,7 +79,6 @@ impl<M: Mechanism> Answer<M> for Pairs<M> {
 }
 
 /// In the widest registers that the processor has.
-#[allow(unsafe_code)]
 pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
     mechanism: &M,
     targets: &[Inputs<M>],
@@ -99,16 +98,19 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
             )
         };
     }
-    #[cfg(all(target_arch = "x86_64", feature = "std"))]
-    {
-        if std::is_x86_feature_detected!("avx512f") {
-            // SAFETY: the processor has what the function is compiled for.
-            return unsafe { solve_by_8(mechanism, targets, out, counts) };
-        }
-        if std::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has what the function is compiled for.
-            return unsafe { solve_by_4(mechanism, targets, out, counts) };
-        }
+    let by_8 = in_avx512(
+        #[inline(always)]
+        || solve_by::<M, A, 8>(mechanism, targets, out, counts),
+    );
+    if let Ok(done) = by_8 {
+        return done;
+    }
+    let by_4 = in_avx2(
+        #[inline(always)]
+        || solve_by::<M, A, 4>(mechanism, targets, out, counts),
+    );
+    if let Ok(done) = by_4 {
+        return done;
     }
     const WIDTH: usize = if cfg!(target_feature = "avx512f") {
         8
@@ -118,28 +120,6 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
         2
     };
     solve_by::<M, A, WIDTH>(mechanism, targets, out, counts)
-}
-
-#[cfg(all(target_arch = "x86_64", feature = "std"))]
-#[target_feature(enable = "avx512f")]
-fn solve_by_8<M: Mechanism, A: Answer<M>>(
-    mechanism: &M,
-    targets: &[Inputs<M>],
-    out: &mut [A],
-    counts: &mut [Result<usize, Error>],
-) -> usize {
-    solve_by::<M, A, 8>(mechanism, targets, out, counts)
-}
-
-#[cfg(all(target_arch = "x86_64", feature = "std"))]
-#[target_feature(enable = "avx2")]
-fn solve_by_4<M: Mechanism, A: Answer<M>>(
-    mechanism: &M,
-    targets: &[Inputs<M>],
-    out: &mut [A],
-    counts: &mut [Result<usize, Error>],
-) -> usize {
-    solve_by::<M, A, 4>(mechanism, targets, out, counts)
 }
 
 /// One after the other.
