@@ -1,16 +1,15 @@
 //! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
 
-use core::array::from_fn;
 use core::ops::Range;
 
-use crate::approach::{LANES, Ways, abreast};
+use crate::approach::{LANES, Ways};
+use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places};
-use crate::number::{Guard, Lanes, Number};
-use crate::problem::{End, Fit, Problem, everywhere, fit};
+use crate::number::Guard;
+use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
-use crate::trigonometry::{acute, unfold};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
 pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
@@ -36,13 +35,6 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     at: Places<M, Abreast<M>>,
     found: Abreast<M, Found>,
     waiting: usize,
-}
-
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
-struct Fits<M: Mechanism> {
-    residual: Abreast<M>,
-    relative: Abreast<M>,
-    sound: Abreast<M>,
 }
 
 impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
@@ -182,6 +174,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.flush_by::<LANES>();
     }
 
+    /// Not by [`crate::registers`]: in a closure nothing tells that `self` is alone, which costs a fifteenth.
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     #[target_feature(enable = "avx2")]
     fn flush_by_4(&mut self) {
@@ -355,80 +348,4 @@ fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut A
 fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
     let (a, b) = (a.as_ref(), b.as_ref());
     facts.last_first.iter().any(|&i| facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
-}
-
-impl<M: Mechanism> Fits<M> {
-    /// Those of the first so many candidates, of which some in a row may be alike.
-    #[inline(always)]
-    fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize, alike: usize) -> Self {
-        let room = problem.facts().candidates;
-        let none = || Array::by(room, |_| 0.0);
-        let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };
-        let p = everywhere::<M, W>(problem);
-        for first in (0..waiting.min(room)).step_by(W * alike) {
-            let at: Places<M, Lanes<W>> = abreast::<M, W>(at, first, alike);
-            let [residual, relative] = fit::<M, W>(problem.mechanism, &p, &at);
-            let sound = sound::<M, W>(&problem.facts(), &at);
-            for k in 0..W * alike {
-                fits.residual.as_mut()[first + k] = residual.0[k / alike];
-                fits.relative.as_mut()[first + k] = relative.0[k / alike];
-                fits.sound.as_mut()[first + k] = sound.0[k / alike];
-            }
-        }
-        fits
-    }
-}
-
-/// Whether candidates are of joints at all: 1, else 0.
-#[inline(always)]
-fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W>>) -> Lanes<W> {
-    let (mut sound, at) = (Lanes([1.0; W]), at.as_ref());
-    for joint in facts.joints {
-        sound = match *joint {
-            Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ROUNDING),
-            Joint::Length(place) => sound.where_below(at[place].abs(), f64::MAX),
-        };
-    }
-    if facts.has_extras {
-        sound = at.iter().fold(sound, |sound, number| sound.where_below(number.abs(), f64::MAX));
-    }
-    sound
-}
-
-/// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
-#[inline(always)]
-fn joints<M: Mechanism, const W: usize>(
-    facts: &Facts<'_>,
-    at: &Places<M, Abreast<M>>,
-    is_ordinary: bool,
-) -> Joints<M, Abreast<M>> {
-    let mut q: Joints<M, Abreast<M>> = Array::by(facts.joints.len(), |_| Array::by(facts.candidates, |_| 0.0));
-    let at = at.as_ref();
-    for (i, (joint, q)) in facts.joints.iter().zip(q.as_mut()).enumerate() {
-        match *joint {
-            Joint::Angle([c, s]) => {
-                let alike = if is_ordinary { (facts.runs[i] | (facts.candidates / W)).trailing_zeros() } else { 0 };
-                find_angles::<M, W>(at[c].as_ref(), at[s].as_ref(), alike, q.as_mut());
-            }
-            Joint::Length(place) => q.clone_from(&at[place]),
-        }
-    }
-    q
-}
-
-/// Finds angles of which a power of two in a row differ in signs alone: one with this logarithm.
-#[inline(always)]
-fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
-    let room = cosines.len();
-    let mut acutes: Abreast<M> = Array::by(room, |_| 0.0);
-    let acutes = acutes.as_mut();
-    for k in (0..room >> alike).step_by(W) {
-        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[(k + lane) << alike].abs()));
-        acutes[k..k + W].copy_from_slice(&acute(pair(cosines), pair(sines)).0);
-    }
-    for k in (0..room).step_by(W) {
-        let pair = |row: &[f64]| Lanes::<W>(from_fn(|lane| row[k + lane]));
-        let own = Lanes(from_fn(|lane| acutes[(k + lane) >> alike]));
-        angles[k..k + W].copy_from_slice(&unfold(own, pair(cosines), pair(sines)).0);
-    }
 }

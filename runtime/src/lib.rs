@@ -16,6 +16,7 @@ mod conditions;
 pub mod derivatives;
 mod joints;
 pub mod limits;
+mod measure;
 pub mod mechanism;
 mod newton;
 pub mod number;

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 22] = [
+pub const RUST: [(&str, &str); 23] = [
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
@@ -10,6 +10,7 @@ pub const RUST: [(&str, &str); 22] = [
     ("derivatives", include_str!("derivatives.rs")),
     ("joints", include_str!("joints.rs")),
     ("limits", include_str!("limits.rs")),
+    ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
