@@ -11,7 +11,7 @@ use crate::solver::Program;
 pub fn rust(program: &Program) -> String {
     let robot = rust::emit(program);
     let (head, body) = robot.split_once("\nuse ").unwrap_or((&robot, ""));
-    let mut text = format!("{}\n", head.replace("crate `groebot-runtime`", "module `groebot_runtime`").trim_end());
+    let mut text = format!("{}\n", alone(head));
     text +=
         &format!("#[allow(dead_code, missing_docs, unexpected_cfgs, clippy::all)]\nmod groebot_runtime {{\n{}", root());
     for (name, module) in RUST {
@@ -65,6 +65,12 @@ fn without_comments(text: &str) -> String {
     }
     kept += rest;
     kept.lines().map(str::trim).filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()
+}
+
+/// The head of a robot's file that holds the run time.
+fn alone(head: &str) -> String {
+    let head = head.replace("the crate `groebot-runtime`", "the module `groebot_runtime` below");
+    head.replace("without its feature `std`", "with the feature `libm`").trim_end().to_owned()
 }
 
 /// What the crate's root hands on.
