@@ -80,6 +80,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T d1, T d2, T d3, T c
     const T at[] = {d1, d2, d3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T d1, T d2, T d3, T c4, T s4, GB_(sink) *c), p, found4, d1, d2, d3, c4, s4, c)
 
 /* Block 1: RailX. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -108,7 +109,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x8u);
-                GB_(block_5)(p, found4, d1, d2, d3, c4, s4, c);
+                GB_(rarely_block_5)(p, found4, d1, d2, d3, c4, s4, c);
             }
         }
     }

@@ -89,6 +89,7 @@ GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c6, s6, c7, s7};
     GB_(finish)(c, found5, at);
 }
+GB_RARELY(block_6, (const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T c5, T s5, GB_(sink) *c), p, found5, c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c)
 
 /* Block 5: A5. */
 GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T f1, T f2, GB_(sink) *c)
@@ -116,11 +117,12 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c5 = GB_(of)(samples_1[i2][0]), s5 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found5 = GB_(freeing)(GB_(next)(found4, 3, 2), 0x10u);
-                GB_(block_6)(p, found5, c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c);
+                GB_(rarely_block_6)(p, found5, c1, s1, c2, s2, c3_, s3_, c4, s4, c5, s5, c);
             }
         }
     }
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3_, T s3_, T c4, T s4, T f1, T f2, GB_(sink) *c), p, found4, c1, s1, c2, s2, c3_, s3_, c4, s4, f1, f2, c)
 
 /* Block 4: A2. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, T f1, GB_(sink) *c)
@@ -146,11 +148,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T c2 = GB_(of)(samples_1[i1][0]), s2 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 2, 1), 0x2u);
-                GB_(block_5)(p, found4, c1, s1, c2, s2, c3_, s3_, c4, s4, f1, f2, c);
+                GB_(rarely_block_5)(p, found4, c1, s1, c2, s2, c3_, s3_, c4, s4, f1, f2, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, T f1, GB_(sink) *c), p, found3, c1, s1, c3_, s3_, c4, s4, f1, c)
 
 /* Block 1: A3. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -192,7 +195,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T c1 = GB_(of)(samples_1[i3][0]), s1 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 3, 2), 0x1u);
-                    GB_(block_4)(p, found3, c1, s1, c3_, s3_, c4, s4, f1, c);
+                    GB_(rarely_block_4)(p, found3, c1, s1, c3_, s3_, c4, s4, f1, c);
                 }
             }
         }

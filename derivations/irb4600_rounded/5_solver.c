@@ -93,6 +93,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c), p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c)
 
 /* Block 4: joint_4. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f1, T f2, GB_(sink) *c)
@@ -120,11 +121,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s
             for (size_t i2 = 0; i2 < 16; i2++) {
                 const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x8u);
-                GB_(block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
+                GB_(rarely_block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f1, T f2, GB_(sink) *c), p, found3, c1, s1, c2, s2, c3, s3, f1, f2, c)
 
 /* Block 2: joint_3. */
 GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
@@ -166,12 +168,13 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_
                 for (size_t i2 = 0; i2 < 16; i2++) {
                     const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u);
-                    GB_(block_4)(p, found3, c1, s1, c2, s2, c3, s3, f1, f2, c);
+                    GB_(rarely_block_4)(p, found3, c1, s1, c2, s2, c3, s3, f1, f2, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c), p, found1, c1, s1, f1, c)
 
 /* Block 1: joint_1. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -201,7 +204,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 16; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
-                GB_(block_2)(p, found1, c1, s1, f1, c);
+                GB_(rarely_block_2)(p, found1, c1, s1, f1, c);
             }
         }
     }

@@ -77,6 +77,7 @@ GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5};
     GB_(finish)(c, found5, at);
 }
+GB_RARELY(block_6, (const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, GB_(sink) *c), p, found5, c1, s1, c2, s2, c3, s3, cr, sr, ux, uy, uz, vx, vy, vz, c)
 
 /* Block 4: ShoulderRoll. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, T f1, GB_(sink) *c)
@@ -109,11 +110,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T cr, T s
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c3 = GB_(of)(samples_1[i2][0]), s3 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found5 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x4u);
-                GB_(block_6)(p, found5, c1, s1, c2, s2, c3, s3, cr, sr, ux, uy, uz, vx, vy, vz, c);
+                GB_(rarely_block_6)(p, found5, c1, s1, c2, s2, c3, s3, cr, sr, ux, uy, uz, vx, vy, vz, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, T f1, GB_(sink) *c), p, found3, c1, s1, cr, sr, ux, uy, uz, vx, vy, vz, fr, f1, c)
 
 /* Block 3: ShoulderPitch. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, GB_(sink) *c)
@@ -144,11 +146,12 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T cr, T sr, T ux, T u
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 3, 2), 0x1u);
-                GB_(block_4)(p, found3, c1, s1, cr, sr, ux, uy, uz, vx, vy, vz, fr, f1, c);
+                GB_(rarely_block_4)(p, found3, c1, s1, cr, sr, ux, uy, uz, vx, vy, vz, fr, f1, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T cr, T sr, T ux, T uy, T uz, T vx, T vy, T vz, T fr, GB_(sink) *c), p, found2, cr, sr, ux, uy, uz, vx, vy, vz, fr, c)
 
 /* Block 2: turn about the ray. */
 static void GB_(block_2)(const T *p, GB_(found) found1, T ux, T uy, T uz, T vx, T vy, T vz, GB_(sink) *c)
@@ -189,7 +192,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T ux, T uy, T uz, T vx, 
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T cr = GB_(of)(samples_1[i2][0]), sr = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x1u);
-                GB_(block_3)(p, found2, cr, sr, ux, uy, uz, vx, vy, vz, fr, c);
+                GB_(rarely_block_3)(p, found2, cr, sr, ux, uy, uz, vx, vy, vz, fr, c);
             }
         }
     }

@@ -82,7 +82,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 12: AnkleRoll. */
-static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_c5, T right_s5, GB_(sink) *c)
+GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_c5, T right_s5, GB_(sink) *c)
 {
     const T right_dx = p[15], right_dy = p[16], right_dz = p[17], r1 = right_dz - right_dy;
     const T r9 = R(0.5) * right_dy + R(0.5) * right_dz, r11 = r9 + R(0.5) * (left_c1 * (right_dy - right_dz));
@@ -101,9 +101,10 @@ static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, 
     };
     GB_(finish)(c, found11, at);
 }
+GB_RARELY(block_12, (const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_c5, T right_s5, GB_(sink) *c), p, found11, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5, c)
 
 /* Block 11: AnklePitch. */
-static void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_f2, T right_f3, GB_(sink) *c)
+GB_INLINE void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_f2, T right_f3, GB_(sink) *c)
 {
     const T right_dx = p[15], right_dy = p[16], right_dz = p[17];
     const size_t before11 = GB_(count)(c);
@@ -134,14 +135,15 @@ static void GB_(block_11)(const T *p, GB_(found) found10, T left_c1, T left_s1, 
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T right_c5 = GB_(of)(samples_1[i2][0]), right_s5 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found11 = GB_(freeing)(GB_(next)(found10, 3, 2), 0x200u);
-                GB_(block_12)(p, found11, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5, c);
+                GB_(rarely_block_12)(p, found11, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_c5, right_s5, c);
             }
         }
     }
 }
+GB_RARELY(block_11, (const T *p, GB_(found) found10, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_c3, T right_s3, T right_c4, T right_s4, T right_f2, T right_f3, GB_(sink) *c), p, found10, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3, c)
 
 /* Block 9: KneePitch. */
-static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_f2, GB_(sink) *c)
+GB_INLINE void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_f2, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_dx = p[15], right_dy = p[16];
     const T right_dz = p[17], magnitude = p[18], r2 = right_px * (right_px + R(0.04519) * right_dx);
@@ -184,12 +186,13 @@ static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T 
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T right_c3 = GB_(of)(samples_1[i2][0]), right_s3 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found10 = GB_(freeing)(GB_(next)(found9, 2, 1), 0x80u);
-                    GB_(block_11)(p, found10, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3, c);
+                    GB_(rarely_block_11)(p, found10, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_c3, right_s3, right_c4, right_s4, right_f2, right_f3, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_9, (const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c2, T right_s2, T right_f2, GB_(sink) *c), p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2, c)
 
 /* Block 8: HipRoll. */
 static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
@@ -225,14 +228,14 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T right_c2 = GB_(of)(samples_1[i2][0]), right_s2 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found8 = GB_(freeing)(GB_(next)(found7, 3, 2), 0x40u);
-                GB_(block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2, c);
+                GB_(rarely_block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c2, right_s2, right_f2, c);
             }
         }
     }
 }
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -290,9 +293,10 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
         break;
     }
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c), p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c)
 
 /* Block 4: HipYawPitch. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_f6, T left_f5, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_f6, T left_f5, GB_(sink) *c)
 {
     const T left_r12 = p[4], left_r13 = p[5], left_r22 = p[7], left_r23 = p[8], left_r32 = p[10];
     const T left_r33 = p[11];
@@ -319,14 +323,15 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c4, T left_s4, T 
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T left_c1 = GB_(of)(samples_1[i2][0]), left_s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x1u);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_f6, T left_f5, GB_(sink) *c), p, found3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5, c)
 
 /* Block 3: AnklePitch. */
-static void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4, T left_c6, T left_s6, T left_f6, GB_(sink) *c)
+GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4, T left_c6, T left_s6, T left_f6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -368,14 +373,15 @@ static void GB_(block_3)(const T *p, GB_(found) found2, T left_c4, T left_s4, T 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T left_c5 = GB_(of)(samples_1[i1][0]), left_s5 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x10u);
-                GB_(block_4)(p, found3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5, c);
+                GB_(rarely_block_4)(p, found3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_f6, left_f5, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T left_c4, T left_s4, T left_c6, T left_s6, T left_f6, GB_(sink) *c), p, found2, left_c4, left_s4, left_c6, left_s6, left_f6, c)
 
 /* Block 1: KneePitch. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[18];
@@ -419,7 +425,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T left_c6 = GB_(of)(samples_1[i3][0]), left_s6 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x20u);
-                    GB_(block_3)(p, found2, left_c4, left_s4, left_c6, left_s6, left_f6, c);
+                    GB_(rarely_block_3)(p, found2, left_c4, left_s4, left_c6, left_s6, left_f6, c);
                 }
             }
         }

@@ -90,7 +90,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 10: HipRoll. */
-static void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c5, T right_s5, T right_c6, T right_s6, GB_(sink) *c)
+GB_INLINE void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c5, T right_s5, T right_c6, T right_s6, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_r11 = p[15], right_r12 = p[16];
     const T right_r13 = p[17], right_r21 = p[18], right_r22 = p[19], right_r23 = p[20], right_r31 = p[21];
@@ -122,9 +122,10 @@ static void GB_(block_10)(const T *p, GB_(found) found9, T left_c1, T left_s1, T
     };
     GB_(finish)(c, found9, at);
 }
+GB_RARELY(block_10, (const T *p, GB_(found) found9, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c5, T right_s5, T right_c6, T right_s6, GB_(sink) *c), p, found9, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c5, right_s5, right_c6, right_s6, c)
 
 /* Block 9: AnklePitch. */
-static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c6, T right_s6, GB_(sink) *c)
+GB_INLINE void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c6, T right_s6, GB_(sink) *c)
 {
     const T right_px = p[12], right_py = p[13], right_pz = p[14], right_r11 = p[15], right_r12 = p[16];
     const T right_r13 = p[17], right_r21 = p[18], right_r22 = p[19], right_r23 = p[20], right_r31 = p[21];
@@ -167,14 +168,15 @@ static void GB_(block_9)(const T *p, GB_(found) found8, T left_c1, T left_s1, T 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T right_c5 = GB_(of)(samples_1[i1][0]), right_s5 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found9 = GB_(freeing)(GB_(next)(found8, 2, 1), 0x200u);
-                GB_(block_10)(p, found9, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c5, right_s5, right_c6, right_s6, c);
+                GB_(rarely_block_10)(p, found9, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c5, right_s5, right_c6, right_s6, c);
             }
         }
     }
 }
+GB_RARELY(block_9, (const T *p, GB_(found) found8, T left_c1, T left_s1, T left_c2, T left_s2, T left_c3, T left_s3, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T right_c4, T right_s4, T right_c6, T right_s6, GB_(sink) *c), p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c)
 
 /* Block 5: HipRoll. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -243,7 +245,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                     const T right_w6 = roots2.values[i2], r192 = R(1.0) / r182;
                     const T right_c6 = right_w6 * r162 * r192, right_s6 = right_w6 * r155 * r192;
                     const GB_(found) found8 = GB_(by_root)(GB_(next)(found7, 7, 1 + i2), &roots2, i2);
-                    GB_(block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
+                    GB_(rarely_block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
                 }
             }
         }
@@ -254,7 +256,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T right_c6 = GB_(of)(samples_1[i3][0]), right_s6 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found8 = GB_(freeing)(GB_(next)(found7, 7, 3), 0x400u);
-                    GB_(block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
+                    GB_(rarely_block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
                 }
             }
         }
@@ -267,7 +269,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                     const T right_w6 = roots4.values[i4], r187 = R(1.0) / r182;
                     const T right_c6 = R(0.0) - right_w6 * r166 * r187, right_s6 = right_w6 * r164 * r187;
                     const GB_(found) found8 = GB_(by_root)(GB_(next)(found7, 7, 4 + i4), &roots4, i4);
-                    GB_(block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
+                    GB_(rarely_block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
                 }
             }
         }
@@ -277,15 +279,16 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                 for (size_t i5 = 0; i5 < 8; i5++) {
                     const T right_c6 = GB_(of)(samples_1[i5][0]), right_s6 = GB_(of)(samples_1[i5][1]);
                     const GB_(found) found8 = GB_(freeing)(GB_(next)(found7, 7, 6), 0x400u);
-                    GB_(block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
+                    GB_(rarely_block_9)(p, found8, left_c1, left_s1, left_c2, left_s2, left_c3, left_s3, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, right_c4, right_s4, right_c6, right_s6, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, GB_(sink) *c), p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c)
 
 /* Block 4: AnklePitch. */
-static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c4, T left_s4, T left_c6, T left_s6, GB_(sink) *c)
+GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c4, T left_s4, T left_c6, T left_s6, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -326,14 +329,15 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T left_c5 = GB_(of)(samples_1[i1][0]), left_s5 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 2, 1), 0x10u);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c4, T left_s4, T left_c6, T left_s6, GB_(sink) *c), p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c)
 
 /* Block 2: KneePitch. */
-static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB_(sink) *c)
+GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[24];
@@ -377,7 +381,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB
                     const T left_w6 = roots2.values[i2], r89 = R(1.0) / r79;
                     const T left_c6 = R(0.0) - left_w6 * r60 * r89, left_s6 = left_w6 * r53 * r89;
                     const GB_(found) found3 = GB_(by_root)(GB_(next)(found2, 7, 1 + i2), &roots2, i2);
-                    GB_(block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
+                    GB_(rarely_block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
                 }
             }
         }
@@ -388,7 +392,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T left_c6 = GB_(of)(samples_1[i3][0]), left_s6 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 7, 3), 0x20u);
-                    GB_(block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
+                    GB_(rarely_block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
                 }
             }
         }
@@ -401,7 +405,7 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB
                     const T left_w6 = roots4.values[i4], r84 = R(1.0) / r79;
                     const T left_c6 = R(0.0) - left_w6 * r64 * r84, left_s6 = left_w6 * r62 * r84;
                     const GB_(found) found3 = GB_(by_root)(GB_(next)(found2, 7, 4 + i4), &roots4, i4);
-                    GB_(block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
+                    GB_(rarely_block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
                 }
             }
         }
@@ -411,15 +415,16 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T left_c1, T left_s1, GB
                 for (size_t i5 = 0; i5 < 8; i5++) {
                     const T left_c6 = GB_(of)(samples_1[i5][0]), left_s6 = GB_(of)(samples_1[i5][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 7, 6), 0x20u);
-                    GB_(block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
+                    GB_(rarely_block_4)(p, found3, left_c1, left_s1, left_c4, left_s4, left_c6, left_s6, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T left_c1, T left_s1, GB_(sink) *c), p, found1, left_c1, left_s1, c)
 
 /* Block 1: HipYawPitch. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r21 = p[6];
     const T left_r22 = p[7], left_r31 = p[9], left_r32 = p[10], right_px = p[12], right_py = p[13];
@@ -463,7 +468,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
                 const T left_w1 = roots1.values[i1], r84 = R(1.0) / r70, left_c1 = left_w1 * r32 * r84;
                 const T left_s1 = left_w1 * r19 * r84;
                 const GB_(found) found1 = GB_(by_root)(GB_(first)(1 + i1, 3), &roots1, i1);
-                GB_(block_2)(p, found1, left_c1, left_s1, c);
+                GB_(rarely_block_2)(p, found1, left_c1, left_s1, c);
             }
         }
     }
@@ -474,7 +479,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T left_c1 = GB_(of)(samples_1[i2][0]), left_s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(3, 4), 0x1u);
-                GB_(block_2)(p, found1, left_c1, left_s1, c);
+                GB_(rarely_block_2)(p, found1, left_c1, left_s1, c);
             }
         }
     }
@@ -487,7 +492,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
                 const T left_w1 = roots3.values[i3], r85 = R(1.0) / r70;
                 const T left_c1 = R(0.0) - left_w1 * r54 * r85, left_s1 = left_w1 * r41 * r85;
                 const GB_(found) found1 = GB_(by_root)(GB_(first)(4 + i3, 6), &roots3, i3);
-                GB_(block_2)(p, found1, left_c1, left_s1, c);
+                GB_(rarely_block_2)(p, found1, left_c1, left_s1, c);
             }
         }
     }
@@ -498,7 +503,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i4 = 0; i4 < 8; i4++) {
                 const T left_c1 = GB_(of)(samples_1[i4][0]), left_s1 = GB_(of)(samples_1[i4][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(6, 7), 0x1u);
-                GB_(block_2)(p, found1, left_c1, left_s1, c);
+                GB_(rarely_block_2)(p, found1, left_c1, left_s1, c);
             }
         }
     }

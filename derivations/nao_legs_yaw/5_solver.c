@@ -110,7 +110,7 @@ GB_INLINE void GB_(parameters)(const T *target, T *p)
 }
 
 /* Block 13: HipRoll. */
-static void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c8, T right_s8, T right_c9, T right_s9, GB_(sink) *c)
+GB_INLINE void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c8, T right_s8, T right_c9, T right_s9, GB_(sink) *c)
 {
     const T right_px = p[16], right_py = p[17], right_pz = p[18], right_r11 = p[19], right_r12 = p[20];
     const T right_r13 = p[21], right_r21 = p[22], right_r22 = p[23], right_r23 = p[24], right_r31 = p[25];
@@ -153,9 +153,10 @@ static void GB_(block_13)(const T *p, GB_(found) found12, T left_c1, T left_s1, 
     };
     GB_(finish)(c, found12, at);
 }
+GB_RARELY(block_13, (const T *p, GB_(found) found12, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c8, T right_s8, T right_c9, T right_s9, GB_(sink) *c), p, found12, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9, c)
 
 /* Block 12: AnklePitch. */
-static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c9, T right_s9, GB_(sink) *c)
+GB_INLINE void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c9, T right_s9, GB_(sink) *c)
 {
     const T right_px = p[16], right_py = p[17], right_pz = p[18], right_r11 = p[19], right_r12 = p[20];
     const T right_r13 = p[21], right_r21 = p[22], right_r22 = p[23], right_r23 = p[24], right_r31 = p[25];
@@ -197,14 +198,15 @@ static void GB_(block_12)(const T *p, GB_(found) found11, T left_c1, T left_s1, 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T right_c8 = GB_(of)(samples_2[i1][0]), right_s8 = GB_(of)(samples_2[i1][1]);
                 const GB_(found) found12 = GB_(freeing)(GB_(next)(found11, 2, 1), 0x1000u);
-                GB_(block_13)(p, found12, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9, c);
+                GB_(rarely_block_13)(p, found12, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c8, right_s8, right_c9, right_s9, c);
             }
         }
     }
 }
+GB_RARELY(block_12, (const T *p, GB_(found) found11, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c5, T left_s5, T left_c6, T left_s6, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, T right_c7, T right_s7, T right_c9, T right_s9, GB_(sink) *c), p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c)
 
 /* Block 8: HipRoll. */
-static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, GB_(sink) *c)
+GB_INLINE void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -297,7 +299,7 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
                     const T right_w9 = roots2.values[i2], r311 = R(1.0) / r301;
                     const T right_c9 = right_w9 * r281 * r311, right_s9 = right_w9 * r270 * r311;
                     const GB_(found) found11 = GB_(by_root)(GB_(next)(found10, 7, 1 + i2), &roots2, i2);
-                    GB_(block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
+                    GB_(rarely_block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
                 }
             }
         }
@@ -308,7 +310,7 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T right_c9 = GB_(of)(samples_2[i3][0]), right_s9 = GB_(of)(samples_2[i3][1]);
                     const GB_(found) found11 = GB_(freeing)(GB_(next)(found10, 7, 3), 0x2000u);
-                    GB_(block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
+                    GB_(rarely_block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
                 }
             }
         }
@@ -321,7 +323,7 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
                     const T right_w9 = roots4.values[i4], r306 = R(1.0) / r301;
                     const T right_c9 = R(0.0) - right_w9 * r285 * r306, right_s9 = right_w9 * r283 * r306;
                     const GB_(found) found11 = GB_(by_root)(GB_(next)(found10, 7, 4 + i4), &roots4, i4);
-                    GB_(block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
+                    GB_(rarely_block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
                 }
             }
         }
@@ -331,15 +333,16 @@ static void GB_(block_8)(const T *p, GB_(found) found7, T left_c1, T left_s1, T 
                 for (size_t i5 = 0; i5 < 8; i5++) {
                     const T right_c9 = GB_(of)(samples_2[i5][0]), right_s9 = GB_(of)(samples_2[i5][1]);
                     const GB_(found) found11 = GB_(freeing)(GB_(next)(found10, 7, 6), 0x2000u);
-                    GB_(block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
+                    GB_(rarely_block_12)(p, found11, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c5, left_s5, left_c6, left_s6, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, right_c7, right_s7, right_c9, right_s9, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_8, (const T *p, GB_(found) found7, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c8, T left_s8, T left_c9, T left_s9, GB_(sink) *c), p, found7, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, c)
 
 /* Block 7: AnklePitch. */
-static void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c9, T left_s9, GB_(sink) *c)
+GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c9, T left_s9, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r13 = p[5];
     const T left_r21 = p[6], left_r22 = p[7], left_r23 = p[8], left_r31 = p[9], left_r32 = p[10];
@@ -381,14 +384,15 @@ static void GB_(block_7)(const T *p, GB_(found) found6, T left_c1, T left_s1, T 
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T left_c8 = GB_(of)(samples_2[i1][0]), left_s8 = GB_(of)(samples_2[i1][1]);
                 const GB_(found) found7 = GB_(freeing)(GB_(next)(found6, 2, 1), 0x80u);
-                GB_(block_8)(p, found7, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, c);
+                GB_(rarely_block_8)(p, found7, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c8, left_s8, left_c9, left_s9, c);
             }
         }
     }
 }
+GB_RARELY(block_7, (const T *p, GB_(found) found6, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, T left_c7, T left_s7, T left_c9, T left_s9, GB_(sink) *c), p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c)
 
 /* Block 5: KneePitch. */
-static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, GB_(sink) *c)
+GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r12 = p[4], left_r13 = p[5], left_r22 = p[7];
     const T left_r23 = p[8], left_r32 = p[10], left_r33 = p[11], magnitude = p[28];
@@ -443,7 +447,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                     const T left_w9 = roots2.values[i2], r146 = R(1.0) / r136;
                     const T left_c9 = R(0.0) - left_w9 * r117 * r146, left_s9 = left_w9 * r106 * r146;
                     const GB_(found) found6 = GB_(by_root)(GB_(next)(found5, 7, 1 + i2), &roots2, i2);
-                    GB_(block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
+                    GB_(rarely_block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
                 }
             }
         }
@@ -454,7 +458,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T left_c9 = GB_(of)(samples_2[i3][0]), left_s9 = GB_(of)(samples_2[i3][1]);
                     const GB_(found) found6 = GB_(freeing)(GB_(next)(found5, 7, 3), 0x100u);
-                    GB_(block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
+                    GB_(rarely_block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
                 }
             }
         }
@@ -467,7 +471,7 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                     const T left_w9 = roots4.values[i4], r141 = R(1.0) / r136;
                     const T left_c9 = R(0.0) - left_w9 * r121 * r141, left_s9 = left_w9 * r119 * r141;
                     const GB_(found) found6 = GB_(by_root)(GB_(next)(found5, 7, 4 + i4), &roots4, i4);
-                    GB_(block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
+                    GB_(rarely_block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
                 }
             }
         }
@@ -477,12 +481,13 @@ static void GB_(block_5)(const T *p, GB_(found) found4, T left_c1, T left_s1, T 
                 for (size_t i5 = 0; i5 < 8; i5++) {
                     const T left_c9 = GB_(of)(samples_2[i5][0]), left_s9 = GB_(of)(samples_2[i5][1]);
                     const GB_(found) found6 = GB_(freeing)(GB_(next)(found5, 7, 6), 0x100u);
-                    GB_(block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
+                    GB_(rarely_block_7)(p, found6, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, left_c7, left_s7, left_c9, left_s9, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, T left_c4, T left_s4, GB_(sink) *c), p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c)
 
 /* Block 4: HipYawPitch. */
 static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, GB_(sink) *c)
@@ -543,7 +548,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
                 const T left_w4 = roots1.values[i1], r163 = R(1.0) / r148, left_c4 = left_w4 * r110 * r163;
                 const T left_s4 = R(0.0) - left_w4 * r98 * r163;
                 const GB_(found) found4 = GB_(by_root)(GB_(next)(found3, 7, 1 + i1), &roots1, i1);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
             }
         }
     }
@@ -554,7 +559,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
             for (size_t i2 = 0; i2 < 16; i2++) {
                 const T left_c4 = GB_(of)(samples_1[i2][0]), left_s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 7, 3), 0x8u);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
             }
         }
     }
@@ -567,7 +572,7 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
                 const T left_w4 = roots3.values[i3], r164 = R(1.0) / r148;
                 const T left_c4 = R(0.0) - left_w4 * r132 * r164, left_s4 = R(0.0) - left_w4 * r120 * r164;
                 const GB_(found) found4 = GB_(by_root)(GB_(next)(found3, 7, 4 + i3), &roots3, i3);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
             }
         }
     }
@@ -578,14 +583,15 @@ static void GB_(block_4)(const T *p, GB_(found) found3, T left_c1, T left_s1, T 
             for (size_t i4 = 0; i4 < 16; i4++) {
                 const T left_c4 = GB_(of)(samples_1[i4][0]), left_s4 = GB_(of)(samples_1[i4][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 7, 6), 0x8u);
-                GB_(block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
+                GB_(rarely_block_5)(p, found4, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, left_c4, left_s4, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T left_c1, T left_s1, T left_c2_, T left_s2_, T left_c3_, T left_s3_, GB_(sink) *c), p, found3, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, c)
 
 /* Block 1: TorsoPitch. */
-static void GB_(block_1)(const T *p, GB_(sink) *c)
+GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
 {
     const T left_px = p[0], left_py = p[1], left_pz = p[2], left_r11 = p[3], left_r12 = p[4], left_r21 = p[6];
     const T left_r22 = p[7], left_r31 = p[9], left_r32 = p[10], left_c2 = p[12], left_s2 = p[13];
@@ -814,7 +820,7 @@ static void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i6 = 0; i6 < 16; i6++) {
                 const T left_c1 = GB_(of)(samples_1[i6][0]), left_s1 = GB_(of)(samples_1[i6][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found1, 5, 4), 0x1u);
-                GB_(block_4)(p, found3, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, c);
+                GB_(rarely_block_4)(p, found3, left_c1, left_s1, left_c2_, left_s2_, left_c3_, left_s3_, c);
             }
         }
     }

@@ -89,6 +89,7 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c3_, T 
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T c3_, T s3_, T c4, T s4, GB_(sink) *c), p, found3, c1, s1, c3_, s3_, c4, s4, c)
 
 /* Block 3: ShoulderPitch. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c3_, T s3_, T c4, T s4, T f4, GB_(sink) *c)
@@ -117,11 +118,12 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c3_, T s3_, T c4, T
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 3, 2), 0x1u);
-                GB_(block_4)(p, found3, c1, s1, c3_, s3_, c4, s4, c);
+                GB_(rarely_block_4)(p, found3, c1, s1, c3_, s3_, c4, s4, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c3_, T s3_, T c4, T s4, T f4, GB_(sink) *c), p, found2, c3_, s3_, c4, s4, f4, c)
 
 /* Block 1: ElbowYaw. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -153,7 +155,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x8u);
-                GB_(block_3)(p, found2, c3_, s3_, c4, s4, f4, c);
+                GB_(rarely_block_3)(p, found2, c3_, s3_, c4, s4, f4, c);
             }
         }
     }

@@ -94,6 +94,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c4, T s
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c1, T s1, T c4, T s4, T c5, T s5, T c6, T s6, GB_(sink) *c), p, found4, c1, s1, c4, s4, c5, s5, c6, s6, c)
 
 /* Block 4: HipYawPitch. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c4, T s4, T c5, T s5, T c6, T s6, T f6, T f5, GB_(sink) *c)
@@ -121,11 +122,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c4, T s4, T c5, T s
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x1u);
-                GB_(block_5)(p, found4, c1, s1, c4, s4, c5, s5, c6, s6, c);
+                GB_(rarely_block_5)(p, found4, c1, s1, c4, s4, c5, s5, c6, s6, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c4, T s4, T c5, T s5, T c6, T s6, T f6, T f5, GB_(sink) *c), p, found3, c4, s4, c5, s5, c6, s6, f6, f5, c)
 
 /* Block 3: AnklePitch. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c6, T s6, T f6, GB_(sink) *c)
@@ -164,11 +166,12 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c4, T s4, T c6, T s
             for (size_t i1 = 0; i1 < 8; i1++) {
                 const T c5 = GB_(of)(samples_1[i1][0]), s5 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x10u);
-                GB_(block_4)(p, found3, c4, s4, c5, s5, c6, s6, f6, f5, c);
+                GB_(rarely_block_4)(p, found3, c4, s4, c5, s5, c6, s6, f6, f5, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c4, T s4, T c6, T s6, T f6, GB_(sink) *c), p, found2, c4, s4, c6, s6, f6, c)
 
 /* Block 1: KneePitch. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -212,7 +215,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T c6 = GB_(of)(samples_1[i3][0]), s6 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x20u);
-                    GB_(block_3)(p, found2, c4, s4, c6, s6, f6, c);
+                    GB_(rarely_block_3)(p, found2, c4, s4, c6, s6, f6, c);
                 }
             }
         }

@@ -83,6 +83,7 @@ GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found5, at);
 }
+GB_RARELY(block_6, (const T *p, GB_(found) found5, T c1, T s1, T c2, T s2, T c3, T s3, T c5, T s5, T c6, T s6, GB_(sink) *c), p, found5, c1, s1, c2, s2, c3, s3, c5, s5, c6, s6, c)
 
 /* Block 3: Wrist2. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c6, T s6, T f6, GB_(sink) *c)
@@ -131,12 +132,13 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c6, T s
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found5 = GB_(freeing)(GB_(next)(found4, 2, 1), 0x2u);
-                    GB_(block_6)(p, found5, c1, s1, c2, s2, c3, s3, c5, s5, c6, s6, c);
+                    GB_(rarely_block_6)(p, found5, c1, s1, c2, s2, c3, s3, c5, s5, c6, s6, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c1, T s1, T c6, T s6, T f6, GB_(sink) *c), p, found2, c1, s1, c6, s6, f6, c)
 
 /* Block 1: Base. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -175,7 +177,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                     for (size_t i3 = 0; i3 < 8; i3++) {
                         const T c6 = GB_(of)(samples_1[i3][0]), s6 = GB_(of)(samples_1[i3][1]);
                         const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x20u);
-                        GB_(block_3)(p, found2, c1, s1, c6, s6, f6, c);
+                        GB_(rarely_block_3)(p, found2, c1, s1, c6, s6, f6, c);
                     }
                 }
             }

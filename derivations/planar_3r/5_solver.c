@@ -67,6 +67,7 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3, s3};
     GB_(finish)(c, found2, at);
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c), p, found2, c1, s1, c2, s2, c)
 
 /* Block 1: Elbow. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -99,7 +100,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 2, 1), 0x1u);
-                    GB_(block_3)(p, found2, c1, s1, c2, s2, c);
+                    GB_(rarely_block_3)(p, found2, c1, s1, c2, s2, c);
                 }
             }
         }

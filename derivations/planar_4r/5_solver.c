@@ -71,6 +71,7 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1_, T s1_, T c2, T
     const T at[] = {c1_, s1_, c2, s2, c3, s3, c4, s4};
     GB_(finish)(c, found3, at);
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1_, T s1_, T c2, T s2, T c3, T s3, GB_(sink) *c), p, found3, c1_, s1_, c2, s2, c3, s3, c)
 
 /* Block 1: Base. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -107,7 +108,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u);
-                    GB_(block_4)(p, found3, c1_, s1_, c2, s2, c3, s3, c);
+                    GB_(rarely_block_4)(p, found3, c1_, s1_, c2, s2, c3, s3, c);
                 }
             }
         }

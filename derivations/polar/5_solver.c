@@ -67,6 +67,7 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, d3};
     GB_(finish)(c, found2, at);
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, GB_(sink) *c), p, found2, c1, s1, c2, s2, c)
 
 /* Block 2: Pitch. */
 GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
@@ -95,11 +96,12 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x2u);
-                GB_(block_3)(p, found2, c1, s1, c2, s2, c);
+                GB_(rarely_block_3)(p, found2, c1, s1, c2, s2, c);
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c), p, found1, c1, s1, f1, c)
 
 /* Block 1: Yaw. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -128,7 +130,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
-                GB_(block_2)(p, found1, c1, s1, f1, c);
+                GB_(rarely_block_2)(p, found1, c1, s1, f1, c);
             }
         }
     }

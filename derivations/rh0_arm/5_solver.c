@@ -88,6 +88,7 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c14, T s14, T c16, 
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c14, T s14, T c16, T s16, GB_(sink) *c), p, found2, c14, s14, c16, s16, c)
 
 /* Block 1: Elbow. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -122,7 +123,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i3 = 0; i3 < 8; i3++) {
                     const T c14 = GB_(of)(samples_1[i3][0]), s14 = GB_(of)(samples_1[i3][1]);
                     const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x1u);
-                    GB_(block_3)(p, found2, c14, s14, c16, s16, c);
+                    GB_(rarely_block_3)(p, found2, c14, s14, c16, s16, c);
                 }
             }
         }

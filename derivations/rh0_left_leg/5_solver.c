@@ -88,6 +88,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c12, T s12, T c11, 
     const T at[] = {c12, s12, c11, s11, c10, s10, c9, s9, c8, s8, c7, s7};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c12, T s12, T c11, T s11, T c10, T s10, T c9, T s9, GB_(sink) *c), p, found4, c12, s12, c11, s11, c10, s10, c9, s9, c)
 
 /* Block 4: HipPitch. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c12, T s12, T c11, T s11, T c10, T s10, T f12, T f11, GB_(sink) *c)
@@ -115,11 +116,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c12, T s12, T c11, 
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c9 = GB_(of)(samples_1[i2][0]), s9 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x8u);
-                GB_(block_5)(p, found4, c12, s12, c11, s11, c10, s10, c9, s9, c);
+                GB_(rarely_block_5)(p, found4, c12, s12, c11, s11, c10, s10, c9, s9, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c12, T s12, T c11, T s11, T c10, T s10, T f12, T f11, GB_(sink) *c), p, found3, c12, s12, c11, s11, c10, s10, f12, f11, c)
 
 /* Block 2: KneePitch. */
 GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c12, T s12, T f12, GB_(sink) *c)
@@ -160,12 +162,13 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c12, T s12, T f12, 
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c11 = GB_(of)(samples_1[i2][0]), s11 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u);
-                    GB_(block_4)(p, found3, c12, s12, c11, s11, c10, s10, f12, f11, c);
+                    GB_(rarely_block_4)(p, found3, c12, s12, c11, s11, c10, s10, f12, f11, c);
                 }
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c12, T s12, T f12, GB_(sink) *c), p, found1, c12, s12, f12, c)
 
 /* Block 1: AnkleRoll. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -197,7 +200,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c12 = GB_(of)(samples_1[i2][0]), s12 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
-                GB_(block_2)(p, found1, c12, s12, f12, c);
+                GB_(rarely_block_2)(p, found1, c12, s12, f12, c);
             }
         }
     }

@@ -80,6 +80,7 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, d3, c4, s4};
     GB_(finish)(c, found3, at);
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T d3, GB_(sink) *c), p, found3, c1, s1, c2, s2, d3, c)
 
 /* Block 1: Quill. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -113,7 +114,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x1u);
-                    GB_(block_4)(p, found3, c1, s1, c2, s2, d3, c);
+                    GB_(rarely_block_4)(p, found3, c1, s1, c2, s2, d3, c);
                 }
             }
         }

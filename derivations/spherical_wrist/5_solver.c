@@ -168,6 +168,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T c3, T s3, T c4, T s4, GB_(sink) *c), p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c)
 
 /* Block 4: Wrist1. */
 GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f3, T f1, T f2, GB_(sink) *c)
@@ -221,11 +222,12 @@ GB_INLINE void GB_(block_4)(const T *p, GB_(found) found3, T c1, T s1, T c2, T s
             for (size_t i2 = 0; i2 < 16; i2++) {
                 const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found3, 3, 2), 0x8u);
-                GB_(block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
+                GB_(rarely_block_5)(p, found4, c1, s1, c2, s2, c3, s3, c4, s4, c);
             }
         }
     }
 }
+GB_RARELY(block_4, (const T *p, GB_(found) found3, T c1, T s1, T c2, T s2, T c3, T s3, T f3, T f1, T f2, GB_(sink) *c), p, found3, c1, s1, c2, s2, c3, s3, f3, f1, f2, c)
 
 /* Block 3: Axis2. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c3, T s3, T f3, T f1, GB_(sink) *c)
@@ -260,11 +262,12 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c3, T s
             for (size_t i1 = 0; i1 < 16; i1++) {
                 const T c2 = GB_(of)(samples_1[i1][0]), s2 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found3 = GB_(freeing)(GB_(next)(found2, 2, 1), 0x2u);
-                GB_(block_4)(p, found3, c1, s1, c2, s2, c3, s3, f3, f1, f2, c);
+                GB_(rarely_block_4)(p, found3, c1, s1, c2, s2, c3, s3, f3, f1, f2, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c1, T s1, T c3, T s3, T f3, T f1, GB_(sink) *c), p, found2, c1, s1, c3, s3, f3, f1, c)
 
 /* Block 2: Axis1. */
 static void GB_(block_2)(const T *p, GB_(found) found1, T c3, T s3, T f3, GB_(sink) *c)
@@ -304,11 +307,12 @@ static void GB_(block_2)(const T *p, GB_(found) found1, T c3, T s3, T f3, GB_(si
             for (size_t i1 = 0; i1 < 16; i1++) {
                 const T c1 = GB_(of)(samples_1[i1][0]), s1 = GB_(of)(samples_1[i1][1]);
                 const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 2, 1), 0x1u);
-                GB_(block_3)(p, found2, c1, s1, c3, s3, f3, f1, c);
+                GB_(rarely_block_3)(p, found2, c1, s1, c3, s3, f3, f1, c);
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c3, T s3, T f3, GB_(sink) *c), p, found1, c3, s3, f3, c)
 
 /* Block 1: Axis3. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -511,7 +515,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i6 = 0; i6 < 16; i6++) {
                 const T c3 = GB_(of)(samples_1[i6][0]), s3 = GB_(of)(samples_1[i6][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(4, 5), 0x4u);
-                GB_(block_2)(p, found1, c3, s3, f3, c);
+                GB_(rarely_block_2)(p, found1, c3, s3, f3, c);
             }
         }
     }

@@ -85,6 +85,7 @@ GB_INLINE void GB_(block_5)(const T *p, GB_(found) found4, T c1, T s1, T c2, T s
     const T at[] = {c1, s1, c2, s2, d3, c4, s4, c5, s5, c6, s6};
     GB_(finish)(c, found4, at);
 }
+GB_RARELY(block_5, (const T *p, GB_(found) found4, T c1, T s1, T c2, T s2, T d3, T c4, T s4, GB_(sink) *c), p, found4, c1, s1, c2, s2, d3, c4, s4, c)
 
 /* Block 3: Slide. */
 GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, T f1, T f2, GB_(sink) *c)
@@ -113,11 +114,12 @@ GB_INLINE void GB_(block_3)(const T *p, GB_(found) found2, T c1, T s1, T c2, T s
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c4 = GB_(of)(samples_1[i2][0]), s4 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found4 = GB_(freeing)(GB_(next)(found2, 3, 2), 0x8u);
-                GB_(block_5)(p, found4, c1, s1, c2, s2, d3, c4, s4, c);
+                GB_(rarely_block_5)(p, found4, c1, s1, c2, s2, d3, c4, s4, c);
             }
         }
     }
 }
+GB_RARELY(block_3, (const T *p, GB_(found) found2, T c1, T s1, T c2, T s2, T f1, T f2, GB_(sink) *c), p, found2, c1, s1, c2, s2, f1, f2, c)
 
 /* Block 2: ShoulderPitch. */
 GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c)
@@ -148,11 +150,12 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, T f1, GB_
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found2 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x2u);
-                GB_(block_3)(p, found2, c1, s1, c2, s2, f1, f2, c);
+                GB_(rarely_block_3)(p, found2, c1, s1, c2, s2, f1, f2, c);
             }
         }
     }
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c1, T s1, T f1, GB_(sink) *c), p, found1, c1, s1, f1, c)
 
 /* Block 1: ShoulderYaw. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -182,7 +185,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
-                GB_(block_2)(p, found1, c1, s1, f1, c);
+                GB_(rarely_block_2)(p, found1, c1, s1, f1, c);
             }
         }
     }

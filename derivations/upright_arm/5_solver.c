@@ -88,6 +88,7 @@ GB_INLINE void GB_(block_10)(const T *p, GB_(found) found9, T c2, T s2, T c3, T 
         }
     }
 }
+GB_RARELY(block_10, (const T *p, GB_(found) found9, T c2, T s2, T c3, T s3, T c5, T s5, T dradius_, T dheight_, T cazimuth, T sazimuth, GB_(sink) *c), p, found9, c2, s2, c3, s3, c5, s5, dradius_, dheight_, cazimuth, sazimuth, c)
 
 /* Block 7: roll. */
 GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T croll_, T sroll_, T cpitch_, T spitch_, T cturn, T sturn, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, T fturn, GB_(sink) *c)
@@ -132,13 +133,14 @@ GB_INLINE void GB_(block_7)(const T *p, GB_(found) found6, T croll_, T sroll_, T
                 for (size_t i2 = 0; i2 < 8; i2++) {
                     const T c2 = GB_(of)(samples_1[i2][0]), s2 = GB_(of)(samples_1[i2][1]);
                     const GB_(found) found9 = GB_(freeing)(GB_(next)(found8, 2, 1), 0x2u);
-                    GB_(block_10)(p, found9, c2, s2, c3, s3, c5, s5, dradius_, dheight_, cazimuth, sazimuth, c);
+                    GB_(rarely_block_10)(p, found9, c2, s2, c3, s3, c5, s5, dradius_, dheight_, cazimuth, sazimuth, c);
                 }
             }
         }
     }
     (void)p;
 }
+GB_RARELY(block_7, (const T *p, GB_(found) found6, T croll_, T sroll_, T cpitch_, T spitch_, T cturn, T sturn, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, T fturn, GB_(sink) *c), p, found6, croll_, sroll_, cpitch_, spitch_, cturn, sturn, dradius_, dheight_, cazimuth, sazimuth, fazimuth, fturn, c)
 
 /* Block 6: turn. */
 GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T croll_, T sroll_, T cpitch_, T spitch_, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, GB_(sink) *c)
@@ -167,12 +169,13 @@ GB_INLINE void GB_(block_6)(const T *p, GB_(found) found5, T croll_, T sroll_, T
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T cturn = GB_(of)(samples_1[i2][0]), sturn = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found6 = GB_(freeing)(GB_(next)(found5, 3, 2), 0x10u);
-                GB_(block_7)(p, found6, croll_, sroll_, cpitch_, spitch_, cturn, sturn, dradius_, dheight_, cazimuth, sazimuth, fazimuth, fturn, c);
+                GB_(rarely_block_7)(p, found6, croll_, sroll_, cpitch_, spitch_, cturn, sturn, dradius_, dheight_, cazimuth, sazimuth, fazimuth, fturn, c);
             }
         }
     }
     (void)p;
 }
+GB_RARELY(block_6, (const T *p, GB_(found) found5, T croll_, T sroll_, T cpitch_, T spitch_, T dradius_, T dheight_, T cazimuth, T sazimuth, T fazimuth, GB_(sink) *c), p, found5, croll_, sroll_, cpitch_, spitch_, dradius_, dheight_, cazimuth, sazimuth, fazimuth, c)
 
 /* Block 1: roll2. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -204,7 +207,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T cazimuth = GB_(of)(samples_1[i2][0]), sazimuth = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found5 = GB_(freeing)(GB_(next)(found1, 3, 2), 0x1u);
-                GB_(block_6)(p, found5, croll_, sroll_, cpitch_, spitch_, dradius_, dheight_, cazimuth, sazimuth, fazimuth, c);
+                GB_(rarely_block_6)(p, found5, croll_, sroll_, cpitch_, spitch_, dradius_, dheight_, cazimuth, sazimuth, fazimuth, c);
             }
         }
     }

@@ -75,6 +75,7 @@ GB_INLINE void GB_(block_2)(const T *p, GB_(found) found1, T c1, T s1, GB_(sink)
     const T at[] = {c1, s1, c2, s2, c3, s3};
     GB_(finish)(c, found1, at);
 }
+GB_RARELY(block_2, (const T *p, GB_(found) found1, T c1, T s1, GB_(sink) *c), p, found1, c1, s1, c)
 
 /* Block 1: Yaw. */
 GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
@@ -100,7 +101,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
             for (size_t i2 = 0; i2 < 8; i2++) {
                 const T c1 = GB_(of)(samples_1[i2][0]), s1 = GB_(of)(samples_1[i2][1]);
                 const GB_(found) found1 = GB_(freeing)(GB_(first)(2, 3), 0x1u);
-                GB_(block_2)(p, found1, c1, s1, c);
+                GB_(rarely_block_2)(p, found1, c1, s1, c);
             }
         }
     }

@@ -431,6 +431,9 @@ GB_INLINE gb_real gb_square_root(gb_real a)
 /* The type or function with this name for the type of number of which it is the turn, and that type. */
 #define GB_(name) GB_JOIN(gb_##name, _, GB_WIDTH)
 #define T GB_(number)
+/* A block where a rare case leads to it: it is not put in that place. */
+#define GB_RARELY(block, parameters, ...) \
+    static GB_COLD void GB_(rarely_##block) parameters { GB_(block)(__VA_ARGS__); }
 
 /* What a robot's file does not define of its facts. */
 #ifndef GB_DEGREE

@@ -288,13 +288,14 @@ impl Dialect for C {
         format!("const GB_(found) found{number} = {text};")
     }
 
-    fn go_on(&self, block: usize, found: usize, _: bool, known: &[String]) -> Vec<String> {
+    fn go_on(&self, block: usize, found: usize, is_rare: bool, known: &[String]) -> Vec<String> {
+        let how = if is_rare { "rarely_block" } else { "block" };
         let arguments: Vec<String> = ["p".to_owned(), format!("found{found}")]
             .into_iter()
             .chain(known.iter().cloned())
             .chain(["c".to_owned()])
             .collect();
-        vec![format!("GB_(block_{block})({});", arguments.join(", "))]
+        vec![format!("GB_({how}_{block})({});", arguments.join(", "))]
     }
 
     fn finish(&self, found: usize, at: &[String]) -> Vec<String> {

@@ -53,6 +53,7 @@ struct FunctionText {
     known: Vec<String>,
     lines: Vec<String>,
     is_inlined: bool,
+    is_led_to_rarely: bool,
     parameters: Vec<Option<String>>,
 }
 
@@ -124,6 +125,7 @@ impl Outline {
             known: function.known,
             lines: function.lines,
             is_inlined: function.is_inlined,
+            is_led_to_rarely: function.is_led_to_rarely,
         };
         Outline {
             name: word(&program.name),

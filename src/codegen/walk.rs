@@ -20,6 +20,8 @@ pub(super) struct Function {
     pub lines: Vec<String>,
     /// Whether one place that is often passed leads here, so that a language had better put it in that place.
     pub is_inlined: bool,
+    /// Whether a rare case leads here.
+    pub is_led_to_rarely: bool,
 }
 
 /// All functions, the first block's last.
@@ -44,7 +46,14 @@ pub(super) fn functions(scene: &Scene<'_>, dialect: &dyn Dialect) -> Vec<Functio
         let known = (0..known.len()).filter(is_told).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
         let before = index.checked_sub(1).map_or(&[][..], |before| &blocks[before].cases);
         let is_inlined = index == 0 || before.iter().filter(|case| !case.is_rare()).count() == 1;
-        functions.push(Function { number: index + 1, label: remark(&blocks[index].label), known, lines, is_inlined });
+        functions.push(Function {
+            number: index + 1,
+            label: remark(&blocks[index].label),
+            known,
+            lines,
+            is_inlined,
+            is_led_to_rarely: before.iter().any(|case| case.is_rare() && !case.open),
+        });
     }
     functions
 }
