@@ -93,14 +93,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// The header beside a C file.
 fn header_of(path: &Path) -> Result<PathBuf> {
-    let can_be_included = |name: &str| !name.contains(['"', '\\', '?']) && !name.chars().any(char::is_control);
-    let name = path.file_name().and_then(|name| name.to_str()).filter(|name| can_be_included(name));
-    if name.is_some_and(|name| name.len() > 2 && name.ends_with(".c")) {
+    if included_as(path).is_some_and(|name| name.len() > 2 && name.ends_with(".c")) {
         return Ok(path.with_extension("h"));
     }
     let text = "give a name that ends in `.c`, without quotation marks, `\\` and `?`: its header is written beside it; without -o one \
                 file that is its own header is printed";
     Err(Error::new(ErrorKind::BadValue, text).in_file(path))
+}
+
+/// The name by which C includes a file, if it can.
+fn included_as(path: &Path) -> Option<&str> {
+    let can_be_included = |name: &&str| !name.contains(['"', '\\', '?']) && !name.chars().any(char::is_control);
+    path.file_name().and_then(|name| name.to_str()).filter(can_be_included)
 }
 
 impl Arguments {
@@ -126,9 +130,11 @@ impl Arguments {
         }
     }
 
-    /// The name of the file that is written.
-    fn file_name(&self) -> Option<&str> {
-        self.output.as_ref()?.file_name()?.to_str()
+    /// The name of the file that is written, by which it includes itself.
+    fn file_name(&self) -> Result<Option<&str>> {
+        let Some(path) = &self.output else { return Ok(None) };
+        let text = "give a name without quotation marks, `\\` and `?`: the file includes itself by it";
+        included_as(path).map(Some).ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(path))
     }
 
     fn text(&self) -> Result<String> {
@@ -136,12 +142,12 @@ impl Arguments {
             Language::C => {
                 let program = self.program()?;
                 let own = format!("{}.c", program.name);
-                Ok(single_file::c(&program, self.file_name().unwrap_or(&own), self.float))
+                Ok(single_file::c(&program, self.file_name()?.unwrap_or(&own), self.float))
             }
             Language::Rust if self.single_file => self.program().map(|program| single_file::rust(&program)),
             Language::Rust => self.program().map(|program| rust::emit(&program)),
             Language::Ikfast => {
-                let file = self.file_name().map(str::to_owned);
+                let file = self.file_name()?.map(str::to_owned);
                 let options = ikfast::Options { namespace: self.namespace.clone(), single: self.float, file };
                 ikfast::emit(&self.program()?, &options).map_err(|error| error.in_file(&self.derivation))
             }

@@ -87,6 +87,11 @@ fn a_file_of_somebody_else_is_left_alone_unless_forced() {
     let other = folder.path().join("puma.txt");
     let told = refused(&["codegen", text(&puma), "--lang", "c", "-o", text(&other)]);
     assert!(told.contains("puma.txt") && told.contains("ends in `.c`") && !other.exists(), "{told}");
+    let quoted = folder.path().join("pu\"ma.c");
+    for options in [["--lang", "c", "--single-file"].as_slice(), &["--lang", "c"], &["--lang", "ikfast"]] {
+        let told = refused(&[&["codegen", text(&puma), "-o", text(&quoted)], options].concat());
+        assert!(told.contains("quotation marks") && !quoted.exists(), "{told}");
+    }
     assert!(
         refused(&["codegen", text(&puma), "--lang", "c", "-o", "/absent/folder/puma.c"]).contains("/absent/folder")
     );
