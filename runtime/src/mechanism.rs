@@ -1,6 +1,5 @@
 //! What is particular to a mechanism and its task ([`Mechanism`]), and what takes its candidates in ([`Candidates`]).
 
-use crate::derivatives;
 use crate::number::{Guard, Number, With};
 use crate::roots::Roots;
 use crate::storage::{Array, Storage};
@@ -73,10 +72,10 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>;
 
-    /// The derivative of each equation by each joint, equation by equation: found from the values, unless these are not affine in the numbers of each
-    /// joint, as those of a chain are.
-    fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Equations<Self, Joints<Self>> {
-        derivatives::of_affine(self, p, at)
+    /// The derivative of each equation by each joint, equation by equation; none where they are [found from the values](crate::derivatives), which are affine
+    /// in the numbers of each joint, as those of a chain are.
+    fn jacobian(&self, _p: &Parameters<Self>, _at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
+        None
     }
 
     /// The equations of the short way to an answer nearby, where there is one ([`Facts::nearby`]).

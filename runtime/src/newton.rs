@@ -170,7 +170,7 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The triangle of a step's equations.
     fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (at, joints, equations) = (self.place(q), self.joints(), self.facts().size_of.len());
-        let derivatives = self.mechanism.jacobian(self.parameters, &at);
+        let derivatives = self.derivatives(&at);
         let right = self.mechanism.values(self.parameters, &at);
         let rows = equations + joints;
         let mut triangle: Triangle<M> = Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints };

@@ -1,5 +1,6 @@
 //! The equations at one target: how well joint values solve them ([`Fit`]), and how they change with the joints.
 
+use crate::derivatives::of_affine;
 use crate::joints::place;
 use crate::mechanism::{Equations, Facts, Joints, Mechanism, Parameters, Places, Sizes};
 use crate::number::{Lanes, Number};
@@ -86,10 +87,16 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         fit
     }
 
+    /// The derivative of each equation by each joint.
+    pub fn derivatives(&self, at: &Places<M>) -> Equations<M, Joints<M>> {
+        let own = self.mechanism.jacobian(self.parameters, at);
+        own.unwrap_or_else(|| of_affine(self.mechanism, self.parameters, at))
+    }
+
     /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
     pub fn weights(&self, q: &Joints<M>) -> Joints<M> {
         let at = self.place(q);
-        let rows = self.mechanism.jacobian(self.parameters, &at);
+        let rows = self.derivatives(&at);
         let sizes = self.mechanism.sizes(self.parameters, &at);
         Array::by(self.joints(), |i| {
             if !self.facts().joints[i].is_angle() {

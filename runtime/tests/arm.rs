@@ -68,9 +68,9 @@ impl Mechanism for Arm {
         [N::of(1.5)]
     }
 
-    fn jacobian(&self, _: &[f64; 2], &[c1, s1, c2, s2]: &[f64; 4]) -> [[f64; 2]; 2] {
+    fn jacobian(&self, _: &[f64; 2], &[c1, s1, c2, s2]: &[f64; 4]) -> Option<[[f64; 2]; 2]> {
         let (c12, s12) = (0.5 * (c1 * c2 - s1 * s2), 0.5 * (s1 * c2 + c1 * s2));
-        [[-s1 - s12, -s12], [c1 + c12, c12]]
+        Some([[-s1 - s12, -s12], [c1 + c12, c12]])
     }
 }
 

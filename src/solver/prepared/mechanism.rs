@@ -2,7 +2,7 @@
 
 use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
 use groebot_runtime::storage::Array;
-use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With, derivatives};
+use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With};
 
 use super::Solver;
 use super::run::Run;
@@ -76,11 +76,10 @@ impl Mechanism for Solver {
         self.sizes.row(p.as_ref(), at.as_ref())
     }
 
-    fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Equations<Self, Joints<Self>> {
-        let Some(jacobian) = &self.jacobian else { return derivatives::of_affine(self, p, at) };
-        let value = jacobian.values(p.as_ref(), at.as_ref());
+    fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
+        let value = self.jacobian.as_ref()?.values(p.as_ref(), at.as_ref());
         let joints = self.facts.joints.len();
-        Array::by(self.facts.equations, |i| Array::by(joints, |j| value(i * joints + j)))
+        Some(Array::by(self.facts.equations, |i| Array::by(joints, |j| value(i * joints + j))))
     }
 
     fn short<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Short<Self, N>
