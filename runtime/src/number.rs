@@ -17,6 +17,7 @@ impl<N> With<N> for f64 where f64: Add<N, Output = N> + Sub<N, Output = N> + Mul
 /// the last bit, what it would be alone.
 pub trait Number:
     Copy
+    + 'static
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>

@@ -3,7 +3,6 @@
 //! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
 
 mod about;
-mod batch;
 mod compose;
 mod condition;
 mod demand;
@@ -23,7 +22,6 @@ mod rule;
 mod validate;
 
 pub use about::About;
-pub use batch::Batch;
 pub(crate) use demand::{Demand, ParameterDemand};
 pub(crate) use facts::Facts;
 pub use forward::{Forward, Reached};
@@ -31,7 +29,7 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use joint::{Joint, JointValue, Unit};
 pub(crate) use layout::Layout;
 pub use pairs::Pairs;
-pub use prepared::{Nearest, Solver};
+pub use prepared::{Batch, Nearest, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};

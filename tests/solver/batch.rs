@@ -51,6 +51,23 @@ fn a_batch_has_the_answers_of_its_targets_whatever_the_threads() {
 }
 
 #[test]
+fn a_batch_may_have_the_room_of_the_one_before() {
+    let (program, targets) = (pan_tilt::program(), targets());
+    let solver = program.solver();
+    let mut batch = solver.solve_batch(&targets[..30]).unwrap();
+    for targets in [&targets[..], &targets[600..660], &[]] {
+        solver.solve_batch_into(targets, &mut batch).unwrap();
+        assert_eq!(batch, solver.solve_batch(targets).unwrap());
+    }
+    let puma = Program::from_json(include_str!("../../derivations/puma/5_program.json")).unwrap().solver();
+    let reached = puma.reached(&[0.3, -0.4, 0.5, 0.6, -0.7, 0.8]).unwrap();
+    puma.solve_batch_into(&reached, &mut batch).unwrap();
+    assert_eq!((batch.targets(), batch.answers(), batch.joint(5).len()), (1, 8, 8));
+    assert!(puma.solve_batch_into(&reached[1..], &mut batch).is_err());
+    assert_eq!((batch.targets(), batch.answers()), (0, 0));
+}
+
+#[test]
 fn a_count_that_is_none_of_targets_is_refused() {
     assert_eq!(pan_tilt::program().solve_batch(&[1.0, 0.0]).unwrap_err().kind(), ErrorKind::BadValue);
     assert_eq!(pan_tilt::program().solve_batch(&[]).unwrap().targets(), 0);

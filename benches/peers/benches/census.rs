@@ -10,7 +10,9 @@ use groebot::kinematics::{Chain, JointKind};
 use groebot::robots;
 use groebot::spatial::Pose;
 use groebot_peers::by_batch;
+use groebot_peers::by_c::{self, Compiled};
 use groebot_peers::by_ik_geo::IkGeo;
+use groebot_peers::by_library::Read;
 use groebot_peers::by_opw::Opw;
 use groebot_peers::by_print::{self, Target};
 use groebot_peers::census::Census;
@@ -51,6 +53,9 @@ fn main() {
     println!(
         "robot,solver,pose_ns,mean_ns,forward_ns,poses,lost,wrong,worst_position,worst_rotation,singular,singular_lost,singular_wrong,commit"
     );
+    // Batches are solved by one thread, this one, of which the time is taken.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    alone.expect("no other pool");
     let only: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
     for name in ROBOTS.iter().filter(|name| only.is_empty() || only.iter().any(|only| only == *name)) {
         contest(name);
@@ -72,9 +77,11 @@ fn contest(name: &str) {
     let (q, poses): (Vec<Vec<f64>>, Vec<Pose>) = many_poses(&chain, ORDINARY).into_iter().unzip();
     let q: Vec<Joints> = q.iter().map(|q| std::array::from_fn(|i| q[i])).collect();
     let singular = singular_poses(&chain, SINGULAR);
-    let (ik_geo, opw) = (IkGeo::new(&chain), Opw::new(&chain));
+    let (ik_geo, opw, read) = (IkGeo::new(&chain), Opw::new(&chain), Read::new(name));
     let mut solvers = ours(name, &chain, &poses, &q);
     solvers.extend(ours_by_batch(name, &chain, &poses, &q));
+    solvers.extend(by_c::solvers(name).flat_map(|compiled| ours_in_c(compiled, &poses, &q)));
+    solvers.extend(ours_as_read(&read, &poses, &q));
     solvers.extend(ik_geo.as_ref().map(|peer| by_ik_geo(peer, &poses, &q)));
     solvers.extend(opw.as_ref().map(|peer| by_opw(peer, &poses, &q)));
     let measure = |inputs: usize, rounds: usize| {
@@ -112,9 +119,11 @@ fn pass_of<'a>(solver: &'a Solver<'_>) -> &'a dyn Fn(usize) {
 /// One target at a time, and the same by cosines and sines.
 fn ours<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
     let printed = by_print::solver(name).expect("a printed solver");
-    let solver = |name, pass, solutions| ours_with(name, poses, pass, solutions, printed.forward, q);
+    let solver = |name, pass: fn(&[Target]) -> usize, solutions: Box<ByTarget<'a>>| {
+        ours_with(name, poses, pass, solutions, printed.forward, q)
+    };
     vec![
-        solver("groebot-printed", printed.pass, Box::new(move |target: &Target| (printed.solutions)(target))),
+        solver("groebot-printed", printed.pass, Box::new(move |target| (printed.solutions)(target))),
         solver("groebot-pairs", printed.pass_by_pairs, Box::new(move |target| angles(chain, (printed.pairs)(target)))),
     ]
 }
@@ -123,14 +132,37 @@ fn ours<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Ve
 fn ours_by_batch<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
     let printed = by_print::solver(name).expect("a printed solver");
     let Some(batches) = by_batch::solver(name) else { return Vec::new() };
-    let solver = |name, pass, solutions| ours_with(name, poses, pass, solutions, printed.forward, q);
+    let solver = |name, pass: fn(&[Target]) -> usize, solutions: Box<ByTarget<'a>>| {
+        ours_with(name, poses, pass, solutions, printed.forward, q)
+    };
     vec![
-        solver("groebot-batch", batches.pass, Box::new(move |target: &Target| (batches.solutions)(target))),
+        solver("groebot-batch", batches.pass, Box::new(move |target| (batches.solutions)(target))),
         solver(
             "groebot-batch-pairs",
             batches.pass_by_pairs,
             Box::new(move |target| angles(chain, (batches.pairs)(target))),
         ),
+    ]
+}
+
+/// In C by one compiler: one target at a time, and all as one batch.
+fn ours_in_c<'a>(compiled: &'static Compiled, poses: &[Pose], q: &'a [Joints]) -> [Solver<'a>; 2] {
+    let [one, many] = compiled.names();
+    let forward = |all: &[Joints]| compiled.forward(all);
+    let solutions = || Box::new(|target: &Target| compiled.solutions(target));
+    [
+        ours_with(one, poses, |targets| compiled.pass(targets), solutions(), forward, q),
+        ours_with(many, poses, |targets| compiled.batch(targets), solutions(), forward, q),
+    ]
+}
+
+/// By the library: one target at a time, and all as one batch.
+fn ours_as_read<'a>(read: &'a Read, poses: &[Pose], q: &'a [Joints]) -> [Solver<'a>; 2] {
+    let forward = |all: &[Joints]| read.forward(all);
+    let solutions = || Box::new(|target: &Target| read.solutions(target));
+    [
+        ours_with("groebot-library", poses, |targets| read.pass(targets), solutions(), forward, q),
+        ours_with("groebot-library-batch", poses, |targets| read.batch(targets), solutions(), forward, q),
     ]
 }
 
@@ -149,9 +181,9 @@ fn angles(chain: &Chain, list: Vec<Pairs>) -> Vec<Joints> {
 fn ours_with<'a>(
     name: &'static str,
     poses: &[Pose],
-    pass: fn(&[Target]) -> usize,
+    pass: impl Fn(&[Target]) -> usize + 'a,
     solutions: Box<ByTarget<'a>>,
-    forward: fn(&[Joints]),
+    forward: impl Fn(&[Joints]) + 'a,
     q: &'a [Joints],
 ) -> Solver<'a> {
     let targets: Vec<_> = poses.iter().map(by_print::target).collect();

@@ -7,8 +7,11 @@ use groebot::kinematics::screw::values::Reach;
 use groebot::robots;
 use groebot::spatial::{Pose, angle};
 use groebot_peers::Joints;
+use groebot_peers::by_c;
 use groebot_peers::by_ik_geo::{IkGeo, vector};
+use groebot_peers::by_library::Read;
 use groebot_peers::by_opw::Opw;
+use groebot_peers::by_print;
 use groebot_peers::inputs::{COUNT, Random, poses};
 use ik_geo::subproblems::{subproblem1, subproblem2, subproblem3, subproblem4};
 use nalgebra::Unit;
@@ -93,6 +96,24 @@ fn subproblems_of_two_axes_and_of_a_plane_mean_the_same() {
         let (theirs, _) = subproblem4(&vector(&normal), &vector(&p.coords), &w2, height);
         for ours in ours.iter() {
             assert!(theirs.get_all().iter().any(|theirs| angle::difference(ours, *theirs).abs() < 1e-5));
+        }
+    }
+}
+
+/// C by each compiler, and the library, answer as the printed Rust does, to the last bit.
+#[test]
+fn ours_are_the_same_however_compiled() {
+    for robot in robots::ALL {
+        let Some(printed) = by_print::solver(robot.name()) else { continue };
+        let read = Read::new(robot.name());
+        for (_, pose) in poses(&robot.chain()) {
+            let target = by_print::target(&pose);
+            let answers = (printed.solutions)(&target);
+            assert!(!answers.is_empty(), "{}", robot.name());
+            assert_eq!(read.solutions(&target), answers, "{}", robot.name());
+            for compiled in by_c::solvers(robot.name()) {
+                assert_eq!(compiled.solutions(&target), answers, "{} {:?}", robot.name(), compiled.names());
+            }
         }
     }
 }

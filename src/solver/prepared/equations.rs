@@ -29,21 +29,16 @@ impl Equations {
         Equations { memory: assembler.memory(), code, results }
     }
 
-    /// How many results there are.
-    pub fn len(&self) -> usize {
-        self.results.len()
-    }
-
-    /// The results.
+    /// What is made of the results, each by its index.
     #[inline]
-    pub fn values<N: Number>(&self, parameters: &[N], at: &[N]) -> impl Fn(usize) -> N
+    pub fn with<N: Number, R>(&self, parameters: &[N], at: &[N], make: impl FnOnce(&dyn Fn(usize) -> N) -> R) -> R
     where
         f64: With<N>,
     {
-        let mut memory = self.memory.with(parameters);
-        memory[self.memory.unknowns..self.memory.unknowns + at.len()].copy_from_slice(at);
-        self.code.run(&mut memory);
-        move |index| memory[self.results[index] as usize]
+        self.memory.with(parameters, at, |memory| {
+            self.code.run(memory);
+            make(&|index| memory[self.results[index] as usize].0)
+        })
     }
 
     /// All results as a row.
@@ -52,6 +47,9 @@ impl Equations {
     where
         f64: With<N>,
     {
-        A::by(self.len(), self.values(parameters, at))
+        self.memory.with(parameters, at, |memory| {
+            self.code.run(memory);
+            A::by(self.results.len(), |index| memory[self.results[index] as usize].0)
+        })
     }
 }

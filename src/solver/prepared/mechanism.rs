@@ -1,17 +1,17 @@
 //! What the run time asks of a mechanism, answered from a prepared program.
 
 use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
-use groebot_runtime::storage::Array;
+use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Facts, Found, Mechanism, Number, Preference, Short, With};
 
-use super::Solver;
 use super::run::Run;
-use super::storage::Dynamic;
+use super::shaped::Shaped;
 
-impl Mechanism for Solver {
-    type Storage = Dynamic;
+impl<S: Storage + 'static> Mechanism for Shaped<S> {
+    type Storage = S;
     const IS_TOLD: bool = true;
 
+    #[inline(always)]
     fn facts(&self) -> Facts<'_> {
         let facts = &self.facts;
         Facts {
@@ -50,16 +50,16 @@ impl Mechanism for Solver {
     where
         f64: With<N>,
     {
-        let memory = self.blocks.memory.with(p.as_ref());
-        Run { solver: self, memory, candidates }.block(0, Found::first(0, 0));
+        self.blocks.memory.with(p.as_ref(), &[], |memory| {
+            Run { solver: self, memory, candidates }.block(0, Found::first(0, 0));
+        });
     }
 
     fn tip<N: Number>(&self, at: &Places<Self, N>) -> Equations<Self, N>
     where
         f64: With<N>,
     {
-        let parameters = vec![N::of(0.0); self.parameters.len()];
-        self.tip.row(&parameters, at.as_ref())
+        self.tip.row(&[], at.as_ref())
     }
 
     fn values<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Equations<Self, N>
@@ -77,21 +77,21 @@ impl Mechanism for Solver {
     }
 
     fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
-        let value = self.jacobian.as_ref()?.values(p.as_ref(), at.as_ref());
         let joints = self.facts.joints.len();
-        Some(Array::by(self.facts.equations, |i| Array::by(joints, |j| value(i * joints + j))))
+        Some(self.jacobian.as_ref()?.with(p.as_ref(), at.as_ref(), |value| {
+            Array::by(self.facts.equations, |i| Array::by(joints, |j| value(i * joints + j)))
+        }))
     }
 
     fn short<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Short<Self, N>
     where
         f64: With<N>,
     {
-        let value = self.short.values(p.as_ref(), at.as_ref());
         let (count, joints) = (self.facts.shorts, self.facts.joints.len());
-        Short {
-            value: Array::by(count, &value),
+        self.short.with(p.as_ref(), at.as_ref(), |value| Short {
+            value: Array::by(count, value),
             size: Array::by(count, |i| value(count + i)),
             columns: Array::by(joints, |j| Array::by(count, |i| value((2 + j) * count + i))),
-        }
+        })
     }
 }

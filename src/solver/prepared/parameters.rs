@@ -34,11 +34,6 @@ impl Parameters {
         Parameters { scale: program.scale, rules: program.parameters.iter().enumerate().map(computed).collect() }
     }
 
-    /// How many values there are, the magnitude too.
-    pub fn len(&self) -> usize {
-        self.rules.len() + 1
-    }
-
     /// The values, and the magnitude behind them.
     pub fn values<N: Number>(&self, target: &[N]) -> Vec<N>
     where
@@ -48,12 +43,10 @@ impl Parameters {
         for rule in &self.rules {
             values.push(match rule {
                 Computed::Rule(rule) => of_target(rule, target),
-                Computed::Root { code, memory, value } => {
-                    let magnitude = [values.as_slice(), &[N::of(0.0)]].concat();
-                    let mut memory = memory.with(&magnitude);
-                    code.run(&mut memory);
-                    memory[*value as usize].root()
-                }
+                Computed::Root { code, memory, value } => memory.with(&values, &[], |memory| {
+                    code.run(memory);
+                    memory[*value as usize].0.root()
+                }),
             });
         }
         values.push(N::largest(self.scale, &values));

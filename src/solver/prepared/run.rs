@@ -1,26 +1,27 @@
 //! The walk through prepared blocks, for any kind of number. Main type: [`Run`].
 
 use groebot_runtime as runtime;
-use groebot_runtime::storage::Array;
+use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Found, Number, With};
 
-use super::Solver;
 use super::blocks::{Applies, Guard, JointPlace, Six, Told, Turn, Way};
+use super::code::Line;
+use super::shaped::Shaped;
 use crate::roots::MAX_DEGREE;
 
 /// A walk for one target, or several at once.
-pub(super) struct Run<'a, N, C> {
-    pub solver: &'a Solver,
-    pub memory: Vec<N>,
+pub(super) struct Run<'a, S, N, C> {
+    pub solver: &'a Shaped<S>,
+    pub memory: &'a mut [Line<N>],
     pub candidates: &'a mut C,
 }
 
-impl<N: Number, C: Candidates<N, Solver>> Run<'_, N, C>
+impl<S: Storage + 'static, N: Number, C: Candidates<N, Shaped<S>>> Run<'_, S, N, C>
 where
     f64: With<N>,
 {
     fn at(&self, place: u32) -> N {
-        self.memory[place as usize]
+        self.memory[place as usize].0
     }
 
     /// The block with this index and all behind it.
@@ -31,7 +32,7 @@ where
             let at = Array::by(places.len(), |i| self.at(places[i]));
             return self.candidates.finish(solver, found, &at);
         };
-        block.code.run(&mut self.memory);
+        block.code.run(self.memory);
         let before = self.candidates.count();
         for turn in &block.turns {
             match turn {
@@ -41,7 +42,7 @@ where
                     }
                 }
                 Turn::Open(number, case) => {
-                    case.code.run(&mut self.memory);
+                    case.code.run(self.memory);
                     let guard = self.guard(&case.guards);
                     self.candidates.is_open(*number, guard);
                 }
@@ -55,7 +56,7 @@ where
     }
 
     fn applies(&mut self, case: &Told, before: usize) -> bool {
-        case.code.run(&mut self.memory);
+        case.code.run(self.memory);
         if case.guards.is_empty() {
             return true;
         }
@@ -80,11 +81,11 @@ where
     fn elect<'m>(&mut self, members: &'m [(u32, Told)]) -> Option<&'m Told> {
         let mut claims = Vec::with_capacity(members.len());
         for (pivot, case) in members {
-            case.code.run(&mut self.memory);
+            case.code.run(self.memory);
             claims.push(self.guard(&case.guards).claim(self.at(*pivot)));
         }
         let (_, case) = members.get(self.candidates.elect(&claims))?;
-        case.code.run(&mut self.memory);
+        case.code.run(self.memory);
         Some(case)
     }
 
@@ -98,8 +99,8 @@ where
         for (done, step) in steps.iter().enumerate() {
             let behind = &steps[done + 1..];
             match step {
-                Way::Compute(code) => code.run(&mut self.memory),
-                Way::Set { unknown, value } => self.memory[*unknown as usize] = self.at(*value),
+                Way::Compute(code) => code.run(self.memory),
+                Way::Set { unknown, value } => self.memory[*unknown as usize].0 = self.at(*value),
                 Way::Square { unknown, constant, typical, stride, is_pair } => {
                     let (constant, typical) = (self.at(*constant), self.at(*typical));
                     let roots = if self.solver.blocks.grazing {
@@ -109,13 +110,13 @@ where
                     };
                     if *is_pair {
                         if let Some(root) = roots.as_slice().first() {
-                            self.memory[*unknown as usize] = *root;
+                            self.memory[*unknown as usize].0 = *root;
                             self.steps(index, case, behind, found.by_pair(&roots), number);
                         }
                         return;
                     }
                     for (choice, root) in roots.as_slice().iter().enumerate() {
-                        self.memory[*unknown as usize] = *root;
+                        self.memory[*unknown as usize].0 = *root;
                         self.steps(index, case, behind, found.by_root(&roots, choice), number + choice * stride);
                     }
                     return;
@@ -126,7 +127,7 @@ where
                     let lists: Vec<&[N]> = lists.iter().map(Vec::as_slice).collect();
                     let roots = N::real_roots::<MAX_DEGREE>(&lists, self.at(*typical));
                     for (choice, root) in roots.as_slice().iter().enumerate() {
-                        self.memory[*unknown as usize] = *root;
+                        self.memory[*unknown as usize].0 = *root;
                         self.steps(index, case, behind, found.by_root(&roots, choice), number + choice * stride);
                     }
                     return;
@@ -134,7 +135,7 @@ where
                 Way::Sample { unknowns, rows } => {
                     for row in rows {
                         for (unknown, value) in unknowns.iter().zip(row) {
-                            self.memory[*unknown as usize] = N::of(*value);
+                            self.memory[*unknown as usize].0 = N::of(*value);
                         }
                         self.steps(index, case, behind, found, number);
                     }
@@ -158,10 +159,10 @@ where
             for (joint, &value) in six.joints.iter().zip(&answer.q) {
                 match *joint {
                     JointPlace::Angle([cosine, sine]) => {
-                        self.memory[cosine as usize] = N::of(value).cos();
-                        self.memory[sine as usize] = N::of(value).sin();
+                        self.memory[cosine as usize].0 = N::of(value).cos();
+                        self.memory[sine as usize].0 = N::of(value).sin();
                     }
-                    JointPlace::Length(place) => self.memory[place as usize] = N::of(value),
+                    JointPlace::Length(place) => self.memory[place as usize].0 = N::of(value),
                 }
             }
             let found = found.by_answer(&answer.free, answer.lost, six.bits);

@@ -36,6 +36,23 @@ macro_rules! rows {
 
 rows!(2 8 12 16);
 
+/// Arrays as long as a pose of six joints asks for, which has eight answers as most do, and rows of what else a program tells.
+#[derive(Clone, Copy, Debug)]
+pub struct SixJoints;
+
+impl Storage for SixJoints {
+    type Inputs<T: Clone> = [T; 12];
+    type Parameters<T: Clone> = [T; 13];
+    type Joints<T: Clone> = [T; 6];
+    type Places<T: Clone> = [T; 12];
+    type Equations<T: Clone> = [T; 12];
+    type Sizes<T: Clone> = [T; 2];
+    type Shorts<T: Clone> = Row<T, 8>;
+    type Candidates<T: Clone> = [T; 8];
+    type Answers<T: Clone> = Row<T, 8>;
+    type Triangle = [f64; 126];
+}
+
 /// Rows whose lengths a program tells.
 #[derive(Clone, Copy, Debug)]
 pub struct Dynamic;

@@ -1,0 +1,22 @@
+//! Memory that a thread keeps from one call to the next: [`with_spare`].
+
+use std::any::Any;
+use std::cell::RefCell;
+
+thread_local! {
+    /// What no call uses at the moment, one of a type unless calls have met.
+    static SPARE: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Lends a value of this type with whatever the last user left in it.
+#[inline]
+pub(super) fn with_spare<T: Default + 'static, R>(run: impl FnOnce(&mut T) -> R) -> R {
+    let kept = SPARE.with_borrow_mut(|spare| {
+        let place = spare.iter().position(|kept| kept.is::<T>())?;
+        spare.swap_remove(place).downcast::<T>().ok()
+    });
+    let mut lent = kept.unwrap_or_default();
+    let result = run(&mut lent);
+    SPARE.with_borrow_mut(|spare| spare.push(lent));
+    result
+}
