@@ -19,7 +19,8 @@ const GOOD_FILE_LINES: usize = 400;
 const MAX_FUNCTION_LINES: usize = 80;
 const GOOD_FUNCTION_LINES: usize = 35;
 
-/// One file of `src/`, scanned.
+/// One file of `src/` or `runtime/src/`, scanned.
+#[derive(Clone)]
 struct Source {
     /// Relative to the root of the repository.
     file: String,
@@ -50,7 +51,7 @@ impl Source {
 
 /// `src/poly/ring.rs` is `poly::ring`, `src/poly/mod.rs` is `poly`.
 fn module_of(file: &str) -> Vec<String> {
-    let path = file.trim_start_matches("src/").trim_end_matches(".rs");
+    let path = file.trim_start_matches("runtime/").trim_start_matches("src/").trim_end_matches(".rs");
     let path = path.strip_suffix("/mod").unwrap_or(path);
     if path == "lib" { Vec::new() } else { path.split('/').map(str::to_owned).collect() }
 }
@@ -74,11 +75,31 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The library's.
 fn sources() -> Vec<Source> {
-    let mut files: Vec<String> = files_below(Path::new("src")).iter().map(|path| slashed(path)).collect();
-    files.retain(|file| file.ends_with(".rs"));
+    sources_below("src")
+}
+
+/// The run time's.
+fn runtime() -> Vec<Source> {
+    sources_below("runtime/src")
+}
+
+fn sources_below(folder: &str) -> Vec<Source> {
+    texts_below(folder, &["rs"]).into_iter().map(|(file, text)| Source::new(&file, text)).collect()
+}
+
+/// The files below a folder whose names end so, with their texts.
+fn texts_below(folder: &str, ends: &[&str]) -> Vec<(String, String)> {
+    let mut files: Vec<String> = files_below(Path::new(folder)).iter().map(|path| slashed(path)).collect();
+    files.retain(|file| file.rsplit_once('.').is_some_and(|(_, end)| ends.contains(&end)));
     files.sort();
-    files.iter().map(|file| Source::new(file, fs::read_to_string(root().join(file)).unwrap())).collect()
+    files.into_iter().map(|file| (file.clone(), fs::read_to_string(root().join(file)).unwrap())).collect()
+}
+
+/// What else becomes code: the run time in C, and what robots' files are printed from.
+fn other_code() -> Vec<(String, String)> {
+    [texts_below("runtime/c", &["c", "h"]), texts_below("src/codegen/skeleton", &["txt"])].concat()
 }
 
 fn slashed(path: &Path) -> String {
@@ -117,15 +138,19 @@ fn forbidden_uses(sources: &[Source]) -> Vec<String> {
     found
 }
 
+/// Says what is wrong with the size of a file.
+fn oversized_file(file: &str, text: &str) -> Option<String> {
+    let lines = text.lines().count();
+    if lines > GOOD_FILE_LINES && lines <= MAX_FILE_LINES {
+        println!("{file}: {lines} lines, over {GOOD_FILE_LINES}: think of splitting it");
+    }
+    (lines > MAX_FILE_LINES).then(|| format!("{file}: {lines} lines; at most {MAX_FILE_LINES}"))
+}
+
 fn oversized(sources: &[Source]) -> Vec<String> {
     let mut found = Vec::new();
     for source in sources.iter().filter(|source| !source.is_generated()) {
-        let lines = source.text.lines().count();
-        if lines > MAX_FILE_LINES {
-            found.push(format!("{}: {lines} lines; at most {MAX_FILE_LINES}", source.file));
-        } else if lines > GOOD_FILE_LINES {
-            println!("{}: {lines} lines, over {GOOD_FILE_LINES}: think of splitting it", source.file);
-        }
+        found.extend(oversized_file(&source.file, &source.text));
         for Function { name, line, lines } in source.functions() {
             if lines > MAX_FUNCTION_LINES {
                 found.push(format!("{}:{line}: `{name}` has {lines} lines; at most {MAX_FUNCTION_LINES}", source.file));
@@ -167,16 +192,21 @@ fn dependencies_run_one_way() {
 #[test]
 fn no_files_import_each_other() {
     assert_none(&cycles::on_rings(&sources()));
+    assert_none(&cycles::on_rings(&runtime()));
 }
 
 #[test]
 fn files_and_functions_are_small() {
     assert_none(&oversized(&sources()));
+    assert_none(&oversized(&runtime()));
+    let other: Vec<String> = other_code().iter().filter_map(|(file, text)| oversized_file(file, text)).collect();
+    assert_none(&other);
 }
 
 #[test]
 fn nine_functions_of_ten_are_short() {
-    let mut sizes: Vec<usize> = sources().iter().flat_map(Source::functions).map(|function| function.lines).collect();
+    let all = [sources(), runtime()].concat();
+    let mut sizes: Vec<usize> = all.iter().flat_map(Source::functions).map(|function| function.lines).collect();
     sizes.sort_unstable();
     let (median, ninth) = (sizes[sizes.len() / 2], sizes[sizes.len() * 9 / 10]);
     println!("{} functions: median {median} lines, nine of ten at most {ninth}", sizes.len());
@@ -186,6 +216,7 @@ fn nine_functions_of_ten_are_short() {
 #[test]
 fn no_stub_and_no_stray_print_is_left() {
     assert_none(&leftovers(&sources()));
+    assert_none(&leftovers(&runtime()));
 }
 
 #[test]

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Times printed solvers, Rust and C, of six axes unless others are named, at random targets, and counts lost joints.
 
-    python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like,/tmp/mine] > record.csv
+    cargo build --release
+    python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like,/tmp/mine] [--groebot PROGRAM] > record.csv
 
-Needs rustc and cc. A folder is one of `derivations`, or a path. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
+Needs rustc and cc: what they compile is the single file of run time and robot that `groebot codegen --single-file` prints. A folder is one of `derivations`, or a path. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
 within 1e-6 of them. `us_mean` is processor time of all solving over the number of targets, so that other work on the machine does not count
 but by its use of the caches; the percentiles are wall time.
 """
@@ -27,18 +28,19 @@ def sliding(folder):
     return [index for index, joint in enumerate(joints) if joint["unit"] != "radian"]
 
 
-def build(name, work):
+def build(name, work, groebot):
     """The two programs that measure a folder's solver: language, bytes of the solver, path."""
     folder = ROOT / "derivations" / name
-    name = re.search(r"int (\w+)_solve\(", (folder / "5_solver.h").read_text())[1]
+    name = re.search(r"GB_DECLARE\((\w+),", (folder / "5_solver.h").read_text())[1]
     slides = sum(1 << joint for joint in sliding(folder))
-    rust = folder / "5_solver.rs"
+    rust, c = work / f"{name}_solver.rs", work / f"{name}_solver.c"
+    for language, file in (("rust", rust), ("c", c)):
+        subprocess.run([groebot, "codegen", folder, "--lang", language, "--single-file", "-o", file], check=True, capture_output=True)
     main = (HERE / "printed.rs").read_text().replace("SOLVER", str(rust)).replace("SLIDES", str(slides))
     (work / f"{name}.rs").write_text(main)
     subprocess.run(["rustc", "--edition", "2024", "-O", "-A", "warnings", f"{name}.rs", "-o", f"{name}_rust"], cwd=work, check=True)
-    c = folder / "5_solver.c"
     flags = ["-O2", f"-DNAME={name}", f"-DCAPACITY={name.upper()}_CAPACITY", f"-DSLIDES={slides}", f'-DSOLVER="{c}"']
-    subprocess.run(["cc", "-std=gnu99", *flags, str(HERE / "printed.c"), "-o", f"{name}_c", "-lm"], cwd=work, check=True)
+    subprocess.run(["cc", "-std=c99", "-D_POSIX_C_SOURCE=199309L", *flags, HERE / "printed.c", "-o", f"{name}_c", "-lm"], cwd=work, check=True)
     return [("C99 -O2", c.stat().st_size, work / f"{name}_c"), ("Rust -O", rust.stat().st_size, work / f"{name}_rust")]
 
 
@@ -46,11 +48,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--poses", type=int, default=100_000)
     parser.add_argument("--folders", type=lambda text: text.split(","), default=FOLDERS)
+    parser.add_argument("--groebot", type=pathlib.Path, default=ROOT / "target/release/groebot")
     arguments = parser.parse_args()
     print("solver,language,bytes,poses,lost,answers_per_pose,us_mean,us_p10,us_p50,us_p90,us_p99.9")
     with tempfile.TemporaryDirectory() as work:
         for name in arguments.folders:
-            for language, size, program in build(name, pathlib.Path(work)):
+            for language, size, program in build(name, pathlib.Path(work), arguments.groebot.resolve()):
                 output = subprocess.run([program, str(arguments.poses)], check=True, capture_output=True, text=True)
                 sys.stderr.write(output.stderr)
                 print(f"{name},{language},{size},{arguments.poses},{output.stdout.strip()}", flush=True)

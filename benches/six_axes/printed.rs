@@ -2,6 +2,7 @@
 #[path = "SOLVER"]
 mod solver;
 
+use solver::{Solve, Solver};
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
@@ -23,13 +24,13 @@ fn main() {
     let slides = |joint: usize| (SLIDES as u64) >> joint & 1 == 1;
     let joints: Vec<[f64; 6]> =
         (0..poses).map(|_| core::array::from_fn(|k| if slides(k) { random() } else { PI * random() })).collect();
-    let targets: Vec<_> = joints.iter().map(solver::forward).collect();
-    let mut out = [solver::Solution::EMPTY; solver::CAPACITY];
+    let targets: Vec<_> = joints.iter().map(|q| Solver.forward(q).unwrap()).collect();
+    let mut out = [solver::EMPTY; solver::CAPACITY];
     let (mut times, mut answers, mut lost) = (Vec::with_capacity(poses), 0, 0);
     let before = processor();
     for (q, target) in joints.iter().zip(&targets) {
         let start = Instant::now();
-        let count = solver::solve(target, &mut out).unwrap_or(0);
+        let count = Solver.solve(target, &mut out).unwrap_or(0);
         times.push(start.elapsed().as_secs_f64() * 1e6);
         answers += count;
         let gap = |k: usize, a: f64| if slides(k) { a - q[k] } else { a - q[k] - TAU * ((a - q[k]) / TAU).round() };

@@ -1,7 +1,8 @@
 //! The short way from a candidate of a nearby mechanism's formulas to the answer next to it: [`Problem::approached`], and [`Ways`] of several.
 
+use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Short, Shorts};
-use crate::number::{Lanes, Number, With};
+use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
 use crate::tolerances::{APPROACHES, PLAIN, ROUNDING, TURN};

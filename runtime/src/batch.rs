@@ -1,18 +1,19 @@
 //! Many targets, several at once in the lanes of vector registers. Main type: [`Bundle`].
 
+use crate::angles::{acute, unfold};
 use crate::answers::FAR_APART;
 use crate::conditions::fulfil;
+use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
     Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places,
 };
-use crate::number::{Guard, Lanes, Mask, Number};
+use crate::number::{Guard, Number};
 use crate::problem::fit;
 use crate::registers::{in_avx2, in_avx512, in_widest};
+use crate::singly::{solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
-use crate::solve::Solve;
 use crate::storage::Array;
 use crate::tolerances::ROUNDING;
-use crate::trigonometry::{acute, unfold};
 
 /// What is written of a solution.
 pub(crate) trait Answer<M: Mechanism>: Clone {
@@ -48,7 +49,7 @@ impl<M: Mechanism> Answer<M> for Solution<M> {
     }
 
     fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error> {
-        mechanism.solve(target, list)
+        solve_one(mechanism, target, list)
     }
 }
 
@@ -74,7 +75,7 @@ impl<M: Mechanism> Answer<M> for Pairs<M> {
     }
 
     fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error> {
-        mechanism.solve_pairs(target, list)
+        solve_one_by_pairs(mechanism, target, list)
     }
 }
 

@@ -1,7 +1,8 @@
 //! The derivatives of equations by the joints.
 
+use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Joint, Joints, Mechanism, Parameters, Places};
-use crate::number::{Lanes, Number};
+use crate::number::Number;
 use crate::storage::Array;
 
 /// The derivative of each equation by each joint, where the equations are affine in the numbers of each: their values at the numbers' derivatives

@@ -8,13 +8,16 @@
 //! Without the feature `std` (a default) the crate needs `core` and the C library's `sqrt`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod angles;
 mod answers;
 mod approach;
 mod arithmetic;
 mod batch;
 mod conditions;
 pub mod derivatives;
+mod double;
 mod joints;
+pub mod lanes;
 pub mod limits;
 mod measure;
 pub mod mechanism;
@@ -26,6 +29,7 @@ mod refine;
 pub mod registers;
 pub mod roots;
 mod self_motion;
+mod singly;
 pub mod six_axes;
 mod solution;
 pub mod solve;
@@ -35,8 +39,9 @@ pub mod storage;
 pub mod tolerances;
 pub mod trigonometry;
 
+pub use lanes::Lanes;
 pub use mechanism::{Candidates, Condition, Facts, Found, Joint, Mechanism, Preference, Reached, Short, rarely};
-pub use number::{Guard, Lanes, Number, With};
+pub use number::{Guard, Number, With};
 pub use solution::{Error, Pairs, Solution};
 pub use solve::{Solve, target_of};
 pub use storage::Fixed;

@@ -2,13 +2,14 @@
 
 use core::array::from_fn;
 
+use crate::angles::{acute, unfold};
 use crate::approach::abreast;
+use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Facts, Joint, Joints, Mechanism, Places};
-use crate::number::{Lanes, Number};
+use crate::number::Number;
 use crate::problem::{Problem, everywhere, fit};
 use crate::storage::Array;
 use crate::tolerances::ROUNDING;
-use crate::trigonometry::{acute, unfold};
 
 /// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
 pub(crate) struct Fits<M: Mechanism> {

@@ -1,7 +1,6 @@
 //! What is particular to a mechanism and its task ([`Mechanism`]), and what takes its candidates in ([`Candidates`]).
 
-use crate::number::{Guard, Number, With};
-use crate::roots::Roots;
+use crate::number::{Guard, Number, Roots, With};
 use crate::storage::{Array, Storage};
 
 /// A row with one value for each joint of a mechanism.

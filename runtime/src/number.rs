@@ -1,11 +1,9 @@
-//! What a solver computes with: one number ([`f64`]), or those of several targets or candidates at once ([`Lanes`]).
+//! What a solver computes with: one number ([`f64`]), or those of several targets or candidates at once ([`crate::Lanes`]). Main type: [`Number`].
 
-use core::array::from_fn;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use crate::arithmetic::Arithmetic;
-use crate::roots::{self, Roots};
-use crate::tolerances::{BESIDE, GRAZING, MEETING, NEAR, TANGENT, TINY};
+use crate::tolerances::{BESIDE, GRAZING, NEAR, TANGENT};
 use crate::trigonometry;
 
 /// A number on the left of an operation with several.
@@ -180,207 +178,30 @@ impl<N: Number> BitAnd for Guard<N> {
     }
 }
 
-impl Number for f64 {
-    type Truth = bool;
-    type Doubt = bool;
-    const SURE: bool = false;
-
-    #[inline(always)]
-    fn of(number: f64) -> f64 {
-        number
-    }
-
-    #[inline(always)]
-    fn each(self, other: f64, value: impl Fn(f64, f64) -> f64) -> f64 {
-        value(self, other)
-    }
-
-    #[inline(always)]
-    fn is(self, other: f64, is_so: impl Fn(f64, f64) -> bool) -> bool {
-        is_so(self, other)
-    }
-
-    #[inline(always)]
-    fn or(self, other: f64, is_so: bool) -> f64 {
-        if is_so { self } else { other }
-    }
-
-    #[inline(always)]
-    fn roots_of_square(constant: f64, scale: f64, tangent: f64) -> Roots<f64, 2> {
-        roots::of_square(constant, scale, tangent)
-    }
-
-    fn real_roots<const D: usize>(polynomials: &[&[f64]], scale: f64) -> Roots<f64, D> {
-        roots::of_the_leading(polynomials, scale)
-    }
-
-    #[inline(always)]
-    fn alone<A, const L: usize>(numbers: &[f64; L], value: impl FnOnce(&[f64; L]) -> A) -> Option<A> {
-        Some(value(numbers))
-    }
-
-    #[inline(always)]
-    fn doubt_of(is_close: bool) -> bool {
-        is_close
-    }
-
-    #[inline(always)]
-    fn is_away(self, scale: f64) -> bool {
-        self.abs() > TINY * scale
-    }
-}
-
-/// Numbers that operations take at once.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lanes<const W: usize>(pub [f64; W]);
-
-macro_rules! by_lane {
-    ($($operation:ident $name:ident $sign:tt)*) => {
-        $(
-            impl<const W: usize> $operation for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(from_fn(|i| self.0[i] $sign other.0[i]))
-                }
-            }
-            impl<const W: usize> $operation<f64> for Lanes<W> {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: f64) -> Lanes<W> {
-                    Lanes(self.0.map(|number| number $sign other))
-                }
-            }
-            impl<const W: usize> $operation<Lanes<W>> for f64 {
-                type Output = Lanes<W>;
-                #[inline(always)]
-                fn $name(self, other: Lanes<W>) -> Lanes<W> {
-                    Lanes(other.0.map(|number| self $sign number))
-                }
-            }
-        )*
-    };
-}
-
-by_lane!(Add add + Sub sub - Mul mul * Div div /);
-
-impl<const W: usize> Neg for Lanes<W> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Lanes(self.0.map(|number| -number))
-    }
-}
-
-/// Where something is so: all bits or none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mask<const W: usize>(pub [u64; W]);
-
-impl<const W: usize> Mask<W> {
-    /// Nowhere.
-    pub const NONE: Self = Mask([0; W]);
-
-    /// Where it is not so.
-    #[inline(always)]
-    #[must_use]
-    pub(crate) fn inverted(self) -> Self {
-        Mask(self.0.map(|bits| !bits))
-    }
-
-    /// Where neither is so.
-    #[inline(always)]
-    pub(crate) fn or_not(self, other: Self) -> Self {
-        (self | other).inverted()
-    }
-
-    /// Whether it is so anywhere.
-    #[inline(always)]
-    pub(crate) fn any(self) -> bool {
-        self.0.iter().fold(0, |all, bits| all | bits) != 0
-    }
-}
-
-impl<const W: usize> BitAnd for Mask<W> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Mask(from_fn(|i| self.0[i] & other.0[i]))
-    }
-}
-
-impl<const W: usize> BitOr for Mask<W> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Mask(from_fn(|i| self.0[i] | other.0[i]))
-    }
-}
-
-/// Where a candidate is none, for an equation on the way has no root, and where roots before are close to one another.
+/// Real roots, ascending.
 #[derive(Clone, Copy, Debug)]
-pub struct Doubt<const W: usize> {
-    pub(crate) dead: Mask<W>,
-    pub(crate) close: Mask<W>,
+pub struct Roots<N: Number, const D: usize> {
+    pub(crate) values: [N; D],
+    pub(crate) count: usize,
+    pub(crate) doubts: [N::Doubt; D],
 }
 
-impl<const W: usize> BitOr for Doubt<W> {
-    type Output = Self;
+impl<N: Number, const D: usize> Roots<N, D> {
+    /// Their values.
     #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Doubt { dead: self.dead | (other.dead & self.close.inverted()), close: self.close | other.close }
+    pub fn as_slice(&self) -> &[N] {
+        &self.values[..self.count]
     }
-}
 
-impl<const W: usize> Number for Lanes<W> {
-    type Truth = Mask<W>;
-    type Doubt = Doubt<W>;
-    const SURE: Doubt<W> = Doubt { dead: Mask::NONE, close: Mask::NONE };
-
+    /// How many there are.
     #[inline(always)]
-    fn of(number: f64) -> Self {
-        Lanes([number; W])
+    pub fn count(&self) -> usize {
+        self.count
     }
 
+    /// Whether the root with this index is close to another, or double, or none.
     #[inline(always)]
-    fn each(self, other: Self, value: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes(from_fn(|i| value(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    fn is(self, other: Self, is_so: impl Fn(f64, f64) -> bool) -> Mask<W> {
-        Mask(from_fn(|i| if is_so(self.0[i], other.0[i]) { !0 } else { 0 }))
-    }
-
-    #[inline(always)]
-    fn or(self, other: Self, is_so: Mask<W>) -> Self {
-        Lanes(from_fn(|i| if is_so.0[i] != 0 { self.0[i] } else { other.0[i] }))
-    }
-
-    /// Where there are none, they are no numbers.
-    #[inline(always)]
-    fn roots_of_square(constant: Self, scale: Self, tangent: f64) -> Roots<Self, 2> {
-        let dead = constant.at_most(tangent * constant.max(scale * scale)).inverted();
-        let root = constant.each(constant, |a, _| Arithmetic::sqrt(-a));
-        let close = root.exceeds(MEETING * scale).inverted();
-        Roots { values: [-root, root], count: 2, doubts: [Doubt { dead, close }; 2] }
-    }
-
-    fn real_roots<const D: usize>(polynomials: &[&[Self]], scale: Self) -> Roots<Self, D> {
-        roots::by_lane(polynomials, scale)
-    }
-
-    fn alone<A, const L: usize>(_: &[Self; L], _: impl FnOnce(&[f64; L]) -> A) -> Option<A> {
-        None
-    }
-
-    #[inline(always)]
-    fn doubt_of(is_close: bool) -> Doubt<W> {
-        Doubt { dead: Mask::NONE, close: Mask([if is_close { !0 } else { 0 }; W]) }
-    }
-
-    /// What is no number is: it belongs to no candidate.
-    #[inline(always)]
-    fn is_away(self, scale: Self) -> Mask<W> {
-        self.abs().at_most(TINY * scale).inverted()
+    pub fn doubt(&self, index: usize) -> N::Doubt {
+        self.doubts[index]
     }
 }

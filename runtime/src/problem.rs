@@ -2,8 +2,9 @@
 
 use crate::derivatives::of_affine;
 use crate::joints::place;
+use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Facts, Joints, Mechanism, Parameters, Places, Sizes};
-use crate::number::{Lanes, Number};
+use crate::number::Number;
 use crate::storage::Array;
 use crate::tolerances::ACCEPT;
 

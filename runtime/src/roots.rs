@@ -1,7 +1,8 @@
 //! Real roots of polynomials of one unknown. Main type: [`Roots`].
 
 use crate::arithmetic::Arithmetic;
-use crate::number::{Doubt, Lanes, Mask, Number};
+use crate::number::Number;
+pub use crate::number::Roots;
 use crate::quartic;
 use crate::tolerances::{MEETING, NEGLIGIBLE, PIVOT, TANGENT};
 
@@ -11,35 +12,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 const MAX_STEPS: usize = 256;
 /// The highest degree of a polynomial.
 pub const MAX_DEGREE: usize = 16;
-const MOST: usize = MAX_DEGREE + 1;
-
-/// Real roots, ascending.
-#[derive(Clone, Copy, Debug)]
-pub struct Roots<N: Number, const D: usize> {
-    pub(crate) values: [N; D],
-    pub(crate) count: usize,
-    pub(crate) doubts: [N::Doubt; D],
-}
-
-impl<N: Number, const D: usize> Roots<N, D> {
-    /// Their values.
-    #[inline(always)]
-    pub fn as_slice(&self) -> &[N] {
-        &self.values[..self.count]
-    }
-
-    /// How many there are.
-    #[inline(always)]
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Whether the root with this index is close to another, or double, or none.
-    #[inline(always)]
-    pub fn doubt(&self, index: usize) -> N::Doubt {
-        self.doubts[index]
-    }
-}
+pub(crate) const MOST: usize = MAX_DEGREE + 1;
 
 impl<const D: usize> Roots<f64, D> {
     const NONE: Self = Roots { values: [0.0; D], count: 0, doubts: [false; D] };
@@ -80,35 +53,6 @@ pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: f64)
         |coefficients: &&&[f64]| coefficients.last().is_some_and(|lead| lead.abs() > PIVOT * largest(coefficients));
     let Some((last, earlier)) = polynomials.split_last() else { return Roots::NONE };
     real_roots(earlier.iter().find(leads).unwrap_or(last), scale)
-}
-
-/// By number: those that have fewer roots than others have none in the last places.
-pub(crate) fn by_lane<const W: usize, const D: usize>(
-    polynomials: &[&[Lanes<W>]],
-    scale: Lanes<W>,
-) -> Roots<Lanes<W>, D> {
-    let mut roots = Roots {
-        values: [Lanes([f64::NAN; W]); D],
-        count: D,
-        doubts: [Doubt { dead: Mask([!0; W]), close: Mask::NONE }; D],
-    };
-    let mut numbers = [[0.0; MOST]; 4];
-    for lane in 0..W {
-        for (row, list) in numbers.iter_mut().zip(polynomials) {
-            row.iter_mut().zip(*list).for_each(|(number, lanes)| *number = lanes.0[lane]);
-        }
-        let mut lists: [&[f64]; 4] = [&[]; 4];
-        for (list, (row, given)) in lists.iter_mut().zip(numbers.iter().zip(polynomials)) {
-            *list = &row[..given.len()];
-        }
-        let own: Roots<f64, D> = of_the_leading(&lists[..polynomials.len().min(4)], scale.0[lane]);
-        for (index, root) in own.as_slice().iter().enumerate() {
-            roots.values[index].0[lane] = *root;
-            roots.doubts[index].dead.0[lane] = 0;
-            roots.doubts[index].close.0[lane] = if own.doubts[index] { !0 } else { 0 };
-        }
-    }
-    roots
 }
 
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and

@@ -1,15 +1,16 @@
 //! What a mechanism's solver offers: [`Solve`].
 
+use crate::angles::angle;
 use crate::answers::Answers;
 use crate::batch::solve_widest;
 use crate::conditions::conform;
 use crate::joints::place;
 use crate::limits::{self, strides_within, turned_within};
-use crate::mechanism::{Answered, Inputs, Joint, Joints, Mechanism, Reached};
+use crate::mechanism::{Inputs, Joints, Mechanism, Reached};
 use crate::problem::Problem;
+use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
-use crate::trigonometry::{angle, cosine, sine};
 
 /// Inverse kinematics of a mechanism.
 ///
@@ -22,13 +23,7 @@ pub trait Solve: Mechanism {
     /// # Errors
     /// As [`Error`] says; the content of `out` has no meaning then.
     fn solve(&self, target: &Inputs<Self>, out: &mut [Solution<Self>]) -> Result<usize, Error> {
-        let mut target = target.clone();
-        conform(self.facts().conditions, target.as_mut())?;
-        let p = self.parameters(&target);
-        let mut answers = Answers::new(Problem::new(self, &p), out, None);
-        answers.find()?;
-        answers.conclude();
-        Ok(answers.count)
+        solve_one(self, target, out)
     }
 
     /// As [`Solve::solve`]; where there is no solution, the joint values that missed the equations by the least share of their size, if polishing led to
@@ -65,32 +60,12 @@ pub trait Solve: Mechanism {
     /// # Errors
     /// As [`Solve::solve`].
     fn solve_pairs(&self, target: &Inputs<Self>, out: &mut [Pairs<Self>]) -> Result<usize, Error> {
-        let mut conforming = target.clone();
-        conform(self.facts().conditions, conforming.as_mut())?;
-        let p = self.parameters(&conforming);
-        let mut answers = Answers::new(Problem::new(self, &p), &mut [], Some(&mut *out));
-        answers.find()?;
-        let (count, are_all) = (answers.count, answers.are_all_pairs());
-        if are_all {
-            out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-            return Ok(count);
-        }
-        let mut list: Answered<Self, Solution<Self>> = Array::by(self.facts().capacity, |_| Solution::empty(self));
-        let count = self.solve(target, list.as_mut())?.min(out.len());
-        for (pairs, solution) in out.iter_mut().zip(list.as_ref()).take(count) {
-            *pairs = self.pairs_of(solution);
-        }
-        Ok(count)
+        solve_one_by_pairs(self, target, out)
     }
 
     /// A solution by cosines and sines.
     fn pairs_of(&self, solution: &Solution<Self>) -> Pairs<Self> {
-        let facts = self.facts();
-        let joints = Array::by(facts.joints.len(), |i| {
-            let value = solution.q.as_ref()[i];
-            if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
-        });
-        Pairs { joints, residual: solution.residual, branch: solution.branch, free: solution.free }
+        pairs_of(self, solution)
     }
 
     /// As [`Solve::solve`], for many targets, of which the lanes of a vector register take several at once. The solutions of a target stand in `out`

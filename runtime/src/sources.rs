@@ -1,14 +1,17 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 23] = [
+pub const RUST: [(&str, &str); 27] = [
+    ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
     ("derivatives", include_str!("derivatives.rs")),
+    ("double", include_str!("double.rs")),
     ("joints", include_str!("joints.rs")),
+    ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
@@ -20,6 +23,7 @@ pub const RUST: [(&str, &str); 23] = [
     ("registers", include_str!("registers.rs")),
     ("roots", include_str!("roots.rs")),
     ("self_motion", include_str!("self_motion.rs")),
+    ("singly", include_str!("singly.rs")),
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
     ("storage", include_str!("storage.rs")),
@@ -61,3 +65,48 @@ pub const C: &str = include_str!("../c/groebot.c");
 pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 /// As [`C_SIX_AXES_HEADER`] tells.
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
+
+/// What the files in C include, each by its path.
+pub const C_PARTS: [(&str, &str); 41] = [
+    ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
+    ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
+    ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
+    ("groebot/batch.h", include_str!("../c/groebot/batch.h")),
+    ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
+    ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
+    ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
+    ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
+    ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
+    ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
+    ("groebot/newton.c", include_str!("../c/groebot/newton.c")),
+    ("groebot/number.h", include_str!("../c/groebot/number.h")),
+    ("groebot/problem.c", include_str!("../c/groebot/problem.c")),
+    ("groebot/program.h", include_str!("../c/groebot/program.h")),
+    ("groebot/quartic.c", include_str!("../c/groebot/quartic.c")),
+    ("groebot/refine.c", include_str!("../c/groebot/refine.c")),
+    ("groebot/roots.c", include_str!("../c/groebot/roots.c")),
+    ("groebot/roots.h", include_str!("../c/groebot/roots.h")),
+    ("groebot/self_motion.c", include_str!("../c/groebot/self_motion.c")),
+    ("groebot/shared.h", include_str!("../c/groebot/shared.h")),
+    ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
+    ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
+    ("groebot/width.h", include_str!("../c/groebot/width.h")),
+    ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
+    ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),
+    ("groebot/six_axes/chain.c", include_str!("../c/groebot/six_axes/chain.c")),
+    ("groebot/six_axes/curve.c", include_str!("../c/groebot/six_axes/curve.c")),
+    ("groebot/six_axes/hessenberg.c", include_str!("../c/groebot/six_axes/hessenberg.c")),
+    ("groebot/six_axes/inverse_iteration.c", include_str!("../c/groebot/six_axes/inverse_iteration.c")),
+    ("groebot/six_axes/lanes.c", include_str!("../c/groebot/six_axes/lanes.c")),
+    ("groebot/six_axes/linear.c", include_str!("../c/groebot/six_axes/linear.c")),
+    ("groebot/six_axes/pencil.c", include_str!("../c/groebot/six_axes/pencil.c")),
+    ("groebot/six_axes/polish.c", include_str!("../c/groebot/six_axes/polish.c")),
+    ("groebot/six_axes/profile.c", include_str!("../c/groebot/six_axes/profile.c")),
+    ("groebot/six_axes/rigid.c", include_str!("../c/groebot/six_axes/rigid.c")),
+    ("groebot/six_axes/rows.c", include_str!("../c/groebot/six_axes/rows.c")),
+    ("groebot/six_axes/screw.c", include_str!("../c/groebot/six_axes/screw.c")),
+    ("groebot/six_axes/section.c", include_str!("../c/groebot/six_axes/section.c")),
+    ("groebot/six_axes/shifted_qr.c", include_str!("../c/groebot/six_axes/shifted_qr.c")),
+    ("groebot/six_axes/solve.c", include_str!("../c/groebot/six_axes/solve.c")),
+    ("groebot/six_axes/vector.c", include_str!("../c/groebot/six_axes/vector.c")),
+];

@@ -1,28 +1,12 @@
-//! Angles, cosines and sines by operations that round alike everywhere.
+//! Cosines and sines by operations that round alike everywhere; their angles are in [`crate::angles`].
 //!
 //! Those of C libraries are slow, and differ in the last digit from one library to the next. Polynomials here interpolate at Chebyshev points, found
-//! with 60 digits: the arc tangent of `|z| <= tan(pi/8)` is `z + z^3 P(z^2)`, the share of the angle that is off 7e-18; sine and cosine of `|x| <= pi/4`
-//! are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, off by shares of 2e-17 and 1e-18.
+//! with 60 digits: sine and cosine of `|x| <= pi/4` are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, off by shares of 2e-17 and 1e-18.
 
-use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use core::f64::consts::{FRAC_2_PI, PI, TAU};
 
 use crate::arithmetic::Arithmetic;
-use crate::number::{Number, With};
 
-/// Coefficients of `P`, constant term first.
-pub const SERIES: [f64; 11] = [
-    -0.3333333333333333,
-    0.1999999999999552,
-    -0.14285714284666542,
-    0.11111111015256361,
-    -0.09090904578123903,
-    0.07692183190826087,
-    -0.06664511447381948,
-    0.0585814891280221,
-    -0.05085449737940259,
-    0.03923165829558718,
-    -0.019176887119062243,
-];
 /// Coefficients of `S`.
 pub const SINE: [f64; 6] = [
     -0.16666666666666666,
@@ -41,65 +25,10 @@ pub const COSINE: [f64; 6] = [
     2.08761462684032e-09,
     -1.1382632425521717e-11,
 ];
-/// `tan(pi/8)`.
-pub const EIGHTH: f64 = 0.41421356237309503;
-/// What the double nearest to `pi/4` lacks.
-pub const REST: f64 = 3.061616997868383e-17;
-/// What those of `pi/2` and `pi` lack.
-const REST_OF: [f64; 2] = [2.0 * REST, 4.0 * REST];
 /// `pi/2` in parts, of which the first two have 33 bits.
 pub const QUARTER: [f64; 3] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21];
 /// Beyond so many rad an angle first loses whole turns, and with each of them some 2e-16 rad.
 const FAR: f64 = 1e6;
-
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative; not a number where both are zero.
-#[inline(always)]
-pub fn acute<N: Number>(across: N, up: N) -> N
-where
-    f64: With<N>,
-{
-    let steep = up.exceeds(across);
-    let (low, high) = (across.or(up, steep), up.or(across, steep));
-    let far = low.exceeds(EIGHTH * high);
-    let where_far = |number: N| number.or(N::of(0.0), far);
-    let z = (low - where_far(high)) / (high + where_far(low));
-    let angle = z + z * (z * z) * series(z * z);
-    let angle = where_far(N::of(FRAC_PI_4)) + (angle + where_far(N::of(REST)));
-    (FRAC_PI_2 - (angle - REST_OF[0])).or(angle, steep)
-}
-
-/// The angle in (-pi, pi] of a cosine and a sine, given the one of their magnitudes; zero is not negative.
-#[inline(always)]
-pub fn unfold<N: Number>(acute: N, cosine: N, sine: N) -> N
-where
-    f64: With<N>,
-{
-    let angle = (PI - (acute - REST_OF[1])).or(acute, N::of(0.0).exceeds(cosine)).each(sine, f64::copysign);
-    (angle + TAU).or(angle, angle.at_most(N::of(-PI))) + 0.0
-}
-
-/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad, and zero never negative; not a number where both are zero.
-#[inline]
-pub fn angle<N: Number>(cosine: N, sine: N) -> N
-where
-    f64: With<N>,
-{
-    unfold(acute(cosine.abs(), sine.abs()), cosine, sine)
-}
-
-/// `P(u)`.
-#[inline(always)]
-fn series<N: Number>(u: N) -> N
-where
-    f64: With<N>,
-{
-    let c = &SERIES;
-    let (square, fourth) = (u * u, u * u * (u * u));
-    let first = c[0] + c[1] * u + (c[2] + c[3] * u) * square;
-    let second = c[4] + c[5] * u + (c[6] + c[7] * u) * square;
-    let third = c[8] + c[9] * u + c[10] * square;
-    first + (second + third * fourth) * fourth
-}
 
 /// The angle moved by whole turns into (-pi, pi].
 #[inline]

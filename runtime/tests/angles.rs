@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use groebot_runtime::trigonometry::{angle, cosine, sine, wrap};
+use groebot_runtime::angles::angle;
+use groebot_runtime::trigonometry::{cosine, sine, wrap};
 use groebot_runtime::{Lanes, Number};
 
 /// How many steps of the last place of a number of size one two numbers differ by.

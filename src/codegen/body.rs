@@ -1,6 +1,6 @@
 //! Bodies of the printed functions: blocks, parameters, and the equations with their derivatives. Main type: [`Scene`].
 
-use super::language::{Expressions, number};
+use super::language::Expressions;
 use super::names::Names;
 use super::printer::Printer;
 use super::samples::Table;
@@ -44,9 +44,9 @@ impl Scene<'_> {
                 Rule::Input(input) => format!("target[{input}]"),
                 Rule::Cosine(input) => self.language.call("cos", &format!("target[{input}]")),
                 Rule::Sine(input) => self.language.call("sin", &format!("target[{input}]")),
-                Rule::Following(law) => following(law),
-                Rule::CosineFollowing(law) => self.language.call("cos", &format!("({})", following(law))),
-                Rule::SineFollowing(law) => self.language.call("sin", &format!("({})", following(law))),
+                Rule::Following(law) => self.following(law),
+                Rule::CosineFollowing(law) => self.language.call("cos", &format!("({})", self.following(law))),
+                Rule::SineFollowing(law) => self.language.call("sin", &format!("({})", self.following(law))),
                 Rule::Root { code, value } => {
                     let mut printer = self.printer(Demand::of_code(code, [value]), registers);
                     lines.extend(printer.code(code));
@@ -59,10 +59,10 @@ impl Scene<'_> {
         }
         lines
     }
-}
 
-/// The value that follows an input.
-fn following(law: &Following) -> String {
-    let Following { input, factor, offset } = *law;
-    format!("{} * target[{input}] + {}", number(factor), number(offset))
+    /// The value that follows an input.
+    fn following(&self, law: &Following) -> String {
+        let Following { input, factor, offset } = *law;
+        format!("{} * target[{input}] + {}", self.language.literal(factor), self.language.literal(offset))
+    }
 }

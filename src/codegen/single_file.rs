@@ -1,6 +1,6 @@
 //! Run time and robot in one file: in Rust the modules of the crate `groebot-runtime` inside a module of that name, in C the text of its files.
 
-use groebot_runtime::sources::{C, C_HEADER, C_SIX_AXES, C_SIX_AXES_HEADER, ROOT, RUST, SIX_AXES};
+use groebot_runtime::sources::{C, C_HEADER, C_PARTS, C_SIX_AXES, C_SIX_AXES_HEADER, ROOT, RUST, SIX_AXES};
 
 use super::c99::Pair;
 use super::rust;
@@ -36,12 +36,12 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
     let name = crate::document::word(&program.name).to_ascii_uppercase();
     let six_axes = super::has_six_axes(program);
     let parts = [
-        without_comments(C_HEADER),
-        if six_axes { without_comments(C_SIX_AXES_HEADER) } else { String::new() },
+        without_comments(&whole(C_HEADER)),
+        if six_axes { without_comments(&whole(C_SIX_AXES_HEADER)) } else { String::new() },
         header,
         format!("#ifndef {name}_DECLARATIONS_ONLY\n{source}"),
-        without_comments(C),
-        if six_axes { without_comments(C_SIX_AXES) } else { String::new() },
+        without_comments(&whole(C)),
+        if six_axes { without_comments(&whole(C_SIX_AXES)) } else { String::new() },
         "#endif\n".to_owned(),
     ];
     let head = if single { "#define GB_FLOAT\n" } else { "" };
@@ -53,6 +53,15 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
         env!("CARGO_PKG_VERSION"),
         program.name
     )
+}
+
+/// A file of the run time in C with its parts in their places.
+fn whole(text: &str) -> String {
+    let part = |line: &str| {
+        let path = line.strip_prefix("#include \"")?.strip_suffix('"')?;
+        C_PARTS.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
+    };
+    text.lines().map(|line| format!("{}\n", part(line).unwrap_or(line))).collect()
 }
 
 /// C without its comments and empty lines.

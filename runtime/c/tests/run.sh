@@ -67,10 +67,20 @@ END
     echo "Rust has answered"
 fi
 
+# A file of the run time with its parts in their places.
+whole() {
+    while IFS= read -r line; do
+        case $line in
+            '#include "groebot/'*) part=${line#*\"} && cat "$here/../${part%\"}" ;;
+            *) printf '%s\n' "$line" ;;
+        esac
+    done <"$here/../$1"
+}
+
 # One file of run time and robot: what codegen puts together.
 join() {
     echo "#define GB_LINKAGE static GB_UNUSED"
-    cat "$here/../groebot.h" puma.h puma.c "$here/../groebot.c" \
+    { whole groebot.h && cat puma.h puma.c && whole groebot.c; } \
         | sed -e '/^#include "groebot.h"$/d' -e '/^#include "puma.h"$/d' -e 's/^#include "puma.c"$/#include "single.c"/'
 }
 join >single.c

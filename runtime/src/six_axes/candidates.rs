@@ -13,7 +13,8 @@ use super::rows::{COLUMNS, FAR, Rows};
 use super::screw::{Axis, Figure};
 use super::shifted_qr::Eigenvalue;
 use super::vector::{Vector, cosines_and_sines, product, turn};
-use crate::trigonometry::{angle, cosine, sine};
+use crate::angles::angle;
+use crate::trigonometry::{cosine, sine};
 
 /// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
 const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];

@@ -5,7 +5,8 @@ use core::array::from_fn;
 use super::hessenberg::Hessenberg;
 use super::pencil::SIZE;
 use super::vector::largest;
-use crate::number::{Lanes, Mask, Number};
+use crate::lanes::{Lanes, Mask};
+use crate::number::Number;
 
 /// Solutions of `(H - x) y = b`, each from the one before. Their number is odd: next to a double eigenvalue with one eigenvector the inverse is like that
 /// of a Jordan block that rounding has disturbed, whose square is like the identity.

@@ -3,9 +3,10 @@
 use core::array::from_fn;
 use core::f64::consts::FRAC_2_PI;
 
+use crate::angles::angle;
 use crate::arithmetic::Arithmetic;
-use crate::number::Lanes;
-use crate::trigonometry::{self, COSINE, QUARTER, SINE};
+use crate::lanes::Lanes;
+use crate::trigonometry::{COSINE, QUARTER, SINE};
 
 /// Three coordinates.
 pub type Vector = [f64; 3];
@@ -38,7 +39,7 @@ pub(super) fn scale(a: &Vector, factor: f64) -> Vector {
 /// The angle of a cosine and a sine; nought where both are zero.
 #[inline(always)]
 pub(super) fn turn(cosine: f64, sine: f64) -> f64 {
-    if cosine == 0.0 && sine == 0.0 { 0.0 } else { trigonometry::angle(cosine, sine) }
+    if cosine == 0.0 && sine == 0.0 { 0.0 } else { angle(cosine, sine) }
 }
 
 #[inline(always)]

@@ -1,0 +1,381 @@
+/* From candidates to answers: as answers.rs */
+
+/* Whether those that wait are the candidates of an ordinary target. */
+GB_INLINE bool gb_are_ordinary(const gb_sink_1 *c)
+{
+    return c->is_ordinary && c->waiting == GB_CANDIDATES && c->all.candidates == GB_CANDIDATES;
+}
+
+/* So many of the candidates that wait, in a row, miss the equations by the same. */
+GB_INLINE size_t gb_twins(const gb_sink_1 *c)
+{
+    return GB_CANDIDATES % (GB_STEP * GB_TWINS) == 0 && gb_are_ordinary(c) ? GB_TWINS : 1;
+}
+
+/* Measures the candidates that wait, of which some in a row may be alike. */
+static GB_APART void gb_measure_waiting(const gb_sink_1 *c, size_t alike, gb_fits *fits)
+{
+    GB_PAIR(number) p[GB_PARAMETERS], at[GB_PLACES], residual, relative;
+    gb_everywhere(c->all.problem.p, p);
+    for (size_t first = 0; first < c->waiting; first += GB_STEP * alike) {
+        gb_real fit[3][GB_STEP];
+        GB_UNROLL
+        for (int i = 0; i < GB_PLACES; i++) {
+            const gb_real *row = &c->at[i][first];
+            at[i] = GB_TWINS == 1 ? GB_PAIR(load)(row) : GB_PAIR(lanes_of)(row[0], row[(GB_STEP - 1) * alike]);
+        }
+        GB_PAIR(fit)(p, at, &residual, &relative);
+        GB_PAIR(store)(fit[0], residual);
+        GB_PAIR(store)(fit[1], relative);
+        GB_PAIR(store)(fit[2], GB_PAIR(sound)(at));
+        for (size_t lane = 0; lane < GB_STEP; lane++) {
+            for (size_t k = first + lane * alike; k < first + (lane + 1) * alike; k++) {
+                fits->residual[k] = fit[0][lane];
+                fits->relative[k] = fit[1][lane];
+                fits->sound[k] = fit[2][lane];
+            }
+        }
+    }
+}
+
+/* The binary logarithm of how many angles of a joint in a row are computed as one at an ordinary target. */
+GB_INLINE int gb_run_of(int joint)
+{
+    int alike = 0;
+#ifdef GB_RUNS
+    while (((gb_runs[joint] | GB_CANDIDATES / GB_STEP) >> alike & 1) == 0) {
+        alike++;
+    }
+#endif
+    (void)joint;
+    return alike;
+}
+
+/* By joint and candidate that waits, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once. */
+static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDATES])
+{
+    const bool is_ordinary = gb_are_ordinary(c);
+    gb_real acute[GB_JOINTS * GB_CANDIDATES + 1], up[GB_JOINTS * GB_CANDIDATES + 1];
+    size_t count = 0;
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
+        const size_t stride = (size_t)1 << (is_ordinary ? gb_run_of(i) : 0);
+        for (size_t k = 0; gb_joints[i].is_angle && k < c->waiting; k += stride) {
+            acute[count] = gb_magnitude(cosines[k]);
+            up[count++] = gb_magnitude(sines[k]);
+        }
+    }
+    acute[count] = up[count] = R(1.0);
+    for (size_t first = 0; first < count; first += GB_STEP) {
+        GB_PAIR(store)(&acute[first], GB_PAIR(acute)(GB_PAIR(load)(&acute[first]), GB_PAIR(load)(&up[first])));
+    }
+    const gb_real *own = acute;
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const gb_real *cosines = c->at[gb_joints[i].places[0]], *sines = c->at[gb_joints[i].places[1]];
+        const int alike = is_ordinary ? gb_run_of(i) : 0;
+        if (!gb_joints[i].is_angle) {
+            memcpy(q[i], cosines, sizeof q[i]);
+            continue;
+        }
+        for (size_t k = 0; k < c->waiting; k += GB_STEP) {
+            const GB_PAIR(number) pair = GB_PAIR(lanes_of)(own[k >> alike], own[(k + GB_STEP - 1) >> alike]);
+            GB_PAIR(store)(&q[i][k], GB_PAIR(unfold)(pair, GB_PAIR(load)(&cosines[k]), GB_PAIR(load)(&sines[k])));
+        }
+        own += c->waiting >> alike;
+    }
+}
+
+/* Whether an angle tells two candidates apart. */
+GB_INLINE bool gb_are_apart(const gb_sink_1 *c, size_t k, size_t other)
+{
+    GB_UNROLL
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const gb_joint joint = gb_joints[gb_last_first[i]];
+        const gb_real *cosines = c->at[joint.places[0]], *sines = c->at[joint.places[1]];
+        if (joint.is_angle && cosines[k] * cosines[other] + sines[k] * sines[other] < GB_FAR_APART) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate that holds if there is room, and it is apart from others from the `nearest` on. */
+GB_INLINE bool gb_write_apart(gb_sink_1 *c, size_t nearest, size_t k, const gb_real *q, gb_real residual, gb_real relative)
+{
+    for (size_t other = nearest; other < k; other++) {
+        if (!gb_are_apart(c, k, other)) {
+            return false;
+        }
+    }
+    if (c->all.count == GB_CAPACITY) {
+        return false;
+    }
+    gb_solution *out = &c->out[c->all.count];
+    GB_UNROLL
+    for (int i = 0; i < GB_JOINTS; i++) {
+        out->q[i] = q[i];
+    }
+    out->residual = residual;
+    out->relative = relative;
+    out->branch = c->found[k].branch;
+    out->chosen = false;
+    out->free = c->found[k].free;
+    c->all.count++;
+    return true;
+}
+
+/* Lets the equations read what follows from no joint from a candidate that waits. */
+static void gb_extras_of(gb_sink_1 *c, size_t k)
+{
+    if (GB_EXTRAS) {
+        for (int i = 0; i < GB_PLACES; i++) {
+            c->extras[i] = c->at[i][k];
+        }
+        c->all.problem.extras = c->extras;
+    }
+}
+
+/* Keeps a candidate that does not simply stand for itself, or refines it. */
+static GB_COLD void gb_look_closer(gb_sink_1 *c, size_t k, size_t waiting, const gb_real *q, const gb_fit *fit)
+{
+    const gb_found_1 found = c->found[k];
+    gb_extras_of(c, k);
+    if (fit) {
+        gb_keep(&c->all, &found, q, fit);
+    } else {
+        gb_refine(&c->all, c->all.candidates + 1 + k - waiting, &found, q);
+    }
+}
+
+GB_INLINE void gb_joints_of(gb_real (*joints)[GB_CANDIDATES], size_t k, gb_real *q)
+{
+    GB_UNROLL
+    for (int i = 0; i < GB_JOINTS; i++) {
+        q[i] = joints[i][k];
+    }
+}
+
+#ifdef GB_SHORTS
+/* By candidate, the short ways: the sums of their steps, how well the equations hold behind them, what they were missed by and the least pivot before, and
+ * whether the equations are regular and near: 1, else 0. */
+typedef struct {
+    gb_real steps[GB_JOINTS][GB_CANDIDATES];
+    gb_real residual[GB_CANDIDATES];
+    gb_real relative[GB_CANDIDATES];
+    gb_real missed[GB_CANDIDATES];
+    gb_real pivot[GB_CANDIDATES];
+    gb_real sound[GB_CANDIDATES];
+} gb_ways;
+
+/* What candidates next to each other have come to. */
+typedef struct {
+    GB_PAIR(number) at[GB_PLACES], steps[GB_JOINTS], sound;
+} gb_walker;
+
+/* A step of candidates next to each other. */
+GB_INLINE void gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *walker, size_t first, bool is_first)
+{
+    GB_PAIR(number) step[GB_JOINTS], missed, pivot, residual, relative;
+    GB_PAIR(normal_step)(p, walker->at, step, &missed, &pivot, &walker->sound);
+    GB_PAIR(step_back)(step, walker->at, &walker->sound);
+    for (int i = 0; i < GB_JOINTS; i++) {
+        walker->steps[i] = walker->steps[i] + step[i];
+        GB_PAIR(store)(&ways->steps[i][first], walker->steps[i]);
+    }
+    GB_PAIR(fit)(p, walker->at, &residual, &relative);
+    if (is_first) {
+        GB_PAIR(store)(&ways->missed[first], missed);
+        GB_PAIR(store)(&ways->pivot[first], pivot);
+    }
+    GB_PAIR(store)(&ways->residual[first], residual);
+    GB_PAIR(store)(&ways->relative[first], relative);
+    GB_PAIR(store)(&ways->sound[first], walker->sound);
+}
+
+/* Where candidates next to each other start. */
+GB_INLINE void gb_start_ways(const gb_sink_1 *c, gb_walker *walker, size_t first)
+{
+    for (int i = 0; i < GB_PLACES; i++) {
+        walker->at[i] = GB_PAIR(load)(&c->at[i][first]);
+    }
+    for (int i = 0; i < GB_JOINTS; i++) {
+        walker->steps[i] = GB_PAIR(of)(R(0.0));
+    }
+    walker->sound = GB_PAIR(of)(R(1.0));
+    GB_PAIR(step_back)(walker->steps, walker->at, &walker->sound);
+}
+
+/* Whether a candidate need not go on: it has arrived, or cannot. */
+GB_INLINE bool gb_is_done(const gb_sink_1 *c, const gb_ways *ways, size_t k)
+{
+    return k >= c->waiting || !(ways->sound[k] > R(0.0)) || ways->relative[k] < GB_ROUNDING;
+}
+
+/* The short ways of the candidates that wait. Two go together, whatever a register holds. */
+static GB_APART void gb_find_ways(const gb_sink_1 *c, gb_ways *ways)
+{
+    GB_PAIR(number) p[GB_PARAMETERS];
+    gb_everywhere(c->all.problem.p, p);
+    for (size_t first = 0; first < c->waiting; first += 2) {
+        gb_walker walkers[2 / GB_STEP];
+        for (size_t i = 0; i < 2 / GB_STEP; i++) {
+            gb_start_ways(c, &walkers[i], first + i);
+        }
+        for (int round = 0; round < GB_APPROACHES; round++) {
+            for (size_t i = 0; i < 2 / GB_STEP; i++) {
+                gb_step_ways(ways, p, &walkers[i], first + i, round == 0);
+            }
+            if (gb_is_done(c, ways, first) && gb_is_done(c, ways, first + 1)) {
+                break;
+            }
+        }
+    }
+}
+
+/* Where the short way of a candidate has led from q. */
+static void gb_follow(const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
+{
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const gb_real value = q[i] - ways->steps[i][k];
+        approach->end[i] = !gb_joints[i].is_angle || gb_magnitude(value) < GB_PI ? value : gb_wrap(value);
+    }
+    approach->fit.residual = ways->residual[k];
+    approach->fit.relative = ways->relative[k];
+    approach->fit.accepted = true;
+    approach->missed = ways->missed[k];
+    approach->pivot = ways->pivot[k];
+}
+
+/* Where a candidate is led; false where it must be refined. */
+static bool gb_lead(gb_sink_1 *c, const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
+{
+    if (c->found[k].free != 0) {
+        return false;
+    }
+    if (ways->sound[k] > R(0.0) && ways->relative[k] < GB_ROUNDING) {
+        gb_follow(ways, k, q, approach);
+        return true;
+    }
+    gb_real at[GB_PLACES];
+    for (int i = 0; i < GB_PLACES; i++) {
+        at[i] = c->at[i][k];
+    }
+    return gb_approach_from(&c->all.problem, at, q, approach);
+}
+
+/* Leads the candidates that wait to answers: those of a nearby mechanism's formulas. */
+static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
+{
+    gb_ways ways;
+    gb_find_ways(c, &ways);
+    const size_t waiting = c->waiting;
+    bool is_usual = c->all.count == 0;
+    for (size_t k = 0; k < waiting; k++) {
+        gb_approach approach;
+        gb_real q[GB_JOINTS];
+        gb_joints_of(joints, k, q);
+        c->waiting = 0;
+        if (!gb_lead(c, &ways, k, q, &approach)) {
+            is_usual = false;
+            gb_look_closer(c, k, waiting, q, NULL);
+            continue;
+        }
+        const bool holds = approach.pivot >= approach.missed * (c->found[k].close ? GB_STEEP : GB_MILD);
+        if (holds && is_usual && gb_write_apart(c, 0, k, approach.end, approach.fit.residual, approach.fit.relative)) {
+            continue;
+        }
+        is_usual = false;
+        gb_extras_of(c, k);
+        gb_arrive(&c->all, c->all.candidates + 1 + k - waiting, &c->found[k], &approach);
+    }
+}
+
+#else
+/* Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others. */
+static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
+{
+    gb_fits fits;
+    const size_t twins = gb_twins(c);
+    gb_measure_waiting(c, twins, &fits);
+    bool is_usual = c->all.count == 0;
+    for (size_t k = 0; k < c->waiting; k++) {
+        const gb_fit fit = {fits.residual[k], fits.relative[k], true};
+        const bool holds = c->found[k].free == 0 && !c->found[k].close && fit.relative < GB_ROUNDING && fits.sound[k] > R(0.0);
+        gb_real q[GB_JOINTS];
+        gb_joints_of(joints, k, q);
+        /* The second of two that are alike is as far from those before as the first. */
+        const size_t nearest = k % twins == 0 ? 0 : k - 1;
+        if (holds && is_usual && gb_write_apart(c, nearest, k, q, fit.residual, fit.relative)) {
+            continue;
+        }
+        is_usual = false;
+        gb_look_closer(c, k, c->waiting, q, holds ? &fit : NULL);
+    }
+}
+#endif
+
+/* Whether an angle tells two answers apart. */
+static bool gb_tell_apart(const gb_pairs *a, const gb_pairs *b)
+{
+    GB_UNROLL
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const size_t joint = gb_last_first[i];
+        if (gb_joints[joint].is_angle && a->joints[joint][0] * b->joints[joint][0] + a->joints[joint][1] * b->joints[joint][1] < GB_FAR_APART) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Writes a candidate as pairs if it is apart from all before it. */
+static bool gb_write_pairs(gb_sink_1 *c, size_t k, gb_real residual)
+{
+    if (c->all.count == GB_CAPACITY) {
+        return false;
+    }
+    gb_pairs *out = &c->pairs[c->all.count];
+    GB_UNROLL
+    for (int i = 0; i < GB_JOINTS; i++) {
+        const gb_joint joint = gb_joints[i];
+        out->joints[i][0] = joint.is_angle ? c->at[joint.places[0]][k] + R(0.0) : c->at[joint.places[0]][k];
+        out->joints[i][1] = joint.is_angle ? c->at[joint.places[1]][k] + R(0.0) : R(0.0);
+    }
+    out->residual = residual;
+    out->branch = c->found[k].branch;
+    out->free = 0;
+    for (size_t other = 0; other < c->all.count; other++) {
+        if (c->pairs[other].branch == out->branch || !gb_tell_apart(out, &c->pairs[other])) {
+            return false;
+        }
+    }
+    c->all.count++;
+    return true;
+}
+
+/* Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart. */
+static void gb_keep_pairs(gb_sink_1 *c)
+{
+    gb_fits fits;
+    gb_measure_waiting(c, gb_twins(c), &fits);
+    c->is_usual = c->is_usual && !gb_this.is_nearby;
+    for (size_t k = 0; c->is_usual && k < c->waiting; k++) {
+        const bool holds = c->found[k].free == 0 && !c->found[k].close && fits.relative[k] < GB_ROUNDING && fits.sound[k] > R(0.0);
+        c->is_usual = holds && gb_write_pairs(c, k, fits.residual[k]);
+    }
+}
+
+/* Keeps what is an answer of the candidates that wait. */
+static GB_APART void gb_flush(gb_sink_1 *c)
+{
+    for (int i = 0; c->waiting % 2 == 1 && i < GB_PLACES; i++) {
+        c->at[i][c->waiting] = c->at[i][c->waiting - 1];
+    }
+    if (c->pairs) {
+        gb_keep_pairs(c);
+    } else {
+        gb_real joints[GB_JOINTS][GB_CANDIDATES];
+        gb_find_joints(c, joints);
+        gb_keep_waiting(c, joints);
+    }
+    c->waiting = 0;
+}

@@ -1,0 +1,214 @@
+/* What takes candidates in */
+
+#if GB_WIDTH == 1
+
+/* The answers to a target, and by place the numbers of candidates that wait to be measured together, and how each was found. */
+struct gb_sink_1 {
+    gb_answers all;
+    gb_solution *out;
+    /* Where pairs are written instead, or null, and whether all candidates so far can be. */
+    gb_pairs *pairs;
+    bool is_usual;
+    /* Whether usual cases alone have run. */
+    bool is_ordinary;
+    size_t waiting;
+    gb_real at[GB_PLACES][GB_CANDIDATES];
+    gb_found_1 found[GB_CANDIDATES];
+    gb_real extras[GB_PLACES];
+};
+
+static GB_APART void gb_flush(gb_sink_1 *c);
+
+/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
+static GB_COLD bool gb_suffice_since(gb_sink_1 *c, size_t candidates)
+{
+    gb_flush(c);
+    return c->all.candidates > candidates && c->all.unsound <= candidates;
+}
+
+/* Takes in one candidate, or the second of a pair. */
+GB_INLINE void gb_take_1(gb_sink_1 *c, const gb_found_1 *found, const gb_real *at)
+{
+    if (GB_SELDOM(c->waiting >= GB_CANDIDATES)) {
+        gb_flush(c);
+    }
+    const size_t k = c->waiting;
+    GB_UNROLL
+    for (int i = 0; i < GB_PLACES; i++) {
+        c->at[i][k] = at[i];
+    }
+    c->found[k] = *found;
+    c->waiting = k + 1;
+    c->all.candidates++;
+}
+
+#else
+
+/* The candidates of several targets. */
+struct GB_(sink) {
+    T at[GB_CANDIDATES][GB_PLACES];
+    T q[GB_CANDIDATES][GB_JOINTS];
+    T residual[GB_CANDIDATES];
+    T relative[GB_CANDIDATES];
+    /* Which targets have no such candidate. */
+    GB_(truth) dead[GB_CANDIDATES];
+    /* Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate misses the equations or is next to another. */
+    GB_(truth) doubt;
+    size_t branch[GB_CANDIDATES];
+    size_t count;
+};
+
+/* Takes in one candidate, or the second of a pair. */
+GB_INLINE void GB_(take)(GB_(sink) *c, const GB_(found) *found, const T *at)
+{
+    const size_t k = c->count % GB_CANDIDATES;
+    GB_UNROLL
+    for (int i = 0; i < GB_PLACES; i++) {
+        c->at[k][i] = at[i];
+    }
+    c->dead[k] = found->dead;
+    c->branch[k] = found->branch;
+    c->doubt |= found->close & ~found->dead;
+    c->count = k + 1;
+}
+
+#endif
+
+#ifdef GROEBOT_SIX_AXES_H
+/* All values of six joints that reach a target; none of several targets, whose programs take no such steps. */
+GB_INLINE size_t GB_(six_axes)(const gb_chain *chain, const T *target, gb_six_answer *out)
+{
+#if GB_WIDTH == 1
+    return gb_six_axes(chain, target, out);
+#else
+    (void)chain;
+    (void)target;
+    (void)out;
+    return 0;
+#endif
+}
+
+/* By an answer of six axes with these bits: those that it frees are free, and it is doubted where it is only near an answer. */
+GB_INLINE GB_(found) GB_(by_answer)(GB_(found) found, const gb_six_answer *answer, uint32_t a, uint32_t b, uint32_t c, uint32_t d,
+                                    uint32_t e, uint32_t f)
+{
+    const uint32_t bits[6] = {a, b, c, d, e, f};
+    uint32_t free = 0;
+    for (int joint = 0; joint < 6; joint++) {
+        free |= answer->free[joint] ? bits[joint] : 0;
+    }
+    found = GB_(freeing)(found, free);
+    if (answer->lost) {
+        found.close |= GB_(at_most)(GB_(of)(R(0.0)), GB_(of)(R(1.0)));
+    }
+    return found;
+}
+#endif
+
+/* Whether a case that hardly ever does not run runs. */
+GB_INLINE bool GB_(is_usual)(GB_(sink) *c, GB_(guard) guard)
+{
+#if GB_WIDTH == 1
+    if (GB_SELDOM(!guard.here)) {
+        c->is_ordinary = false;
+    }
+    return guard.here;
+#else
+    c->doubt |= ~guard.here;
+    return true;
+#endif
+}
+
+/* Whether one that hardly ever runs does. */
+GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
+{
+#if GB_WIDTH == 1
+    if (GB_SELDOM(guard.here)) {
+        c->is_ordinary = false;
+    }
+    return GB_SELDOM(guard.here);
+#else
+    c->doubt |= guard.here;
+    return false;
+#endif
+}
+
+/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed. */
+GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
+{
+#if GB_WIDTH == 1
+    return GB_(is_rare)(c, guard) && (guard.beside || !gb_suffice_since(c, before));
+#else
+    (void)before;
+    return GB_(is_rare)(c, guard);
+#endif
+}
+
+/* How many candidates there have been. */
+GB_INLINE size_t GB_(count)(const GB_(sink) *c)
+{
+#if GB_WIDTH == 1
+    return c->all.candidates;
+#else
+    (void)c;
+    return 0;
+#endif
+}
+
+/* Takes in that a stratum could not be derived, and whether the target lies on it. */
+GB_INLINE void GB_(is_open)(GB_(sink) *c, GB_(guard) guard)
+{
+#if GB_WIDTH == 1
+    c->all.is_open = c->all.is_open || guard.here;
+#else
+    c->doubt |= guard.here;
+#endif
+}
+
+/* The place of the greatest number that is not negative, the first of equals; their number without one. In lanes all must agree. */
+GB_INLINE size_t GB_(elect)(GB_(sink) *c, const T *claims, size_t count)
+{
+    size_t first = count;
+    for (int lane = 0; lane < GB_WIDTH; lane++) {
+        gb_real most = R(-1.0);
+        size_t place = count;
+        for (size_t i = 0; i < count; i++) {
+#if GB_WIDTH == 1
+            const gb_real claim = claims[i];
+#else
+            const gb_real claim = claims[i][lane];
+#endif
+            if (claim > most) {
+                most = claim;
+                place = i;
+            }
+        }
+        first = lane == 0 ? place : first;
+#if GB_WIDTH > 1
+        c->doubt[lane] |= place == first ? 0 : -1;
+#endif
+    }
+    (void)c;
+    return first;
+}
+
+/* Takes in a candidate, or a pair. */
+GB_INLINE void GB_(finish)(GB_(sink) *c, GB_(found) found, const T *at)
+{
+    GB_(take)(c, &found, at);
+#ifdef GB_TURNED
+    if (found.is_pair) {
+        T turned[GB_PLACES];
+        GB_UNROLL
+        for (int i = 0; i < GB_PLACES; i++) {
+            turned[i] = at[i];
+        }
+        GB_UNROLL
+        for (size_t i = 0; i < sizeof gb_turned; i++) {
+            turned[gb_turned[i]] = -turned[gb_turned[i]];
+        }
+        found.branch++;
+        GB_(take)(c, &found, turned);
+    }
+#endif
+}

@@ -1,0 +1,168 @@
+/* Limits of joints, and turns: limits.rs */
+
+/* The least and the greatest number of turns that bring a joint within its limits: the first is greater when none does. */
+static void gb_turns_within(const gb_joint *joint, gb_real value, const gb_real *limit, gb_real *first, gb_real *last)
+{
+    const gb_real low = limit[0] - GB_SLACK - value, high = limit[1] + GB_SLACK - value;
+    const bool is_within = low <= R(0.0) && R(0.0) <= high;
+    *first = joint->is_angle ? gb_ceiling(low / GB_TAU) : R(0.0);
+    *last = joint->is_angle ? gb_floor(high / GB_TAU) : is_within ? R(0.0) : R(-1.0);
+}
+
+/* The number of turns between bounds that is nearest to another; a bound that is not a number is none. */
+static gb_real gb_nearest_turn(gb_real turn, gb_real first, gb_real last)
+{
+    return gb_smaller(gb_larger(turn, first), last) + R(0.0);
+}
+
+/* The bounds, brought together where one is infinite, and not too far apart. */
+static void gb_make_finite(gb_real *first, gb_real *last)
+{
+    if (!gb_is_finite(*first) || !gb_is_finite(*last)) {
+        *first = *last = gb_nearest_turn(R(0.0), *first, *last);
+    }
+    *last = gb_smaller(*first + (gb_real)GB_MOST_TURNS, *last);
+}
+
+/* A turn of an angle, 0 for a length. */
+static gb_real gb_turn_of(const gb_joint *joint)
+{
+    return joint->is_angle ? GB_TAU : R(0.0);
+}
+
+GB_LINKAGE size_t gb_count_turns(const gb_mechanism *m, const gb_real *q, const gb_real *limits)
+{
+    gb_real count = R(1.0), first, last;
+    for (size_t i = 0; i < m->joints; i++) {
+        gb_turns_within(&m->joint[i], q[i], limits + 2 * i, &first, &last);
+        if (!(first <= last)) {
+            return 0;
+        }
+        gb_make_finite(&first, &last);
+        count = gb_smaller((gb_real)GB_MOST_TURNS, count * (last - first + R(1.0)));
+    }
+    return (size_t)count;
+}
+
+GB_LINKAGE void gb_turn(const gb_mechanism *m, const gb_real *q, const gb_real *limits, size_t index, gb_real *out)
+{
+    gb_real first, last;
+    for (size_t i = m->joints; i-- > 0;) {
+        gb_turns_within(&m->joint[i], q[i], limits + 2 * i, &first, &last);
+        gb_make_finite(&first, &last);
+        const size_t count = last > first ? (size_t)(last - first) + 1 : 1;
+        out[i] = q[i] + gb_turn_of(&m->joint[i]) * (first + (gb_real)(index % count));
+        index /= count;
+    }
+}
+
+/* Moves joints by as few turns as can be within limits; false when that cannot be. */
+static bool gb_turn_within(const gb_mechanism *m, const gb_real *q, const gb_real *limits, gb_real *out)
+{
+    for (size_t i = 0; i < m->joints; i++) {
+        gb_real first, last;
+        gb_turns_within(&m->joint[i], q[i], limits + 2 * i, &first, &last);
+        if (!(first <= last)) {
+            return false;
+        }
+        out[i] = q[i] + gb_turn_of(&m->joint[i]) * gb_nearest_turn(R(0.0), first, last);
+    }
+    return true;
+}
+
+/* Strides along a self-motion from q by one joint until it is within limits; false when it meets no such place. */
+static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32_t free, size_t joint, gb_real way, const gb_real *limits, gb_end *place)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_end end;
+    gb_copy(end.q, q, m->joints);
+    for (int i = 0; i < GB_STRIDES; i++) {
+        end.q[joint] = gb_moved(m, end.q, joint, way);
+        gb_polish_from(problem, &end, free);
+        if (!end.fit.accepted) {
+            return false;
+        }
+        if (gb_turn_within(m, end.q, limits, place->q)) {
+            place->fit = end.fit;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The same by one free joint after the other, either way. */
+static bool gb_strides_within(const gb_answers *all, size_t answer, const gb_real *limits, gb_end *place)
+{
+    const uint32_t free = *gb_free_of(all, answer);
+    for (size_t i = 0; i < 2 * all->problem.mechanism->joints; i++) {
+        const gb_real way = i % 2 == 0 ? GB_STRIDE : -GB_STRIDE;
+        if (gb_is_in(free, i / 2) && gb_stride_within(&all->problem, gb_q_of(all, answer), free, i / 2, way, limits, place)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Moves answers within limits, and drops those that cannot be; how many are left. */
+GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_end place;
+    size_t kept = 0;
+    for (size_t k = 0; k < all->count; k++) {
+        place.fit.residual = *gb_residual_of(all, k);
+        if (gb_turn_within(m, gb_q_of(all, k), limits, place.q) || (!m->has_extras && gb_strides_within(all, k, limits, &place))) {
+            memmove(gb_at(all, kept), gb_at(all, k), m->solution);
+            gb_copy(gb_q_of(all, kept), place.q, m->joints);
+            *gb_residual_of(all, kept) = place.fit.residual;
+            kept++;
+        }
+    }
+    return kept;
+}
+
+/* The index of the answer that can come nearest to a reference by turns within limits, with its nearest turn; -1 when none comes within limits. */
+GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_real least = INFINITY, place[GB_MAX_JOINTS];
+    int best = -1;
+    for (size_t k = 0; k < all->count; k++) {
+        gb_real distance = R(0.0);
+        for (size_t i = 0; i < m->joints; i++) {
+            const gb_real value = gb_q_of(all, k)[i];
+            gb_real first, last;
+            gb_turns_within(&m->joint[i], value, limits + 2 * i, &first, &last);
+            distance = first <= last ? distance : INFINITY;
+            const gb_real turn = m->joint[i].is_angle ? gb_round((reference[i] - value) / GB_TAU) : R(0.0);
+            place[i] = value + gb_turn_of(&m->joint[i]) * gb_nearest_turn(turn, first, last);
+            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
+        }
+        if (distance < least) {
+            least = distance;
+            best = (int)k;
+            gb_copy(q, place, m->joints);
+        }
+    }
+    return best;
+}
+
+/* The target at which the tool is at a pose, with the base at another pose and the tool at its own pose seen from the tip: base^-1 pose tool^-1. */
+GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target)
+{
+    for (int i = 0; i < 12; i++) {
+        target[i] = R(0.0);
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            for (int k = 0; k < 9; k++) {
+                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
+        }
+    }
+}

@@ -1,0 +1,313 @@
+/* Newton's method with all that keeps it from going astray next to singular configurations: newton.rs */
+
+/* Columns, the right side in the last one. */
+typedef struct {
+    gb_real numbers[(GB_MAX_JOINTS + 1) * (GB_MAX_EQUATIONS + GB_MAX_JOINTS)];
+    size_t rows;
+    size_t joints;
+} gb_triangle;
+
+static gb_real *gb_column(gb_triangle *triangle, size_t column)
+{
+    return triangle->numbers + column * triangle->rows;
+}
+
+/* Turns columns into a triangle by reflections (A. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958). */
+static void gb_reflect(gb_triangle *triangle)
+{
+    for (size_t pivot = 0; pivot < triangle->joints; pivot++) {
+        gb_real *mirror = gb_column(triangle, pivot), square = R(0.0);
+        for (size_t i = pivot; i < triangle->rows; i++) {
+            square = square + mirror[i] * mirror[i];
+        }
+        if (square == R(0.0)) {
+            continue;
+        }
+        const gb_real length = gb_signed(gb_square_root(square), mirror[pivot]);
+        mirror[pivot] += length;
+        const gb_real half = length * mirror[pivot];
+        for (size_t other = pivot + 1; other <= triangle->joints; other++) {
+            gb_real *column = gb_column(triangle, other), along = R(0.0);
+            for (size_t i = pivot; i < triangle->rows; i++) {
+                along = along + mirror[i] * column[i];
+            }
+            along = along / half;
+            for (size_t i = pivot; i < triangle->rows; i++) {
+                column[i] -= along * mirror[i];
+            }
+        }
+        mirror[pivot] = -length;
+    }
+}
+
+/* The triangle of a step's equations, damped; joints that are `held` stay. */
+static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], size = R(0.0);
+    triangle->rows = m->equations + m->joints;
+    triangle->joints = m->joints;
+    memset(triangle->numbers, 0, (m->joints + 1) * triangle->rows * sizeof *triangle->numbers);
+    gb_place(problem, q, at);
+    m->jacobian(problem->p, at, rows);
+    m->values(problem->p, at, gb_column(triangle, m->joints));
+    for (size_t i = 0; i < m->joints; i++) {
+        gb_real *column = gb_column(triangle, i), square = R(0.0);
+        for (size_t k = 0; !gb_is_in(held, i) && k < m->equations; k++) {
+            column[k] = rows[k * m->joints + i];
+            square += column[k] * column[k];
+        }
+        size = gb_larger(size, square);
+    }
+    for (size_t i = 0; i < m->joints; i++) {
+        gb_column(triangle, i)[m->equations + i] = gb_is_in(held, i) ? R(1.0) : gb_square_root(damping * size);
+    }
+    gb_reflect(triangle);
+}
+
+/* Solves the triangular system; false for a zero or non-finite pivot. */
+static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
+{
+    const gb_real *right = gb_column(triangle, triangle->joints);
+    for (size_t row = triangle->joints; row-- > 0;) {
+        const gb_real pivot = gb_column(triangle, row)[row];
+        if (pivot == R(0.0) || !gb_is_finite(pivot)) {
+            return false;
+        }
+        gb_real sum = right[row];
+        for (size_t k = row + 1; k < triangle->joints; k++) {
+            sum -= gb_column(triangle, k)[row] * solution[k];
+        }
+        solution[row] = sum / pivot;
+    }
+    return true;
+}
+
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. */
+static bool gb_newton_step(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_real *step)
+{
+    gb_triangle triangle;
+    gb_make_triangle(problem, q, damping, held, &triangle);
+    return gb_substitute(&triangle, step);
+}
+
+/* The least and the greatest pivot of a triangle. */
+static void gb_pivots(gb_triangle *triangle, gb_real *least, gb_real *most)
+{
+    *least = INFINITY;
+    *most = R(0.0);
+    for (size_t i = 0; i < triangle->joints; i++) {
+        const gb_real pivot = gb_magnitude(gb_column(triangle, i)[i]);
+        *least = gb_smaller(*least, pivot);
+        *most = gb_larger(*most, pivot);
+    }
+}
+
+/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold, or a root is
+ * double. */
+static gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+{
+    gb_triangle triangle;
+    gb_real least, most;
+    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
+    gb_pivots(&triangle, &least, &most);
+    return least / most;
+}
+
+static gb_real gb_norm(const gb_real *vector, size_t count)
+{
+    gb_real sum = R(0.0);
+    for (size_t i = 0; i < count; i++) {
+        sum = sum + vector[i] * vector[i];
+    }
+    return gb_square_root(sum);
+}
+
+/* The direction in which the equations change least at q, its longest way one, and by what share of the largest pivot they do. By inverse iteration; false
+ * where a pivot is zero. */
+static bool gb_stillest(const gb_problem *problem, const gb_real *q, gb_real *way, gb_real *share)
+{
+    const size_t joints = problem->mechanism->joints;
+    gb_triangle triangle;
+    gb_real least, most;
+    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
+    gb_pivots(&triangle, &least, &most);
+    gb_real *right = gb_column(&triangle, joints);
+    for (size_t i = 0; i < joints; i++) {
+        way[i] = R(1.0);
+    }
+    *share = R(1.0);
+    for (int i = 0; i < GB_INVERSIONS; i++) {
+        for (size_t row = 0; row < joints; row++) {
+            gb_real above = way[row];
+            for (size_t k = 0; k < row; k++) {
+                above = above - gb_column(&triangle, row)[k] * right[k];
+            }
+            right[row] = above / gb_column(&triangle, row)[row];
+        }
+        const gb_real before = gb_norm(right, joints);
+        if (!gb_substitute(&triangle, way)) {
+            return false;
+        }
+        *share = before / (gb_norm(way, joints) * most);
+    }
+    const gb_real longest = gb_longest(problem->mechanism, way);
+    for (size_t i = 0; i < joints; i++) {
+        way[i] = way[i] / longest;
+    }
+    return gb_is_finite(longest) && longest > R(0.0);
+}
+
+/* Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads beyond one of
+ * them, and from there on each quarters the miss. */
+static bool gb_return(const gb_problem *problem, gb_end *end, gb_real relative, uint32_t held)
+{
+    gb_real step[GB_MAX_JOINTS];
+    for (int i = 0; i < GB_RETURNS; i++) {
+        if (!gb_newton_step(problem, end->q, R(0.0), held, step)) {
+            return false;
+        }
+        gb_stepped(problem->mechanism, end->q, step, end->q);
+        end->fit = gb_measure(problem, end->q);
+        if (end->fit.relative < relative) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Damped steps back until the equations hold within `enough`. */
+static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough, uint32_t held)
+{
+    gb_real back[GB_MAX_JOINTS];
+    for (int i = 0; i < GB_RETURNS && gb_newton_step(problem, end->q, GB_STIFF, held, back); i++) {
+        gb_stepped(problem->mechanism, end->q, back, end->q);
+        end->fit = gb_measure(problem, end->q);
+        if (end->fit.relative < enough) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss hardly changes
+ * along a bent way, and rises on each straight one. */
+static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough, uint32_t held, gb_end *end)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real step[GB_MAX_JOINTS], way[GB_MAX_JOINTS];
+    if (!gb_newton_step(problem, q, R(0.0), held, step)) {
+        return false;
+    }
+    const gb_real longest = gb_longest(m, step);
+    if (!gb_is_finite(longest)) {
+        return false;
+    }
+    for (size_t k = 0; k < GB_LENGTH_OF(gb_leaps); k++) {
+        const gb_real share = gb_smaller(R(1.0), gb_leaps[k] / longest);
+        for (size_t i = 0; i < m->joints; i++) {
+            way[i] = share * step[i];
+        }
+        gb_stepped(m, q, way, end->q);
+        if (gb_come_back(problem, end, enough, held)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where it is rounding
+ * and a plain step is short, that is the last. */
+static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const gb_real relative = end->fit.relative;
+    const bool leaps = gb_is_between(relative, GB_ROUNDING, GB_NEAR);
+    const gb_real enough = leaps ? R(0.5) * relative : relative;
+    bool has_fallen = false;
+    gb_end fallen, next, other;
+    gb_real step[GB_MAX_JOINTS];
+    for (size_t k = 0; k < GB_LENGTH_OF(gb_dampings); k++) {
+        const bool is_plain = k == 0;
+        if (!gb_newton_step(problem, end->q, gb_dampings[k], held, step)) {
+            continue;
+        }
+        gb_stepped(m, end->q, step, next.q);
+        next.fit = gb_measure(problem, next.q);
+        if (next.fit.relative < enough) {
+            *end = next;
+            return true;
+        }
+        if (is_plain && relative < GB_ROUNDING && gb_longest(m, step) <= GB_SHORT) {
+            return false;
+        }
+        other = next;
+        if (leaps && is_plain && held == 0 && next.fit.relative <= GB_OVERSHOT * relative && gb_return(problem, &other, relative, held)) {
+            *end = other;
+            return true;
+        }
+        if (next.fit.relative < relative && !has_fallen) {
+            has_fallen = true;
+            fallen = next;
+        }
+    }
+    if (leaps && gb_leap(problem, end->q, enough, held, &next)) {
+        *end = next;
+        return true;
+    }
+    if (has_fallen) {
+        *end = fallen;
+    }
+    return has_fallen;
+}
+
+/* Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or after a leap.
+ * Joints that are `held` stay. */
+static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
+{
+    int slow = 0;
+    for (int i = 0; i < GB_POLISH_STEPS; i++) {
+        const gb_end before = *end;
+        gb_real step[GB_MAX_JOINTS];
+        if (before.fit.relative <= GB_POLISHED || slow == GB_PATIENCE || !gb_improve(problem, end, held)) {
+            return;
+        }
+        slow = end->fit.relative <= gb_larger(GB_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
+        for (size_t k = 0; k < problem->mechanism->joints; k++) {
+            step[k] = end->q[k] - before.q[k];
+        }
+        if (end->fit.relative < GB_ROUNDING && gb_longest(problem->mechanism, step) <= GB_SHORT) {
+            return;
+        }
+    }
+}
+
+/* The same from joints that are not measured yet. */
+static void gb_polish_from(const gb_problem *problem, gb_end *end, uint32_t held)
+{
+    end->fit = gb_measure(problem, end->q);
+    gb_polish(problem, end, held);
+}
+
+/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`. */
+static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_real *b, gb_real bound, uint32_t held)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real middle[GB_MAX_JOINTS], back[GB_MAX_JOINTS];
+    if (gb_farthest(m, a, b) > GB_BLUR) {
+        return false;
+    }
+    gb_beyond(m, a, b, R(-0.5), middle);
+    gb_fit fit = gb_measure(problem, middle);
+    for (int i = 0; i < GB_RETURNS; i++) {
+        if (fit.relative <= bound) {
+            return true;
+        }
+        if (!gb_newton_step(problem, middle, GB_STIFF, held, back)) {
+            return false;
+        }
+        gb_stepped(m, middle, back, middle);
+        fit = gb_measure(problem, middle);
+    }
+    return fit.relative <= bound;
+}

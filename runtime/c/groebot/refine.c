@@ -1,0 +1,489 @@
+/* Candidates that are no answers where they were found, and answers next to each other: refine.rs */
+
+/* An answer, as groebot.c sees one in a robot's list. */
+typedef struct {
+    gb_real q[GB_MAX_JOINTS];
+    gb_fit fit;
+    size_t branch;
+    uint32_t free;
+} gb_answer;
+
+/* The most answers that are compared with a new one. */
+#define GB_MOST_ANSWERS 4096
+
+static char *gb_at(const gb_answers *all, size_t i)
+{
+    return (char *)all->out + i * all->problem.mechanism->solution;
+}
+
+static gb_real *gb_q_of(const gb_answers *all, size_t i)
+{
+    return (gb_real *)(void *)gb_at(all, i);
+}
+
+static gb_real *gb_residual_of(const gb_answers *all, size_t i)
+{
+    return (gb_real *)(void *)(gb_at(all, i) + all->problem.mechanism->residual);
+}
+
+static gb_real *gb_relative_of(const gb_answers *all, size_t i)
+{
+    return (gb_real *)(void *)(gb_at(all, i) + all->problem.mechanism->relative);
+}
+
+static size_t *gb_branch_of(const gb_answers *all, size_t i)
+{
+    return (size_t *)(void *)(gb_at(all, i) + all->problem.mechanism->branch);
+}
+
+static bool *gb_chosen_of(const gb_answers *all, size_t i)
+{
+    return (bool *)(void *)(gb_at(all, i) + all->problem.mechanism->chosen);
+}
+
+static uint32_t *gb_free_of(const gb_answers *all, size_t i)
+{
+    return (uint32_t *)(void *)(gb_at(all, i) + all->problem.mechanism->free);
+}
+
+/* Writes an answer behind the others. */
+static void gb_write(gb_answers *all, const gb_answer *answer)
+{
+    const size_t i = all->count++;
+    gb_copy(gb_q_of(all, i), answer->q, all->problem.mechanism->joints);
+    *gb_residual_of(all, i) = answer->fit.residual;
+    *gb_relative_of(all, i) = answer->fit.relative;
+    *gb_branch_of(all, i) = answer->branch;
+    *gb_chosen_of(all, i) = false;
+    *gb_free_of(all, i) = answer->free;
+}
+
+/* Exchanges two answers. */
+static void gb_swap(gb_answers *all, size_t i, size_t k)
+{
+    char *a = gb_at(all, i), *b = gb_at(all, k);
+    for (size_t byte = 0; byte < all->problem.mechanism->solution; byte++) {
+        const char other = a[byte];
+        a[byte] = b[byte];
+        b[byte] = other;
+    }
+}
+
+/* Drops an answer. */
+static void gb_drop(gb_answers *all, size_t i)
+{
+    const size_t size = all->problem.mechanism->solution;
+    all->count--;
+    memmove(gb_at(all, i), gb_at(all, i + 1), (all->count - i) * size);
+}
+
+/* Remembers a candidate that is no answer if it comes nearest so far. */
+static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
+{
+    if (!fit->accepted && gb_is_finite(fit->relative) && !(all->has_nearest && fit->relative >= all->nearest_fit.relative)) {
+        all->has_nearest = true;
+        all->nearest_fit = *fit;
+        gb_copy(all->nearest, q, all->problem.mechanism->joints);
+    }
+}
+
+/* Whether self-motion `a` has the member `b`, with the same free joints: as these move there in stages, the other joints follow. Two self-motions may be
+ * next to each other: half-way from where that ends to `b` the equations hold too. */
+static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_end end;
+    gb_copy(end.q, a, m->joints);
+    for (int stages = GB_STAGES; stages > 0; stages--) {
+        gb_real way[GB_MAX_JOINTS];
+        gb_differences(m, b, end.q, way);
+        for (size_t i = 0; i < m->joints; i++) {
+            end.q[i] = gb_is_in(free, i) ? end.q[i] + way[i] / (gb_real)stages : end.q[i];
+        }
+        gb_polish_from(problem, &end, free);
+    }
+    return end.fit.accepted && gb_is_close(m, end.q, b, 0, GB_ARRIVED) && gb_are_joined(problem, end.q, b, GB_ROUNDING, free);
+}
+
+/* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
+ * too, as well as at the worse of the two. */
+static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real relative, const gb_answer *b)
+{
+    const gb_real bound = gb_larger(gb_larger(relative, b->fit.relative), GB_ALIKE);
+    const bool is_near = gb_farthest(problem->mechanism, a, b->q) <= GB_BLUR;
+    if (bound <= GB_ROUNDING && is_near && gb_regularity(problem, b->q) > GB_DISTINCT) {
+        return false;
+    }
+    return gb_are_joined(problem, a, b->q, bound, 0);
+}
+
+/* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
+ * singular configuration. */
+static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_problem *problem = &all->problem;
+    const gb_real *a = gb_q_of(all, i), relative = *gb_relative_of(all, i);
+    const uint32_t free = *gb_free_of(all, i);
+    if (gb_is_close(problem->mechanism, a, b->q, free | b->free, GB_MERGE)) {
+        return true;
+    }
+    if (free == 0 && b->free == 0) {
+        return gb_are_blurred(problem, a, relative, b);
+    }
+    if (free != 0 && b->free != 0) {
+        return free == b->free && (*gb_branch_of(all, i) == b->branch || gb_leads_to(problem, a, b->q, free));
+    }
+    if (free == 0) {
+        return b->fit.relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, a, b->free, GB_ROUNDING);
+    }
+    return relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, b->q, free, GB_ROUNDING);
+}
+
+/* Whether an answer in the list stays where a new one is equal to it: the better one does. But a self-motion that holds within rounding stays against its
+ * members, and its first member against the others. */
+static bool gb_holds_against(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_real relative = *gb_relative_of(all, i);
+    const bool is_isolated = *gb_free_of(all, i) == 0;
+    if (is_isolated && b->free != 0 && b->fit.relative <= GB_ROUNDING) {
+        return false;
+    }
+    return (!is_isolated && relative <= GB_ROUNDING) || relative <= b->fit.relative;
+}
+
+/* Adds an answer; where there are too many, the worst is left out. */
+static void gb_add(gb_answers *all, const gb_answer *answer)
+{
+    if (all->count == all->room) {
+        size_t worst = 0;
+        for (size_t i = 1; i < all->count; i++) {
+            worst = *gb_relative_of(all, i) >= *gb_relative_of(all, worst) ? i : worst;
+        }
+        if (!(all->room > 0 && answer->fit.relative < *gb_relative_of(all, worst))) {
+            return;
+        }
+        gb_drop(all, worst);
+    }
+    gb_write(all, answer);
+}
+
+/* Whether some answer has this branch. */
+static bool gb_is_taken(const gb_answers *all, size_t branch)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_branch_of(all, i) == branch) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The first branch from that of a candidate on that no answer has: the second root of a double one takes the next free number below `last`. */
+static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
+{
+    const size_t next = found->free == 0 ? found->last : found->branch;
+    for (size_t branch = found->branch; branch < next; branch++) {
+        if (!gb_is_taken(all, branch)) {
+            return branch;
+        }
+    }
+    return found->branch;
+}
+
+/* Keeps an answer where others are near. */
+static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *found)
+{
+    uint64_t doubles[GB_MOST_ANSWERS / 64] = {0};
+    const size_t count = all->count < GB_MOST_ANSWERS ? all->count : GB_MOST_ANSWERS;
+    bool is_double = false;
+    answer->branch = gb_free_branch(all, found);
+    size_t first = answer->branch;
+    for (size_t i = 0; i < count; i++) {
+        if (gb_is_one(all, i, answer)) {
+            if (gb_holds_against(all, i, answer)) {
+                return;
+            }
+            doubles[i / 64] |= (uint64_t)1 << (i % 64);
+            first = is_double ? first : *gb_branch_of(all, i);
+            is_double = true;
+        }
+    }
+    if (answer->free == 0) {
+        answer->branch = first;
+    }
+    for (size_t i = count; i-- > 0;) {
+        if (doubles[i / 64] >> (i % 64) & 1) {
+            gb_drop(all, i);
+        }
+    }
+    gb_add(all, answer);
+}
+
+/* Whether a candidate is the first of its branch, and far from all answers. */
+static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_branch_of(all, i) == found->branch || *gb_free_of(all, i) != 0
+            || gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_BLUR)) {
+            return false;
+        }
+    }
+    return found->free == 0;
+}
+
+/* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second root of a double one
+ * takes the next free number below `last`. */
+GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+{
+    gb_answer answer;
+    if (!fit->accepted) {
+        gb_miss(all, q, fit);
+        return;
+    }
+    gb_copy(answer.q, q, all->problem.mechanism->joints);
+    answer.fit = *fit;
+    answer.branch = found->branch;
+    answer.free = found->free;
+    if (all->count < all->room && gb_is_first(all, found, q)) {
+        gb_write(all, &answer);
+    } else {
+        gb_keep_one(all, &answer, found);
+    }
+}
+
+/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly matters. Where none leads to an
+ * answer, from farther ones. */
+static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_real weights[GB_MAX_JOINTS];
+    bool is_found = end->fit.accepted;
+    gb_weights(&all->problem, end->q, weights);
+    for (gb_real farther = R(1.0); farther <= GB_FARTHEST; farther *= GB_FARTHER) {
+        for (size_t i = 0; i < 2 * m->joints; i++) {
+            const gb_real sign = i % 2 == 0 ? R(-1.0) : R(1.0), weight = end->fit.accepted ? R(1.0) : weights[i / 2];
+            const gb_real way = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
+            gb_end start = *end;
+            start.q[i / 2] = gb_moved(m, end->q, i / 2, R(2.0) * sign * way);
+            gb_polish_from(&all->problem, &start, 0);
+            is_found |= start.fit.accepted;
+            gb_keep(all, found, start.q, &start.fit);
+        }
+        if (is_found) {
+            return;
+        }
+    }
+}
+
+/* One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: from beyond both, in
+ * the direction in which the equations change least, steps lead to the nearer one. */
+static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end, gb_real missed)
+{
+    const gb_problem *problem = &all->problem;
+    gb_real way[GB_MAX_JOINTS], step[GB_MAX_JOINTS], at[GB_MAX_PLACES], share;
+    if (!gb_stillest(problem, end, way, &share) || share > GB_TWIN * gb_square_root(missed)) {
+        return;
+    }
+    for (size_t k = 0; k < GB_LENGTH_OF(gb_twins_at); k++) {
+        const gb_real factor = gb_twins_at[k] * gb_square_root(missed);
+        gb_approach approach;
+        gb_end start;
+        for (size_t i = 0; i < problem->mechanism->joints; i++) {
+            step[i] = factor * way[i];
+        }
+        gb_stepped(problem->mechanism, end, step, start.q);
+        gb_place(problem, start.q, at);
+        if (problem->mechanism->approach(problem, at, start.q, &approach)) {
+            gb_keep(all, found, approach.end, &approach.fit);
+        } else {
+            gb_polish_from(problem, &start, 0);
+            gb_keep(all, found, start.q, &start.fit);
+        }
+    }
+}
+
+/* Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer. */
+GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
+{
+    gb_keep(all, found, approach->end, &approach->fit);
+    if (approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD)) {
+        all->unsound = number;
+        gb_twin(all, found, approach->end, approach->missed);
+    }
+}
+
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
+static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
+    if (is_member) {
+        gb_keep(all, found, end->q, &end->fit);
+    }
+    return is_member;
+}
+
+/* Whether an isolated answer with these joints is listed. */
+static bool gb_is_listed(const gb_answers *all, const gb_real *q)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_free_of(all, i) == 0 && gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an isolated
+ * answer. One that has not been found before may have another next to it. */
+static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
+{
+    if (end->fit.relative > GB_ALONE) {
+        gb_miss(all, end->q, &end->fit);
+        return;
+    }
+    gb_found_1 alone = *found;
+    alone.free = gb_is_listed(all, end->q) ? 0 : gb_joint_on_self_motion(&all->problem, end->q, end->fit.relative);
+    const size_t known = all->count;
+    gb_keep(all, &alone, end->q, &end->fit);
+    if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+        gb_around(all, &alone, end, missed);
+    }
+}
+
+/* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
+ * the circle, or where there is none and an isolated answer stands near the place. */
+static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    gb_end end;
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
+            return;
+        }
+    }
+    gb_copy(end.q, q, all->problem.mechanism->joints);
+    end.fit = gb_measure(&all->problem, q);
+    const gb_real missed = end.fit.relative;
+    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
+        gb_polish(&all->problem, &end, found->free);
+    }
+    if (gb_keep_member(all, found, &end)) {
+        return;
+    }
+    gb_polish(&all->problem, &end, 0);
+    if (!gb_keep_member(all, found, &end)) {
+        gb_keep_alone(all, found, &end, missed);
+    }
+}
+
+/* Such a candidate stands between two answers: starts from the other side too. */
+static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_end *end)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_end start;
+    for (size_t i = 0; i < m->joints; i++) {
+        start.q[i] = gb_wrapped(m, i, q[i] + gb_shortest(m, i, q[i] - end->q[i]));
+    }
+    gb_polish_from(&all->problem, &start, 0);
+    gb_keep(all, found, start.q, &start.fit);
+}
+
+/* Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too. */
+GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q)
+{
+    const gb_problem *problem = &all->problem;
+    gb_end end;
+    if (found->free != 0) {
+        all->unsound = number;
+        gb_refine_member(all, found, q);
+        return;
+    }
+    gb_copy(end.q, q, problem->mechanism->joints);
+    end.fit = gb_measure(problem, q);
+    const gb_real missed = end.fit.relative;
+    gb_polish(problem, &end, 0);
+    const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
+    if (!(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
+        all->unsound = number;
+    }
+    if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
+        gb_around(all, found, &end, miss);
+    } else if (gb_is_between(missed, GB_ROUNDING, GB_NEAR) && way > GB_LEVER * gb_square_root(missed)) {
+        gb_around(all, found, &end, missed);
+        gb_start_beyond(all, found, q, &end);
+    }
+    if (problem->mechanism->is_nearby && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+        gb_twin(all, found, end.q, missed);
+    }
+    gb_keep(all, found, end.q, &end.fit);
+}
+
+/* Whether there are more isolated answers than a target can have. */
+static bool gb_are_too_many(const gb_answers *all)
+{
+    size_t isolated = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        isolated += *gb_free_of(all, i) == 0;
+    }
+    return isolated > all->problem.mechanism->isolated;
+}
+
+/* Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the nearest two are one, and
+ * the better of them stays. */
+static void gb_unite(gb_answers *all)
+{
+    while (gb_are_too_many(all)) {
+        gb_real least = INFINITY;
+        size_t worse = 0;
+        for (size_t second = 0; second < all->count; second++) {
+            for (size_t first = 0; first < second; first++) {
+                const gb_real distance = gb_farthest(all->problem.mechanism, gb_q_of(all, first), gb_q_of(all, second));
+                if (*gb_free_of(all, first) == 0 && *gb_free_of(all, second) == 0 && distance < least) {
+                    least = distance;
+                    worse = *gb_relative_of(all, first) > *gb_relative_of(all, second) ? first : second;
+                }
+            }
+        }
+        gb_drop(all, worse);
+    }
+}
+
+/* Insertion sort by branch. */
+static void gb_sort(gb_answers *all)
+{
+    for (size_t end = 1; end < all->count; end++) {
+        for (size_t i = end; i > 0 && *gb_branch_of(all, i - 1) > *gb_branch_of(all, i); i--) {
+            gb_swap(all, i - 1, i);
+        }
+    }
+}
+
+/* The number whose root the source of the mechanism chooses, so that the least is its choice. */
+static gb_real gb_preference(const gb_answers *all, size_t i)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_real at[GB_MAX_PLACES];
+    gb_place(&all->problem, gb_q_of(all, i), at);
+    return (m->prefers_greatest ? R(-1.0) : R(1.0)) * at[m->preferred];
+}
+
+/* Marks what the source would choose. */
+static void gb_mark_choice(gb_answers *all)
+{
+    gb_real least = INFINITY;
+    for (size_t i = 0; i < all->count; i++) {
+        least = gb_smaller(least, gb_preference(all, i));
+    }
+    for (size_t i = 0; i < all->count; i++) {
+        *gb_chosen_of(all, i) = gb_preference(all, i) <= least + GB_MERGE;
+    }
+}
+
+/* Brings answers into order. */
+GB_LINKAGE void gb_settle(gb_answers *all)
+{
+    gb_unite(all);
+    gb_sort(all);
+    if (all->problem.mechanism->preferred >= 0) {
+        gb_mark_choice(all);
+    }
+}

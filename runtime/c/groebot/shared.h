@@ -1,0 +1,294 @@
+/* What a robot's file and groebot.c share. */
+
+#ifdef __FAST_MATH__
+#error "this run time tells NaN and infinity apart: compile it without -ffast-math"
+#endif
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#ifndef GB_LANES
+#if defined(GB_FLOAT) || !defined(__GNUC__) || !__STDC_HOSTED__
+#define GB_LANES 1
+#elif defined(__AVX512F__)
+#define GB_LANES 8
+#elif defined(__AVX2__)
+#define GB_LANES 4
+#elif defined(__SSE2__) || defined(__aarch64__) || defined(__wasm_simd128__)
+#define GB_LANES 2
+#else
+#define GB_LANES 1
+#endif
+#endif
+
+/* Without a C library the compiler's headers of vector code are not whole. */
+#if !__STDC_HOSTED__
+#elif defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+#if defined(__GNUC__)
+#define GB_UNUSED __attribute__((unused))
+#define GB_COLD __attribute__((noinline, cold, unused))
+#define GB_APART __attribute__((noinline, unused))
+#define GB_SELDOM(truth) __builtin_expect(truth, 0)
+#else
+#define GB_UNUSED
+#define GB_COLD
+#define GB_APART
+#define GB_SELDOM(truth) (truth)
+#endif
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+#define GB_INLINE static inline __attribute__((always_inline, unused))
+#else
+#define GB_INLINE static inline GB_UNUSED
+#endif
+/* Before a loop over a table: its numbers become part of the code. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define GB_UNROLL _Pragma("GCC unroll 64")
+#else
+#define GB_UNROLL
+#endif
+
+/* The linkage of groebot.c's functions: static where it stands in one file with a robot's. */
+#ifndef GB_LINKAGE
+#define GB_LINKAGE GB_API
+#endif
+
+#define GB_JOINED(a, b, c) a##b##c
+#define GB_JOIN(a, b, c) GB_JOINED(a, b, c)
+#define GB_ASSERT(name, condition) typedef char gb_assert_##name[(condition) ? 1 : -1] GB_UNUSED
+
+/* A literal; one in double and one in single precision. */
+#ifdef GB_FLOAT
+#define R(number) number##f
+#define GB_EITHER(number, single) single##f
+#define GB_LEAST_POSITIVE FLT_MIN
+#define GB_GREATEST FLT_MAX
+#define GB_EPSILON FLT_EPSILON
+#else
+#define R(number) number
+#define GB_EITHER(number, single) number
+#define GB_LEAST_POSITIVE DBL_MIN
+#define GB_GREATEST DBL_MAX
+#define GB_EPSILON DBL_EPSILON
+#endif
+
+/* Bounds of the buffers in groebot.c. */
+#ifndef GB_MAX_JOINTS
+#define GB_MAX_JOINTS 16
+#endif
+#ifndef GB_MAX_PLACES
+#define GB_MAX_PLACES 40
+#endif
+#ifndef GB_MAX_EQUATIONS
+#define GB_MAX_EQUATIONS 36
+#endif
+#ifndef GB_MAX_SIZES
+#define GB_MAX_SIZES 8
+#endif
+
+/* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
+#define GB_ACCEPT GB_EITHER(1e-12, 3e-5)
+#define GB_BLUR GB_EITHER(5e-2, 3e-2)
+#define GB_ROUNDING GB_EITHER(1e-14, 5e-6)
+#define GB_MEETING GB_EITHER(1e-5, 1e-2)
+#define GB_TANGENT GB_EITHER(1e-10, 1e-4)
+#define GB_GRAZING GB_EITHER(1e-6, 1e-4)
+#define GB_NEAR GB_EITHER(1e-3, 1e-2)
+#define GB_BESIDE GB_EITHER(1e-7, 1e-2)
+#define GB_TINY R(1e-30)
+#define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
+#define GB_APPROACHES 3
+#define GB_PLAIN R(1e-6)
+#define GB_STEEP R(400.0)
+#define GB_MILD R(4.0)
+#define GB_TURN R(1e-2)
+
+#define GB_PI R(3.141592653589793)
+#define GB_TAU R(6.283185307179586)
+/* tan(pi/8), and what the number nearest to pi/4 lacks. */
+#define GB_EIGHTH R(0.41421356237309503)
+#define GB_REST GB_EITHER(3.061616997868383e-17, -2.1855694e-8)
+
+/* Where a joint stands among the numbers that the equations read: its cosine and its sine, or a length's value. */
+typedef struct {
+    bool is_angle;
+    unsigned char places[2];
+} gb_joint;
+#define GB_ANGLE(cosine, sine) {true, {cosine, sine}}
+#define GB_LENGTH(place) {false, {place, place}}
+
+/* Where forward kinematics finds a number of the target: a value of the tip, an angle by two of them, or a joint. */
+enum gb_kind { GB_AS_VALUE, GB_AS_ANGLE, GB_AS_JOINT };
+typedef struct {
+    enum gb_kind kind;
+    unsigned char of[2];
+} gb_reached;
+#define GB_VALUE(i) {GB_AS_VALUE, {i, i}}
+#define GB_ANGLE_OF(cosine, sine) {GB_AS_ANGLE, {cosine, sine}}
+#define GB_JOINT(i) {GB_AS_JOINT, {i, i}}
+
+/* What numbers of a target must fulfil, from this one on: nine are a rotation by rows, or three a unit vector. */
+typedef struct {
+    bool is_rotation;
+    unsigned char first;
+} gb_condition;
+#define GB_ROTATION(first) {true, first}
+#define GB_UNIT(first) {false, first}
+
+/* How well joint values solve the equations: the largest magnitude of a value, the largest share of one in its size, and whether every equation holds. */
+typedef struct {
+    gb_real residual;
+    gb_real relative;
+    bool accepted;
+} gb_fit;
+
+/* How a candidate was found: which cases and roots gave it, where the branch numbers of the first block's case end, which joints are free, whether roots on
+ * the way are so near one another that rounding moves them, and whether it stands for two, of which the second differs in signs alone. */
+typedef struct {
+    size_t branch;
+    size_t last;
+    uint32_t free;
+    bool close;
+    bool is_pair;
+} gb_found_1;
+
+typedef struct gb_problem gb_problem;
+
+/* Where the short way from a nearby mechanism's candidate has led: joints that solve the equations within rounding, what the candidate missed, and the least
+ * pivot there. */
+typedef struct {
+    gb_real end[GB_MAX_JOINTS];
+    gb_fit fit;
+    gb_real missed;
+    gb_real pivot;
+} gb_approach;
+
+/* What groebot.c knows of a robot: as `Facts` and `Mechanism` of groebot-runtime. */
+typedef struct {
+    size_t joints, places, equations, sizes, capacity;
+    const gb_joint *joint;
+    const unsigned char *last_first;
+    const unsigned char *size_of;
+    const unsigned char *freed;
+    size_t freed_count;
+    gb_real scale;
+    /* The most isolated solutions that a target can have, or SIZE_MAX. */
+    size_t isolated;
+    bool has_extras;
+    bool is_nearby;
+    /* The place of the number whose root the source chooses, or -1; whether the greater one. */
+    int preferred;
+    bool prefers_greatest;
+    /* Where the members of a solution stand. */
+    size_t solution, residual, relative, branch, chosen, free;
+    void (*values)(const gb_real *p, const gb_real *at, gb_real *values);
+    void (*measures)(const gb_real *p, const gb_real *at, gb_real *sizes);
+    void (*jacobian)(const gb_real *p, const gb_real *at, gb_real *rows);
+    bool (*approach)(const gb_problem *problem, const gb_real *at, const gb_real *q, gb_approach *approach);
+} gb_mechanism;
+
+/* A mechanism's equations at a target; `extras` are the numbers of a candidate that follow from no joint, among others, or null. */
+struct gb_problem {
+    const gb_mechanism *mechanism;
+    const gb_real *p;
+    const gb_real *extras;
+};
+
+/* The answers so far. */
+typedef struct {
+    gb_problem problem;
+    void *out;
+    size_t room;
+    size_t count;
+    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
+    size_t candidates;
+    size_t unsound;
+    /* Whether a stratum was met that could not be derived. */
+    bool is_open;
+    /* What missed the equations by the least share of their size. */
+    bool has_nearest;
+    gb_real nearest[GB_MAX_JOINTS];
+    gb_fit nearest_fit;
+} gb_answers;
+
+/* A polynomial's coefficients, constant term first. */
+typedef struct {
+    const gb_real *coefficients;
+    size_t length;
+} gb_polynomial_1;
+
+GB_LINKAGE gb_real gb_cosine(gb_real angle);
+GB_LINKAGE gb_real gb_sine(gb_real angle);
+GB_LINKAGE gb_real gb_wrap(gb_real angle);
+GB_LINKAGE gb_real gb_round(gb_real x);
+GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
+#ifdef GROEBOT_SIX_AXES_H
+GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out);
+#endif
+GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_real scale, gb_real *values, size_t room, bool *close);
+GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *at);
+GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
+GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
+GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
+GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
+GB_LINKAGE void gb_settle(gb_answers *all);
+GB_LINKAGE size_t gb_count_turns(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits);
+GB_LINKAGE void gb_turn(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits, size_t index, gb_real *out);
+GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits);
+GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q);
+GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target);
+
+/* The greater of two numbers; the first where the second is none. */
+GB_INLINE gb_real gb_larger(gb_real a, gb_real b)
+{
+    return b > a ? b : a;
+}
+
+/* The lesser of two numbers; the first where the second is none. */
+GB_INLINE gb_real gb_smaller(gb_real a, gb_real b)
+{
+    return b < a ? b : a;
+}
+
+/* The magnitude, without a branch. */
+GB_INLINE gb_real gb_magnitude(gb_real a)
+{
+#ifdef GB_FLOAT
+    return fabsf(a);
+#else
+    return fabs(a);
+#endif
+}
+
+/* The number with the sign of another. */
+GB_INLINE gb_real gb_signed(gb_real a, gb_real sign)
+{
+#ifdef GB_FLOAT
+    return copysignf(a, sign);
+#else
+    return copysign(a, sign);
+#endif
+}
+
+/* The square root, by one instruction where there is one: the C library's would look for errors. */
+GB_INLINE gb_real gb_square_root(gb_real a)
+{
+#ifdef GB_FLOAT
+    return sqrtf(a);
+#elif defined(__SSE2__) && __STDC_HOSTED__
+    const __m128d number = _mm_set_sd(a);
+    return _mm_cvtsd_f64(_mm_sqrt_sd(number, number));
+#else
+    return sqrt(a);
+#endif
+}

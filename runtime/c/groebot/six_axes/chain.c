@@ -1,0 +1,45 @@
+/* Chains: chain.rs */
+
+/* The joint that stands so many steps behind the hidden one in the loop. */
+GB_INLINE size_t gb_six_joint(gb_formulation formulation, size_t steps)
+{
+    return (formulation.hidden + steps) % 6;
+}
+
+/* The joint whose half angle or way the equations are multiplied by. */
+GB_INLINE size_t gb_six_doubled(gb_formulation formulation)
+{
+    return gb_six_joint(formulation, formulation.second ? 2 : 1);
+}
+
+/* That of an attempt: after the last the first again. */
+GB_INLINE gb_formulation gb_six_formulation(const gb_chain *chain, size_t attempt)
+{
+    return chain->formulations[attempt % chain->formulation_count];
+}
+
+static gb_six_figure gb_six_figure_of(const gb_chain *chain, size_t joint)
+{
+    gb_six_figure figure;
+    memcpy(figure.direction, chain->directions[joint], sizeof figure.direction);
+    memcpy(figure.point, chain->points[joint], sizeof figure.point);
+    memcpy(figure.side, chain->across[joint][0], sizeof figure.side);
+    figure.slides = chain->slides[joint];
+    return figure;
+}
+
+/* What a joint leaves alone, moved to where the loop is cut behind the target. */
+static gb_six_figure gb_six_place(const gb_chain *chain, gb_formulation formulation, size_t steps, bool ahead, const gb_rigid *displacement)
+{
+    const gb_six_figure figure = gb_six_figure_of(chain, gb_six_joint(formulation, steps));
+    if (ahead != (formulation.hidden + steps >= 6)) {
+        return figure;
+    }
+    const gb_rigid motion = ahead ? gb_six_inverse(displacement) : *displacement;
+    gb_six_figure moved;
+    gb_six_turned(&motion, figure.direction, moved.direction);
+    gb_six_moved(&motion, figure.point, moved.point);
+    gb_six_turned(&motion, figure.side, moved.side);
+    moved.slides = figure.slides;
+    return moved;
+}

@@ -1,0 +1,206 @@
+/* Curves all along which the target is nearly reached, as next to a self-motion: curve.rs
+ *
+ * Beside a self-motion the isolated answers of a target may stand anywhere on the curve that the self-motion was, and Newton's steps find none of them: the
+ * Jacobian has rank five but for a trace. A walk holds the five equations that joints can change and goes along the tangent; what is missed of the sixth one
+ * changes its sign at each answer. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
+
+/* A walk along all curves that are found from some joint vectors. */
+typedef struct {
+    const gb_chain *chain;
+    const gb_rigid *target;
+    gb_six_search *search;
+    /* Where walks begin; those that another one has passed are left out. */
+    gb_six_point starts[GB_SIX_KEPT];
+    bool is_open[GB_SIX_KEPT];
+    size_t count;
+} gb_six_walk;
+
+/* Begins at q too if there is a curve next to it. */
+static void gb_six_begin(gb_six_walk *walk, const gb_real *q)
+{
+    if (walk->count == GB_SIX_KEPT) {
+        return;
+    }
+    gb_six_point *start = &walk->starts[walk->count];
+    memcpy(start->q, q, sizeof start->q);
+    if (gb_six_settle(walk->chain, walk->target, start, GB_SIX_MANY)) {
+        walk->is_open[walk->count++] = true;
+    }
+}
+
+/* The place that steps across the curve lead to from a share of a way behind q; false where there is none. */
+static bool gb_six_advance(const gb_six_walk *walk, const gb_real *q, const gb_real *way, gb_real share, gb_six_point *next)
+{
+    for (int k = 0; k < 6; k++) {
+        next->q[k] = q[k] + share * way[k];
+    }
+    return gb_six_settle(walk->chain, walk->target, next, GB_SIX_FEW);
+}
+
+static void gb_six_way(const gb_real *from, const gb_real *to, gb_real *way)
+{
+    for (int k = 0; k < 6; k++) {
+        way[k] = to[k] - from[k];
+    }
+}
+
+/* Adds the answer between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11
+ * (1971) 168-174). */
+static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b)
+{
+    gb_real low = a->value, high = b->value;
+    if ((low <= R(0.0)) == (high <= R(0.0)) || gb_larger(gb_magnitude(low), gb_magnitude(high)) <= GB_SIX_LEVEL) {
+        return;
+    }
+    gb_six_point near = *a, far = *b;
+    int side = 0;
+    for (int round = 0; round < GB_SIX_NARROWED; round++) {
+        gb_six_point middle;
+        gb_real way[6];
+        gb_six_way(near.q, far.q, way);
+        if (!gb_six_advance(walk, near.q, way, low / (low - high), &middle)) {
+            break;
+        }
+        gb_six_align(&middle, a);
+        if ((middle.value <= R(0.0)) == (low <= R(0.0))) {
+            near = middle;
+            high = side < 0 ? R(0.5) * high : far.value;
+            low = middle.value;
+            side = -1;
+        } else {
+            far = middle;
+            low = side > 0 ? R(0.5) * low : near.value;
+            high = middle.value;
+            side = 1;
+        }
+        if (gb_magnitude(middle.value) <= GB_SIX_EXACT) {
+            break;
+        }
+    }
+    gb_six_find(walk->chain, walk->target, gb_magnitude(near.value) <= gb_magnitude(far.value) ? near.q : far.q, walk->search);
+}
+
+/* Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one. */
+static void gb_six_dip(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b, const gb_six_point *c)
+{
+    const gb_real low = a->value, least = b->value, high = c->value, size = gb_magnitude(least);
+    if (!(size < gb_magnitude(low) && size < gb_magnitude(high) && size > GB_SIX_LEVEL) || (low <= R(0.0)) != (least <= R(0.0))
+        || (high <= R(0.0)) != (least <= R(0.0))) {
+        return;
+    }
+    const gb_real share = R(0.5) * (low - high) / (low - least - least + high);
+    const gb_six_point *end = share < R(0.0) ? a : c;
+    gb_six_point vertex;
+    gb_real way[6];
+    gb_six_way(b->q, end->q, way);
+    if (gb_six_advance(walk, b->q, way, gb_magnitude(share), &vertex)) {
+        gb_six_align(&vertex, b);
+        gb_six_change(walk, b, &vertex);
+        gb_six_change(walk, &vertex, end);
+        gb_six_find(walk->chain, walk->target, vertex.q, walk->search);
+    }
+}
+
+/* A step along the curve, shorter where it bends; false where it ends. */
+static bool gb_six_pace(const gb_six_walk *walk, const gb_six_point *at, gb_real *stride, gb_six_point *next)
+{
+    for (; *stride >= GB_SIX_SHORT * GB_SIX_STRIDE; *stride *= R(0.5)) {
+        if (gb_six_advance(walk, at->q, at->along, *stride, next) && gb_magnitude(gb_six_product(next->along, at->along, 6)) > R(0.9)
+            && gb_six_distance(next->q, at->q, walk->chain->slides) <= R(2.0) * *stride) {
+            *stride = gb_smaller(R(2.0) * *stride, GB_SIX_STRIDE);
+            gb_six_align(next, at);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The last place of a walk that has come home, with the turns of its angles that are nearest to the place before. */
+static gb_six_point gb_six_beside(const gb_six_point *home, const gb_six_point *at, const bool *slides)
+{
+    gb_six_point end = *home;
+    gb_six_align(&end, at);
+    for (int joint = 0; joint < 6; joint++) {
+        const gb_real turns = slides[joint] ? R(0.0) : gb_round((at->q[joint] - end.q[joint]) / GB_TAU);
+        end.q[joint] = end.q[joint] + GB_TAU * turns;
+    }
+    return end;
+}
+
+/* Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the most that was missed. */
+static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_real *level)
+{
+    const bool *slides = walk->chain->slides;
+    gb_six_point before = *home, at = *home, next;
+    gb_real stride = GB_SIX_STRIDE;
+    bool is_away = false;
+    for (int pace = 0; pace < GB_SIX_PACES; pace++) {
+        if (!gb_six_pace(walk, &at, &stride, &next)) {
+            return false;
+        }
+        *level = gb_larger(*level, gb_magnitude(next.value));
+        gb_six_change(walk, &at, &next);
+        gb_six_dip(walk, &before, &at, &next);
+        for (size_t k = 0; k < walk->count; k++) {
+            walk->is_open[k] = walk->is_open[k] && gb_six_distance(walk->starts[k].q, next.q, slides) > GB_SIX_STRIDE;
+        }
+        before = at;
+        at = next;
+        const gb_real way = gb_six_distance(at.q, home->q, slides);
+        is_away |= way > R(3.0) * GB_SIX_STRIDE;
+        if (is_away && way <= GB_SIX_STRIDE && gb_six_product(at.along, home->along, 6) > R(0.5)) {
+            const gb_six_point end = gb_six_beside(home, &at, slides);
+            gb_six_change(walk, &at, &end);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Walks along the curves, both ways if they do not close, and adds answers where the sixth equation changes its sign; of a curve that misses nothing, a
+ * self-motion, one member. */
+static void gb_six_run_walk(gb_six_walk *walk)
+{
+    for (size_t index = 0; index < walk->count; index++) {
+        if (!walk->is_open[index]) {
+            continue;
+        }
+        walk->is_open[index] = false;
+        const gb_six_point *start = &walk->starts[index];
+        gb_six_point home = *start;
+        gb_real level = gb_magnitude(start->value);
+        if (!gb_six_leads_home(walk, &home, &level)) {
+            for (int k = 0; k < 6; k++) {
+                home.along[k] = -start->along[k];
+            }
+            gb_six_leads_home(walk, &home, &level);
+        }
+        if (level <= GB_SIX_LEVEL) {
+            gb_six_find(walk->chain, walk->target, start->q, walk->search);
+        }
+    }
+}
+
+/* Walks along the curves next to answers, and to candidates that led to none. */
+static GB_APART void gb_six_walk_from(const gb_chain *chain, const gb_rigid *target, gb_six_search *search)
+{
+    gb_six_walk walk;
+    walk.chain = chain;
+    walk.target = target;
+    walk.search = search;
+    walk.count = 0;
+    for (size_t k = 0; k < search->answers.count; k++) {
+        gb_six_point at;
+        memcpy(at.q, search->answers.list[k], sizeof at.q);
+        if (gb_six_section(chain, target, &at) && gb_six_is_near(&at)) {
+            gb_six_begin(&walk, at.q);
+        }
+    }
+    for (size_t k = 0; k < search->far.count; k++) {
+        gb_six_begin(&walk, search->far.list[k]);
+    }
+    for (size_t k = 0; k < search->lost.count; k++) {
+        gb_six_begin(&walk, search->lost.list[k]);
+    }
+    gb_six_run_walk(&walk);
+}

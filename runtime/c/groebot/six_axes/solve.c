@@ -1,0 +1,216 @@
+/* The solver, formulations in turn until one can be trusted: solve.rs */
+
+/* A target, and where it is put aside for one attempt. */
+typedef struct {
+    const gb_chain *chain;
+    size_t number;
+    /* How far aside. */
+    gb_real size;
+    /* What takes the tip from its place at zero to the target. */
+    const gb_rigid *goal;
+    /* The frame of the last joint at the target, and at the target aside. */
+    const gb_rigid *target;
+    gb_rigid near;
+    /* The joint whose line is used. */
+    size_t missing;
+} gb_six_attempt;
+
+/* What an attempt has come to. */
+typedef struct {
+    /* Its own answers. */
+    gb_six_distinct own;
+    /* How many candidates led nowhere. */
+    size_t lost;
+    /* The most that a candidate missed the target by before it was polished. */
+    gb_real worst;
+} gb_six_tally;
+
+/* Whether a way is so long that it stands for an infinite one, which chains with two sliding joints have among their eigenvalues. */
+static bool gb_six_is_infinite(const gb_chain *chain, const gb_real *q)
+{
+    for (int joint = 0; joint < 6; joint++) {
+        if (chain->slides[joint] && !(gb_magnitude(q[joint]) <= GB_SIX_LONG)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Leads joints that reach the target aside to the target in stages, each a quarter of the way from it that the one before was: next to a self-motion it is as
+ * flat as the target is near, and a step must be no longer. The residual at the target, and in `last` the joints of the last stage that succeeded. */
+static gb_real gb_six_lead(const gb_six_attempt *attempt, gb_real *q, gb_real *last)
+{
+    gb_real residual = R(1.0), size = attempt->size, start;
+    for (int stage = 0; stage < GB_SIX_STAGES; stage++) {
+        size = stage + 1 < GB_SIX_STAGES ? R(0.25) * size : R(0.0);
+        const gb_rigid motion = gb_six_aside(size, attempt->number), near = gb_six_after(&motion, attempt->goal);
+        const gb_rigid target = gb_six_after(&near, &attempt->chain->last);
+        residual = gb_six_polish(attempt->chain, q, &target, &start);
+        if (residual > GB_SIX_ACCEPT) {
+            break;
+        }
+        memcpy(last, q, 6 * sizeof *last);
+    }
+    return residual;
+}
+
+/* Joints that reach the target aside brought to the target: at once, or in stages; the residual, and in `last` the last ones that were reached. */
+static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real *q, gb_real *last)
+{
+    gb_real start;
+    memcpy(last, q, 6 * sizeof *last);
+    const gb_real residual = gb_six_polish(attempt->chain, q, attempt->target, &start);
+    if (residual <= GB_SIX_ACCEPT) {
+        return residual;
+    }
+    memcpy(q, last, 6 * sizeof *q);
+    return gb_six_lead(attempt, q, last);
+}
+
+/* Polishes a candidate, and keeps or remembers it. */
+static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate *candidate, gb_six_search *search, gb_six_tally *tally)
+{
+    const gb_chain *chain = attempt->chain;
+    const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_SIX_UNKNOWN);
+    const bool is_far = deep > GB_SIX_FAR_OFF * accuracy, is_aside = attempt->size > R(0.0);
+    gb_real q[6], first[6], last[6], start;
+    if ((is_far && !is_aside) || gb_six_is_infinite(chain, candidate->q)) {
+        return;
+    }
+    memcpy(q, candidate->q, sizeof q);
+    q[attempt->missing] = gb_six_closing(chain, q, attempt->missing, &attempt->near);
+    memcpy(first, q, sizeof q);
+    if (is_far) {
+        gb_six_remember(&search->far, first);
+        return;
+    }
+    gb_real residual = gb_six_polish(chain, q, &attempt->near, &start);
+    memcpy(last, q, sizeof q);
+    if (is_aside) {
+        residual = gb_six_bring_back(attempt, q, last);
+    }
+    if (is_aside && (residual > GB_SIX_ACCEPT || candidate->depth > R(0.0))) {
+        gb_six_remember(&search->far, first);
+    }
+    if (residual <= GB_SIX_ACCEPT) {
+        tally->worst = candidate->depth == R(0.0) ? gb_larger(tally->worst, start) : tally->worst;
+        gb_six_wrap(q, chain->slides);
+        gb_six_keep(&search->answers, q, residual, chain->slides);
+        gb_six_keep(&tally->own, q, residual, chain->slides);
+    } else if (deep <= GB_SIX_OFF * accuracy) {
+        tally->lost++;
+        gb_six_lose(search, last);
+    }
+}
+
+/* Adds the answers of one formulation; whether it can be trusted to have found all. */
+static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displacement, gb_six_search *search)
+{
+    const size_t known = search->answers.count;
+    const bool is_aside = attempt->size > R(0.0);
+    gb_six_candidates candidates;
+    gb_six_tally tally;
+    if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : GB_SIX_BLURRED, &candidates)) {
+        return false;
+    }
+    tally.own.count = tally.lost = 0;
+    tally.worst = R(0.0);
+    for (size_t k = 0; k < candidates.count; k++) {
+        gb_six_follow(attempt, &candidates.list[k], search, &tally);
+    }
+    const size_t count = search->answers.count;
+    const bool is_unreachable = candidates.count == 0 && candidates.conditioning >= GB_SIX_CLEAR, nothing_lost = search->lost.count == 0;
+    const bool is_clear = tally.lost == 0 && count % 2 == 0 && !candidates.are_crowded && (count > 0 || is_unreachable);
+    const bool is_confirmed = attempt->number > 0 && known == count && tally.own.count == count && nothing_lost;
+    const bool is_sound = tally.worst <= GB_SIX_ACCURATE && candidates.conditioning >= GB_SIX_SOUND;
+    return is_clear && (is_confirmed || (is_sound && (!is_aside || nothing_lost)));
+}
+
+/* Runs formulations until one can be trusted; their number. What was lost is forgotten then. */
+static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, const gb_rigid *target, gb_six_search *search)
+{
+    for (size_t number = 0; number < GB_SIX_ATTEMPTS; number++) {
+        gb_six_attempt attempt;
+        attempt.chain = chain;
+        attempt.number = number;
+        attempt.size = gb_six_disturbances[number];
+        attempt.goal = goal;
+        attempt.target = target;
+        attempt.missing = gb_six_joint(gb_six_formulation(chain, number), 3);
+        /* One run aside shows too little of what may be beside it. */
+        const bool is_first_aside = number > 0 && attempt.size > R(0.0) && gb_six_disturbances[number - 1] == R(0.0);
+        if (is_first_aside) {
+            search->lost.count = 0;
+        }
+        const gb_rigid motion = gb_six_aside(attempt.size, number), displacement = gb_six_after(&motion, goal);
+        attempt.near = gb_six_after(&displacement, &chain->last);
+        if (gb_six_run(&attempt, &displacement, search) && !is_first_aside) {
+            search->lost.count = 0;
+            return number + 1;
+        }
+    }
+    return GB_SIX_ATTEMPTS;
+}
+
+static bool gb_six_is_sorted(const gb_real *a, const gb_real *b)
+{
+    for (int k = 0; k < 6; k++) {
+        if (a[k] != b[k]) {
+            return a[k] < b[k];
+        }
+    }
+    return true;
+}
+
+/* Joints in the unit of the target. */
+static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool lost)
+{
+    gb_six_answer answer;
+    for (int joint = 0; joint < 6; joint++) {
+        answer.q[joint] = chain->slides[joint] ? q[joint] * chain->length : q[joint];
+        answer.free[joint] = false;
+    }
+    answer.lost = lost;
+    return answer;
+}
+
+/* Writes what was found, in the unit of the target; how much it is. */
+static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
+{
+    size_t count = 0;
+    for (; count < search->answers.count; count++) {
+        gb_six_answer answer = gb_six_tell(chain, search->answers.list[count], false);
+        if (!is_isolated) {
+            gb_six_find_free(chain, search->answers.list[count], answer.free);
+        }
+        size_t place = count;
+        for (; place > 0 && !gb_six_is_sorted(out[place - 1].q, answer.q); place--) {
+            out[place] = out[place - 1];
+        }
+        out[place] = answer;
+    }
+    for (size_t k = 0; k < search->lost.count; k++) {
+        out[count++] = gb_six_tell(chain, search->lost.list[k], true);
+    }
+    return count;
+}
+
+GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out)
+{
+    gb_rigid pose;
+    gb_six_search search;
+    memcpy(pose.translation, target, sizeof pose.translation);
+    memcpy(pose.rotation, target + 3, sizeof pose.rotation);
+    gb_rigid goal = gb_six_after(&pose, &chain->back);
+    for (int i = 0; i < 3; i++) {
+        goal.translation[i] = goal.translation[i] * (R(1.0) / chain->length);
+    }
+    const gb_rigid end = gb_six_after(&goal, &chain->last);
+    search.answers.count = search.lost.count = search.far.count = 0;
+    const size_t runs = gb_six_search_all(chain, &goal, &end, &search);
+    if (runs > 1) {
+        gb_six_walk_from(chain, &end, &search);
+    }
+    /* A run that can be trusted at once has seen no self-motion. */
+    return gb_six_tell_all(chain, &search, runs == 1, out);
+}

@@ -1,0 +1,270 @@
+/* What a robot offers */
+
+/* Moves a target onto its conditions, which it may miss by a little; a code below zero where that is far. */
+static int gb_conform(const gb_real *target, gb_real *conforming)
+{
+    for (int i = 0; i < GB_INPUTS; i++) {
+        conforming[i] = target[i];
+        if (!(gb_magnitude(target[i]) <= GB_GREATEST)) {
+            return GB_NOT_FINITE;
+        }
+    }
+#ifdef GB_CONDITIONS
+    GB_UNROLL
+    for (size_t i = 0; i < sizeof gb_conditions / sizeof gb_conditions[0]; i++) {
+        if (!gb_fulfil_1(gb_conditions[i], conforming)) {
+            return gb_conditions[i].is_rotation ? GB_NOT_ROTATION : GB_NOT_UNIT;
+        }
+    }
+#endif
+    return 0;
+}
+
+/* Walks through the program to the answers to a target with these parameters; 0, or a code below. */
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs)
+{
+    gb_real conforming[GB_INPUTS] = {0};
+    const int code = gb_conform(target, conforming);
+    if (code < 0) {
+        return code;
+    }
+    gb_parameters_1(conforming, p);
+    c->all.problem.mechanism = &gb_this;
+    c->all.problem.p = p;
+    c->all.problem.extras = NULL;
+    c->all.out = c->out = out;
+    c->all.room = GB_CAPACITY;
+    c->all.count = c->all.candidates = c->all.unsound = c->waiting = 0;
+    c->all.is_open = c->all.has_nearest = false;
+    c->pairs = pairs;
+    c->is_usual = c->is_ordinary = true;
+    gb_walk_1(p, c);
+    gb_flush(c);
+    return c->all.is_open ? GB_OPEN_STRATUM : 0;
+}
+
+/* Whether answers are in order as they are. */
+GB_INLINE bool gb_are_settled(const gb_sink_1 *c)
+{
+    bool are_sorted = GB_PREFERRED < 0 && c->all.count <= GB_ISOLATED;
+    for (size_t i = 1; i < c->all.count; i++) {
+        are_sorted &= c->out[i - 1].branch <= c->out[i].branch;
+    }
+    return are_sorted;
+}
+
+int GB_PUBLIC(solve)(const gb_real *target, gb_solution *out)
+{
+    gb_sink_1 c;
+    gb_real p[GB_PARAMETERS];
+    const int code = gb_walk_through(&c, target, p, out, NULL);
+    if (code < 0) {
+        return code;
+    }
+    if (!gb_are_settled(&c)) {
+        gb_settle(&c.all);
+    }
+    return (int)c.all.count;
+}
+
+int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solution *nearest)
+{
+    gb_sink_1 c;
+    gb_real p[GB_PARAMETERS];
+    memset(nearest, 0, sizeof *nearest);
+    nearest->residual = nearest->relative = INFINITY;
+    const int code = gb_walk_through(&c, target, p, out, NULL);
+    if (code < 0) {
+        return code;
+    }
+    gb_settle(&c.all);
+    if (c.all.count == 0 && c.all.has_nearest) {
+        memcpy(nearest->q, c.all.nearest, sizeof nearest->q);
+        nearest->residual = c.all.nearest_fit.residual;
+        nearest->relative = c.all.nearest_fit.relative;
+    }
+    return (int)c.all.count;
+}
+
+/* A solution by cosines and sines. */
+static void gb_pairs_of(const gb_solution *solution, gb_pairs *out)
+{
+    for (int i = 0; i < GB_JOINTS; i++) {
+        out->joints[i][0] = gb_joints[i].is_angle ? gb_cosine(solution->q[i]) : solution->q[i];
+        out->joints[i][1] = gb_joints[i].is_angle ? gb_sine(solution->q[i]) : R(0.0);
+    }
+    out->residual = solution->residual;
+    out->branch = solution->branch;
+    out->free = solution->free;
+}
+
+/* The pairs of what the robot's solve finds. */
+static GB_COLD int gb_solve_by_angles(const gb_real *target, gb_pairs *out)
+{
+    gb_solution list[GB_CAPACITY];
+    const int count = GB_PUBLIC(solve)(target, list);
+    for (int i = 0; i < count; i++) {
+        gb_pairs_of(&list[i], &out[i]);
+    }
+    return count;
+}
+
+int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
+{
+    gb_sink_1 c;
+    gb_real p[GB_PARAMETERS];
+    const int code = gb_walk_through(&c, target, p, NULL, out);
+    if (code < 0) {
+        return code;
+    }
+    if (!c.is_usual || c.all.count > GB_ISOLATED) {
+        return gb_solve_by_angles(target, out);
+    }
+    for (size_t end = 1; end < c.all.count; end++) {
+        for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+            const gb_pairs other = out[i];
+            out[i] = out[i - 1];
+            out[i - 1] = other;
+        }
+    }
+    return (int)c.all.count;
+}
+
+/* All of one target, where there may be less room than solutions: then none is written. */
+static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, gb_pairs *pairs, size_t room)
+{
+    if (room >= GB_CAPACITY) {
+        return solutions ? GB_PUBLIC(solve)(target, solutions) : GB_PUBLIC(solve_pairs)(target, pairs);
+    }
+    union {
+        gb_solution solutions[GB_CAPACITY];
+        gb_pairs pairs[GB_CAPACITY];
+    } list;
+    const int count = solutions ? GB_PUBLIC(solve)(target, list.solutions) : GB_PUBLIC(solve_pairs)(target, list.pairs);
+    if (count > 0 && (size_t)count <= room && solutions) {
+        memcpy(solutions, list.solutions, (size_t)count * sizeof *solutions);
+    } else if (count > 0 && (size_t)count <= room) {
+        memcpy(pairs, list.pairs, (size_t)count * sizeof *pairs);
+    }
+    return count;
+}
+
+#if GB_LANES > 1 && defined(GB_RUNS)
+#define GB_SOLVE_MANY GB_JOIN(gb_solve_many, _, GB_LANES)
+#else
+#define GB_SOLVE_MANY gb_solve_singly
+/* One after the other. */
+static size_t gb_solve_singly(const gb_real *targets, size_t count, gb_solution *solutions, gb_pairs *pairs, size_t room, int *counts)
+{
+    size_t filled = 0;
+    for (size_t done = 0; done < count; done++) {
+        gb_solution *solution = solutions ? solutions + filled : NULL;
+        gb_pairs *pair = pairs ? pairs + filled : NULL;
+        const int found = gb_solve_into(targets + done * GB_INPUTS, solution, pair, room - filled);
+        if (found > 0 && (size_t)found > room - filled) {
+            return done;
+        }
+        counts[done] = found;
+        filled += found > 0 ? (size_t)found : 0;
+    }
+    return count;
+}
+#endif
+
+size_t GB_PUBLIC(solve_batch)(const gb_real *targets, size_t count, gb_solution *out, size_t room, int *counts)
+{
+    return GB_SOLVE_MANY(targets, count, out, NULL, room, counts);
+}
+
+size_t GB_PUBLIC(solve_pairs_batch)(const gb_real *targets, size_t count, gb_pairs *out, size_t room, int *counts)
+{
+    return GB_SOLVE_MANY(targets, count, NULL, out, room, counts);
+}
+
+gb_real GB_PUBLIC(residual)(const gb_real *target, const gb_real *q)
+{
+    gb_real conforming[GB_INPUTS] = {0}, p[GB_PARAMETERS], at[GB_PLACES], values[GB_EQUATIONS], largest = R(0.0);
+    const gb_problem problem = {&gb_this, p, NULL};
+    if (GB_EXTRAS || gb_conform(target, conforming) < 0) {
+        return NAN;
+    }
+    gb_parameters_1(conforming, p);
+    gb_place(&problem, q, at);
+    gb_values_of(p, at, values);
+    for (int i = 0; i < GB_EQUATIONS; i++) {
+        if (isnan(values[i])) {
+            return NAN;
+        }
+        largest = gb_larger(largest, gb_magnitude(values[i]));
+    }
+    return largest;
+}
+
+bool GB_PUBLIC(forward)(const gb_real *q, gb_real *target)
+{
+#ifdef GB_REACHED
+    static const gb_reached reached[GB_INPUTS] = {GB_REACHED};
+    const gb_problem problem = {&gb_this, NULL, NULL};
+    gb_real at[GB_PLACES], tip[GB_EQUATIONS];
+    gb_place(&problem, q, at);
+    gb_tip_1(at, tip);
+    for (int i = 0; i < GB_INPUTS; i++) {
+        const size_t first = reached[i].of[0], second = reached[i].of[1];
+        if (reached[i].kind == GB_AS_JOINT) {
+            target[i] = q[first];
+        } else if (reached[i].kind == GB_AS_VALUE) {
+            target[i] = tip[first];
+        } else {
+            target[i] = gb_unfold_1(gb_acute_1(gb_magnitude(tip[first]), gb_magnitude(tip[second])), tip[first], tip[second]);
+        }
+    }
+    return true;
+#else
+    (void)q;
+    (void)target;
+    return false;
+#endif
+}
+
+void GB_PUBLIC(target_of)(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target)
+{
+    gb_target_of(base, tool, pose, target);
+}
+
+size_t GB_PUBLIC(count_turns)(const gb_real *q, const gb_real *limits)
+{
+    return gb_count_turns(&gb_this, q, limits);
+}
+
+void GB_PUBLIC(turn)(const gb_real *q, const gb_real *limits, size_t index, gb_real *out)
+{
+    gb_turn(&gb_this, q, limits, index, out);
+}
+
+int GB_PUBLIC(solve_within)(const gb_real *target, const gb_real *limits, gb_solution *out)
+{
+    gb_real conforming[GB_INPUTS] = {0}, p[GB_PARAMETERS];
+    gb_answers all;
+    const int count = GB_PUBLIC(solve)(target, out);
+    if (count <= 0) {
+        return count;
+    }
+    memset(&all, 0, sizeof all);
+    gb_conform(target, conforming);
+    gb_parameters_1(conforming, p);
+    all.problem.mechanism = &gb_this;
+    all.problem.p = p;
+    all.out = out;
+    all.count = (size_t)count;
+    return (int)gb_keep_within(&all, limits);
+}
+
+int GB_PUBLIC(nearest)(const gb_solution *list, int count, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q)
+{
+    gb_answers all;
+    memset(&all, 0, sizeof all);
+    all.problem.mechanism = &gb_this;
+    all.out = (void *)list;
+    all.count = count > 0 ? (size_t)count : 0;
+    return gb_nearest(&all, reference, weights, limits, q);
+}

@@ -1,0 +1,78 @@
+/* The next type of number. */
+
+#if !defined(GB_WIDTH)
+#define GB_WIDTH 1
+#elif GB_WIDTH == 1 && GB_LANES > 1
+#undef GB_WIDTH
+#define GB_WIDTH 2
+#elif GB_WIDTH > 1 && GB_WIDTH < GB_LANES
+#undef GB_WIDTH
+#define GB_WIDTH GB_LANES
+#else
+#undef GB_WIDTH
+#define GB_WIDTH 0
+#endif
+
+#ifndef GB_DEFAULTS
+#define GB_DEFAULTS
+
+/* The type or function with this name for the type of number of which it is the turn, and that type. */
+#define GB_(name) GB_JOIN(gb_##name, _, GB_WIDTH)
+#define T GB_(number)
+/* A block where a rare case leads to it: it is not put in that place. */
+#define GB_RARELY(block, parameters, ...) \
+    static GB_COLD void GB_(rarely_##block) parameters { GB_(block)(__VA_ARGS__); }
+
+/* What a robot's file does not define of its facts. */
+#ifndef GB_DEGREE
+#define GB_DEGREE 2
+#endif
+#ifndef GB_ISOLATED
+#define GB_ISOLATED SIZE_MAX
+#endif
+#ifndef GB_EXTRAS
+#define GB_EXTRAS false
+#endif
+#ifndef GB_PREFERRED
+#define GB_PREFERRED (-1)
+#define GB_PREFERS_GREATEST false
+#endif
+#ifndef GB_TWINS
+#define GB_TWINS 1
+#endif
+
+GB_ASSERT(joints_have_room_in_groebot_c, GB_JOINTS <= GB_MAX_JOINTS && GB_JOINTS <= 32);
+GB_ASSERT(places_have_room_in_groebot_c, GB_PLACES <= GB_MAX_PLACES);
+GB_ASSERT(equations_have_room_in_groebot_c, GB_EQUATIONS <= GB_MAX_EQUATIONS);
+GB_ASSERT(sizes_have_room_in_groebot_c, GB_SIZES <= GB_MAX_SIZES);
+GB_ASSERT(candidates_are_even, GB_CANDIDATES % 2 == 0);
+
+static const gb_joint gb_joints[GB_JOINTS] = {GB_JOINT_LIST};
+static const unsigned char gb_last_first[GB_JOINTS] = {GB_LAST_FIRST};
+static const unsigned char gb_size_of[GB_EQUATIONS] = {GB_SIZE_OF};
+#ifdef GB_TURNED
+static const unsigned char gb_turned[] = {GB_TURNED};
+#endif
+#ifdef GB_COMPARED
+static const unsigned char gb_compared[GB_EQUATIONS] = {GB_COMPARED};
+#endif
+#ifdef GB_CONDITIONS
+static const gb_condition gb_conditions[] = {GB_CONDITIONS};
+#endif
+#ifdef GB_RUNS
+GB_UNUSED static const unsigned char gb_runs[GB_JOINTS] = {GB_RUNS};
+#endif
+
+#define GB_PUBLIC(name) GB_JOIN(GB_ROBOT, _, name)
+typedef GB_PUBLIC(solution) gb_solution;
+typedef GB_PUBLIC(pairs) gb_pairs;
+
+/* Angles differ by more than GB_BLUR where their difference has a cosine below this. */
+#define GB_FAR_APART (R(1.0) - R(0.52) * GB_BLUR * GB_BLUR)
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#endif
+#endif

@@ -1,0 +1,59 @@
+//! One target: [`solve_one`], [`solve_one_by_pairs`].
+
+use crate::answers::Answers;
+use crate::conditions::conform;
+use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
+use crate::problem::Problem;
+use crate::solution::{Error, Pairs, Solution};
+use crate::storage::Array;
+use crate::trigonometry::{cosine, sine};
+
+/// As [`crate::Solve::solve`].
+#[inline]
+pub(crate) fn solve_one<M: Mechanism>(
+    mechanism: &M,
+    target: &Inputs<M>,
+    out: &mut [Solution<M>],
+) -> Result<usize, Error> {
+    let mut target = target.clone();
+    conform(mechanism.facts().conditions, target.as_mut())?;
+    let p = mechanism.parameters(&target);
+    let mut answers = Answers::new(Problem::new(mechanism, &p), out, None);
+    answers.find()?;
+    answers.conclude();
+    Ok(answers.count)
+}
+
+/// As [`crate::Solve::solve_pairs`].
+pub(crate) fn solve_one_by_pairs<M: Mechanism>(
+    mechanism: &M,
+    target: &Inputs<M>,
+    out: &mut [Pairs<M>],
+) -> Result<usize, Error> {
+    let mut conforming = target.clone();
+    conform(mechanism.facts().conditions, conforming.as_mut())?;
+    let p = mechanism.parameters(&conforming);
+    let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
+    answers.find()?;
+    let (count, are_all) = (answers.count, answers.are_all_pairs());
+    if are_all {
+        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+        return Ok(count);
+    }
+    let mut list: Answered<M, Solution<M>> = Array::by(mechanism.facts().capacity, |_| Solution::empty(mechanism));
+    let count = solve_one(mechanism, target, list.as_mut())?.min(out.len());
+    for (pairs, solution) in out.iter_mut().zip(list.as_ref()).take(count) {
+        *pairs = pairs_of(mechanism, solution);
+    }
+    Ok(count)
+}
+
+/// A solution by cosines and sines.
+pub(crate) fn pairs_of<M: Mechanism>(mechanism: &M, solution: &Solution<M>) -> Pairs<M> {
+    let facts = mechanism.facts();
+    let joints = Array::by(facts.joints.len(), |i| {
+        let value = solution.q.as_ref()[i];
+        if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
+    });
+    Pairs { joints, residual: solution.residual, branch: solution.branch, free: solution.free }
+}
