@@ -252,12 +252,18 @@ impl<'a, M: Mechanism> Answers<'a, M> {
 
     /// Writes a candidate that holds if there is room, and it is apart from others.
     #[inline(always)]
-    fn write_apart(&mut self, mut others: Range<usize>, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
-        let is_apart = self.count < self.out.len() && others.all(|other| self.are_apart(k, other));
-        if is_apart {
+    fn write_apart(&mut self, others: Range<usize>, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
+        // A loop, for what an iterator is given is not inlined here.
+        for other in others {
+            if !self.are_apart(k, other) {
+                return false;
+            }
+        }
+        let has_room = self.count < self.out.len();
+        if has_room {
             self.write(&self.found.as_ref()[k].clone(), q.clone(), fit);
         }
-        is_apart
+        has_room
     }
 
     /// Writes an answer behind the others.
@@ -312,8 +318,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
                     Joint::Length(place) => [self.at.as_ref()[place].as_ref()[k], 0.0],
                 }
             });
-            let is_apart = |other: &Pairs<M>| other.branch != branch && tell_apart::<M>(&facts, &joints, &other.joints);
-            self.usual &= holds && self.count < pairs.len() && pairs[..self.count].iter().all(is_apart);
+            self.usual &= holds && self.count < pairs.len();
+            for other in &pairs[..self.count] {
+                self.usual &= other.branch != branch && tell_apart::<M>(&facts, &joints, &other.joints);
+            }
             if !self.usual {
                 return;
             }
@@ -347,5 +355,10 @@ fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut A
 #[inline(always)]
 fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
     let (a, b) = (a.as_ref(), b.as_ref());
-    facts.last_first.iter().any(|&i| facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART)
+    for &i in facts.last_first {
+        if facts.joints[i].is_angle() && a[i][0] * b[i][0] + a[i][1] * b[i][1] < FAR_APART {
+            return true;
+        }
+    }
+    false
 }
