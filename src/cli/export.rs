@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// A robot of this crate by its name, or the one that a file describes.
-fn described(robot: &Path) -> Result<(Robot, Meshes)> {
+pub(super) fn described(robot: &Path) -> Result<(Robot, Meshes)> {
     if let Some(known) = robot.to_str().and_then(robots::robot) {
         return Ok((known, Meshes::default()));
     }

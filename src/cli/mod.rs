@@ -15,6 +15,7 @@ mod check;
 mod codegen;
 mod console;
 mod derive;
+mod dynamics;
 mod ends;
 mod explain;
 mod export;
@@ -79,6 +80,7 @@ enum Command {
     Fk(fk::Arguments),
     Basis(basis::Arguments),
     Walk(walk::Arguments),
+    Dynamics(dynamics::Arguments),
     Export(export::Arguments),
     Follow(follow::Arguments),
 }
@@ -126,6 +128,7 @@ pub fn run() -> ExitCode {
         Command::Fk(arguments) => fk::run(arguments),
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
+        Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Follow(arguments) => follow::run(arguments),
     };

@@ -4,12 +4,22 @@
 //! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
 
 mod clearance;
+mod data;
+mod equations;
 mod lagrange;
 mod model;
 mod momentum;
 mod placed;
+mod scalar;
+mod six;
+mod tree;
 
 pub use clearance::{Clearance, Touch};
+pub use data::{Data, Matrices, Motion};
+pub use equations::{Base, Equations, State, Workspace};
 pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;
 pub use placed::Placed;
+pub use scalar::{Divisible, Dual, Scalar};
+pub use six::{Frame, Mass, Six};
+pub use tree::{Body, Freedom, Place, Tree};

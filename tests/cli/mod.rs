@@ -7,6 +7,7 @@ mod codegen;
 mod committed;
 mod coupled;
 mod derive;
+mod dynamics;
 mod explain;
 mod export;
 mod fk;

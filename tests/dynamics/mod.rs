@@ -2,6 +2,7 @@
 
 mod clearance;
 mod coriolis;
+mod equations;
 mod lagrange;
 mod placed;
 

@@ -1,0 +1,120 @@
+//! What the recursions of dynamics compute with. Main type: [`Scalar`].
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number of the recursions: a double, a [dual number](Dual), or whatever else is added and multiplied.
+pub trait Scalar: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    /// Nought.
+    fn zero() -> Self;
+    /// One.
+    fn one() -> Self;
+    /// Half of it.
+    #[must_use]
+    fn half(&self) -> Self;
+}
+
+/// A number that divides, as forward dynamics asks for.
+pub trait Divisible: Scalar + Div<Output = Self> {}
+
+impl<S: Scalar + Div<Output = S>> Divisible for S {}
+
+impl Scalar for f64 {
+    fn zero() -> f64 {
+        0.0
+    }
+
+    fn one() -> f64 {
+        1.0
+    }
+
+    fn half(&self) -> f64 {
+        0.5 * self
+    }
+}
+
+impl Scalar for f32 {
+    fn zero() -> f32 {
+        0.0
+    }
+
+    fn one() -> f32 {
+        1.0
+    }
+
+    fn half(&self) -> f32 {
+        0.5 * self
+    }
+}
+
+/// A number and its derivative along one direction: what is computed of it carries both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<S> {
+    /// The number.
+    pub value: S,
+    /// Its derivative.
+    pub slope: S,
+}
+
+impl<S: Scalar> Dual<S> {
+    /// A number that does not change.
+    pub fn constant(value: S) -> Self {
+        Dual { value, slope: S::zero() }
+    }
+}
+
+impl<S: Scalar> Add for Dual<S> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Dual { value: self.value + other.value, slope: self.slope + other.slope }
+    }
+}
+
+impl<S: Scalar> Sub for Dual<S> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Dual { value: self.value - other.value, slope: self.slope - other.slope }
+    }
+}
+
+impl<S: Scalar> Mul for Dual<S> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let slope = self.value.clone() * other.slope + self.slope * other.value.clone();
+        Dual { value: self.value * other.value, slope }
+    }
+}
+
+impl<S: Divisible> Div for Dual<S> {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value.clone();
+        let slope = (self.slope - value.clone() * other.slope) / other.value;
+        Dual { value, slope }
+    }
+}
+
+impl<S: Scalar> Neg for Dual<S> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Dual { value: -self.value, slope: -self.slope }
+    }
+}
+
+impl<S: Scalar> Scalar for Dual<S> {
+    fn zero() -> Self {
+        Dual::constant(S::zero())
+    }
+
+    fn one() -> Self {
+        Dual::constant(S::one())
+    }
+
+    fn half(&self) -> Self {
+        Dual { value: self.value.half(), slope: self.slope.half() }
+    }
+}

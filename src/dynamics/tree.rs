@@ -1,0 +1,149 @@
+//! A robot for recursions: bodies in frames of their own, whose z axes are the joints' axes. Main type: [`Tree`].
+
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+
+use super::Model;
+use super::scalar::Scalar;
+use super::six::{Frame, Mass, Matrix, Three};
+use crate::spatial::{Inertia, Pose, Screw};
+
+/// How a body moves against its parent: about or along the z axis of its own frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// It turns.
+    Turn,
+    /// It slides.
+    Slide,
+}
+
+/// A body behind a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body<S> {
+    /// The joint that carries its parent; none where that is the base.
+    pub parent: Option<usize>,
+    /// How it moves.
+    pub freedom: Freedom,
+    /// Where its frame stands in its parent's when the joint is at zero.
+    pub frame: Frame<S>,
+    /// What it weighs.
+    pub mass: Mass<S>,
+}
+
+/// A base and bodies behind joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree<S> {
+    /// What the base weighs, in its own frame.
+    pub base: Mass<S>,
+    /// By joint, the body behind it.
+    pub bodies: Vec<Body<S>>,
+    /// The joints, each behind those that carry it.
+    pub order: Vec<usize>,
+}
+
+/// What a joint's value is to the recursions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place<S> {
+    /// The cosine and the sine of an angle.
+    Turn([S; 2]),
+    /// A way.
+    Slide(S),
+}
+
+impl Place<f64> {
+    /// That of a joint's value \[rad or m\].
+    pub fn of(freedom: Freedom, value: f64) -> Self {
+        match freedom {
+            Freedom::Turn => Place::Turn([value.cos(), value.sin()]),
+            Freedom::Slide => Place::Slide(value),
+        }
+    }
+}
+
+impl<S: Scalar> Body<S> {
+    /// Where the body's frame stands in its parent's when the joint is at a place.
+    pub(super) fn placed(&self, place: &Place<S>) -> Frame<S> {
+        let (rotation, position) = (&self.frame.rotation, &self.frame.position);
+        match place {
+            Place::Turn([cosine, sine]) => {
+                let row = |r: &Three<S>| {
+                    let [x, y, z] = r.clone();
+                    let first = x.clone() * cosine.clone() + y.clone() * sine.clone();
+                    [first, y * cosine.clone() - x * sine.clone(), z]
+                };
+                Frame { rotation: std::array::from_fn(|i| row(&rotation[i])), position: position.clone() }
+            }
+            Place::Slide(way) => {
+                let moved = |i: usize| position[i].clone() + rotation[i][2].clone() * way.clone();
+                Frame { rotation: rotation.clone(), position: std::array::from_fn(moved) }
+            }
+        }
+    }
+}
+
+impl Tree<f64> {
+    /// That of a model.
+    pub fn new(model: &Model) -> Self {
+        let mut frames = vec![Pose::identity(); model.joints().len()];
+        let mut bodies: Vec<Option<Body<f64>>> = vec![None; model.joints().len()];
+        for &joint in &model.order {
+            let own = &model.joints()[joint];
+            let parent = own.parent.checked_sub(1);
+            let base_from_parent = parent.map_or_else(Pose::identity, |parent| frames[parent]);
+            let (freedom, base_from_body) = frame_of(&own.screw, &base_from_parent);
+            frames[joint] = base_from_body;
+            bodies[joint] = Some(Body {
+                parent,
+                freedom,
+                frame: frame(&base_from_parent.inv_mul(&base_from_body)),
+                mass: mass(&model.bodies[joint + 1].placed(&base_from_body.inverse())),
+            });
+        }
+        Tree {
+            base: mass(&model.bodies[0]),
+            bodies: bodies.into_iter().flatten().collect(),
+            order: model.order.clone(),
+        }
+    }
+}
+
+/// How a joint moves, and a frame of its body in the base frame, its z axis the joint's: turned as the parent's is as far as that goes.
+fn frame_of(screw: &Screw, base_from_parent: &Pose) -> (Freedom, Pose) {
+    let (freedom, direction, origin) = match screw {
+        Screw::Prismatic(direction) => (Freedom::Slide, *direction, base_from_parent.translation.vector),
+        Screw::Revolute(axis) => (Freedom::Turn, axis.direction(), axis.point().coords),
+    };
+    let along = base_from_parent.inverse_transform_unit_vector(&direction);
+    let rotation = base_from_parent.rotation * nalgebra::UnitQuaternion::from_matrix(&upright(&along));
+    (freedom, Pose::from_parts(origin.into(), rotation))
+}
+
+/// A rotation whose last column is a direction: of the coordinate axes where it is one, so that most of its entries are zero.
+fn upright(direction: &UnitVector3<f64>) -> Matrix3<f64> {
+    let farthest = direction.iamax();
+    let across = Vector3::ith((farthest + 1) % 3, 1.0);
+    let first = (across - direction.into_inner() * across.dot(direction)).normalize();
+    Matrix3::from_columns(&[first, direction.cross(&first), direction.into_inner()])
+}
+
+fn frame(pose: &Pose) -> Frame<f64> {
+    let rotation = pose.rotation.to_rotation_matrix();
+    let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
+    let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    Frame { rotation, position: std::array::from_fn(|i| pose.translation.vector[i]) }
+}
+
+/// A rotation's entry, a whole one where rounding alone keeps it from that.
+fn rounded(entry: f64) -> f64 {
+    if (entry - entry.round()).abs() <= 4.0 * f64::EPSILON { entry.round() } else { entry }
+}
+
+/// A body's ten numbers about the origin of the frame that it is told in.
+fn mass(inertia: &Inertia) -> Mass<f64> {
+    let generalised = inertia.generalised();
+    let entry = |i: usize, j: usize| generalised[(3 + i, 3 + j)];
+    Mass {
+        mass: inertia.mass(),
+        moment: (inertia.centre_of_mass().coords * inertia.mass()).into(),
+        tensor: [entry(0, 0), entry(1, 0), entry(1, 1), entry(2, 0), entry(2, 1), entry(2, 2)],
+    }
+}

@@ -1,0 +1,126 @@
+//! `groebot dynamics` on arms of rods whose equations of motion stand in textbooks.
+
+use std::fs;
+use std::path::PathBuf;
+
+use tempfile::{TempDir, tempdir};
+
+use super::{refused, run, succeed, text};
+
+/// Two rods of 2 kg and 1 m that turn about y in a row, their inertia about their centres 0.2 kg m^2. The elbow has friction.
+const ARM: &str = r#"<robot name="arm">
+  <link name="world"/>
+  <link name="upper"><inertial><origin xyz="0.5 0 0"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.2"/></inertial></link>
+  <link name="lower"><inertial><origin xyz="0.5 0 0"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.2"/></inertial></link>
+  <link name="tool"/>
+  <joint name="shoulder" type="continuous"><parent link="world"/><child link="upper"/><axis xyz="0 1 0"/></joint>
+  <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/><dynamics damping="3" friction="0.5"/></joint>
+  <joint name="tip" type="fixed"><parent link="lower"/><child link="tool"/><origin xyz="1 0 0"/></joint>
+</robot>"#;
+
+struct Files {
+    _folder: TempDir,
+    robot: PathBuf,
+    states: PathBuf,
+}
+
+fn files(robot: &str, states: &str) -> Files {
+    let folder = tempdir().unwrap();
+    let files =
+        Files { robot: folder.path().join("robot.urdf"), states: folder.path().join("states.csv"), _folder: folder };
+    fs::write(&files.robot, robot).unwrap();
+    fs::write(&files.states, states).unwrap();
+    files
+}
+
+/// The rows of the table as numbers, by name.
+fn table(text: &str) -> Vec<Vec<(String, f64)>> {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        names.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(|x| x.parse().unwrap())).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn at(row: &[(String, f64)], name: &str) -> f64 {
+    row.iter().find(|(other, _)| other == name).unwrap_or_else(|| panic!("{name}")).1
+}
+
+/// The planar arm of two rods: M. W. Spong, S. Hutchinson and M. Vidyasagar, Robot Modeling and Control (2006), section 7.4.
+#[test]
+fn two_rods_move_as_the_textbook_says() {
+    let files = files(ARM, "q0,q1,v0,v1,a0,a1\n0.3,0.7,0.5,-0.4,1.5,2.5\n");
+    let [robot, states] = [text(&files.robot), text(&files.states)];
+    let rows = table(&succeed(&["dynamics", robot, "--states", states, "--no-friction"]));
+    let row = &rows[0];
+    let (c, s) = (0.7_f64.cos(), 0.7_f64.sin());
+    let corner = 2.0 * 0.25 + 0.2;
+    let inertia = [corner + corner + 2.0 * (1.0 + c), corner + c, corner];
+    // Gravity pulls along -z; a turn about y by q takes x to -z: the height of a point at x is -x sin q.
+    let pull = 2.0 * 9.81;
+    let gravity = [-pull * (1.5 * 0.3_f64.cos() + 0.5 * 1.0_f64.cos()), -pull * 0.5 * 1.0_f64.cos()];
+    let coriolis = [[-s * -0.4, -s * (0.5 - 0.4)], [s * 0.5, 0.0]];
+    let near = |name: &str, expected: f64| {
+        let found = at(row, name);
+        assert!((found - expected).abs() < 1e-12, "{name}: {found}, {expected}");
+    };
+    ["M0_0", "M1_0", "M1_1"].iter().zip(inertia).for_each(|(name, expected)| near(name, expected));
+    ["C0_0", "C0_1", "C1_0", "C1_1"].iter().zip(coriolis.concat()).for_each(|(name, expected)| near(name, expected));
+    ["g0", "g1"].iter().zip(gravity).for_each(|(name, expected)| near(name, expected));
+    let torque = |i: usize| {
+        let [m00, m10, m11] = inertia;
+        let m = [[m00, m10], [m10, m11]][i];
+        m[0] * 1.5 + m[1] * 2.5 + coriolis[i][0] * 0.5 + coriolis[i][1] * -0.4 + gravity[i]
+    };
+    (near("tau0", torque(0)), near("tau1", torque(1)));
+    (near("qdd0", 1.5), near("qdd1", 2.5));
+
+    // Friction acts against the elbow's motion; torques that are given are what moves.
+    let row = &table(&succeed(&["dynamics", robot, "--states", states]))[0];
+    assert!((at(row, "tau1") - (torque(1) - 3.0 * 0.4 - 0.5)).abs() < 1e-12);
+    assert!((at(row, "qdd1") - 2.5).abs() < 1e-12);
+}
+
+#[test]
+fn given_torques_a_free_root_and_a_part_of_the_robot() {
+    // At rest, without gravity, a force of 8 N along x moves 4 kg of a straight arm so.
+    let free =
+        "q0,q1,q2,q3,q4,q5,q6,q7,q8,tau0,tau1,tau2,tau3,tau4,tau5,tau6,tau7\n1,2,3,0,0,0,1,0,0,8,0,0,0,0,0,0,0\n";
+    let files_free = files(ARM, free);
+    let [robot, states] = [text(&files_free.robot), text(&files_free.states)];
+    let json = succeed(&["dynamics", robot, "--states", states, "--gravity", "0,0,0", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((&report["format"], &report["floating"]), (&1.into(), &true.into()));
+    assert_eq!(report["joints"], serde_json::json!(["shoulder", "elbow"]));
+    assert!((report["states"][0]["qdd"][0].as_f64().unwrap() - 2.0).abs() < 1e-12);
+
+    // The elbow alone, seen from the upper rod: a rod about its end.
+    let part = files(ARM, "q0\n0\n");
+    let [robot, states] = [text(&part.robot), text(&part.states)];
+    let rows = table(&succeed(&["dynamics", robot, "--base", "upper", "--tip", "tool", "--states", states]));
+    assert_eq!(rows[0].len(), 5);
+    assert!((at(&rows[0], "M0_0") - 0.7).abs() < 1e-12 && (at(&rows[0], "g0") + 9.81).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_no_table_of_states_is_refused() {
+    let refuse = |states: &str| {
+        let files = files(ARM, states);
+        refused(&["dynamics", text(&files.robot), "--states", text(&files.states)])
+    };
+    assert!(refuse("q0,q1,w0\n0,0,0\n").contains("give the names q0, q1"));
+    assert!(refuse("q0,q2\n0,0\n").contains("each list whole"));
+    assert!(refuse("q0,q1,q2\n0,0,0\n").contains("the robot has 2 independent joints (shoulder, elbow)"));
+    assert!(refuse("q0,q1\n0,zero\n").contains("`zero` is no number"));
+    assert!(refuse("q0,q1\n0,inf\n").contains("q1 is inf"));
+    assert!(refuse("q0,q1\n0\n").contains("states.csv"));
+    assert!(refuse("q0,q1,v0\n0,0,1\n").contains("velocity: 1 numbers are given, the robot has 2"));
+    let files = files(ARM, "q0,q1\n0,0\n");
+    let ends = ["--base", "lower", "--tip", "upper"];
+    let told = refused(&[&["dynamics", text(&files.robot), "--states", text(&files.states)][..], &ends].concat());
+    assert!(told.contains("link `lower` is not above link `upper`"), "{told}");
+    let gravity = ["dynamics", text(&files.robot), "--states", text(&files.states), "--gravity", "0,1"];
+    let usage = run(&gravity);
+    assert!(usage.code == 2 && usage.err.contains("three finite numbers"), "{}", usage.err);
+}
