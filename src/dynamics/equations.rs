@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 
 use super::Model;
+use super::articulated::{self, Articulation, Cause, Massless};
 use super::data::{Data, Matrices, Motion};
 use super::six::Six;
 use super::tree::{Place, Tree};
@@ -42,6 +43,8 @@ pub struct Equations {
     /// In the frame of the root at the zero configuration.
     gravity: Vector3<f64>,
     names: Vec<String>,
+    /// By independent joint, the link behind it.
+    links: Vec<String>,
     drives: Vec<Drive>,
 }
 
@@ -58,6 +61,9 @@ pub struct State<'a> {
 #[derive(Clone, Debug)]
 pub struct Workspace {
     data: Data<f64>,
+    articulation: Articulation<f64>,
+    /// By joint, its rotor's inertia.
+    rotors: Vec<f64>,
     /// By joint, its rate, what that changes by, and its torque.
     rates: Vec<f64>,
     accelerations: Vec<f64>,
@@ -77,14 +83,16 @@ impl Equations {
             let weighs = inertia.generalised().iter().any(|entry| *entry != 0.0);
             if weighs {
                 let checked = Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational());
-                checked.map_err(|error| error.with_context(&format!("link `{}`", link.name)))?;
+                checked.map_err(|error| error.with_context(format!("link `{}`", link.name)))?;
             }
         }
         let model = Model::new(robot)?;
         let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
         let laws: Vec<_> = moving.iter().map(|joint| robot.law(joint)).collect();
         let leads = |(joint, law): &(&&Joint, &crate::model::Mimic)| law.leader == joint.name;
-        let names: Vec<String> = moving.iter().zip(&laws).filter(leads).map(|(joint, _)| joint.name.clone()).collect();
+        let leading = || moving.iter().zip(&laws).filter(leads).map(|(joint, _)| joint);
+        let names: Vec<String> = leading().map(|joint| joint.name.clone()).collect();
+        let links = leading().map(|joint| joint.child.clone()).collect();
         let drive = |(joint, law): (&&Joint, &crate::model::Mimic)| {
             let [factor, offset] = law.law();
             let unknown =
@@ -94,7 +102,7 @@ impl Equations {
             Ok(Drive { freedom, factor, offset, armature, damping, friction })
         };
         let drives = moving.iter().zip(&laws).map(drive).collect::<Result<_>>()?;
-        Ok(Equations { tree: Tree::new(&model), base, gravity: Vector3::new(0.0, 0.0, -9.81), names, drives })
+        Ok(Equations { tree: Tree::new(&model), base, gravity: Vector3::new(0.0, 0.0, -9.81), names, links, drives })
     }
 
     /// The same under another gravity \[m/s^2\].
@@ -132,6 +140,8 @@ impl Equations {
         let size = joints + if self.base == Base::Floating { 6 } else { 0 };
         Workspace {
             data: Data::new(&self.tree),
+            articulation: Articulation::new(&self.tree),
+            rotors: vec![0.0; joints],
             rates: vec![0.0; joints],
             accelerations: vec![0.0; joints],
             torques: vec![0.0; joints],
@@ -210,25 +220,67 @@ impl Equations {
     /// Forward dynamics: what torques (of a floating base first a force and a moment on it, in its own frame) change the velocity by.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], and where the inertia matrix is singular: bodies without mass would have to move, with the joint's name.
+    /// As [`Equations::inverse`], and where bodies without mass would have to move, with the names of the link and its joint.
     pub fn forward(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<DVector<f64>> {
         self.check(state, Some(("torques", torques)))?;
+        let leads = |(at, drive): (usize, &Drive)| drive.freedom == at && drive.factor == 1.0;
+        if self.drives.iter().enumerate().all(leads) {
+            self.forward_by_bodies(room, state, torques)
+        } else {
+            self.forward_by_inertia(room, state, torques)
+        }
+    }
+
+    /// By articulated bodies, where each joint is on its own.
+    fn forward_by_bodies(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<DVector<f64>> {
+        let first = self.first();
+        self.place(room, state.q);
+        // What the velocity stands for here changes by nothing but gravity.
+        self.set_in_motion(room, state, &vec![0.0; self.freedoms()], true);
+        let Workspace { data, articulation, rates, accelerations, torques: own, rotors, motion, .. } = room;
+        for (joint, drive) in self.drives.iter().enumerate() {
+            let friction = drive.damping * rates[joint] + drive.friction * sign(rates[joint]);
+            (own[joint], rotors[joint]) = (torques[first + joint] - friction, drive.armature);
+        }
+        let [base, pull] = *motion;
+        let base_cause = match self.base {
+            Base::Fixed => Cause::Acceleration(pull),
+            Base::Floating => Cause::Force(Six {
+                linear: std::array::from_fn(|i| torques[i]),
+                angular: std::array::from_fn(|i| torques[3 + i]),
+            }),
+        };
+        let moving = articulated::Drive { base, base_cause, rates, torques: own, rotors };
+        let found = articulation.forward(&self.tree, data, &moving, |pivot| *pivot > 0.0, accelerations);
+        let of_base = found.map_err(|Massless(joint)| self.massless(joint))?;
+        let mut changes = DVector::zeros(self.freedoms());
+        (0..first).for_each(|at| changes[at] = of_base.at(at) - pull.at(at));
+        changes.rows_mut(first, accelerations.len()).copy_from_slice(accelerations);
+        Ok(changes)
+    }
+
+    /// By the inertia matrix, where joints follow others.
+    fn forward_by_inertia(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<DVector<f64>> {
         let still = vec![0.0; self.freedoms()];
         let missing = DVector::from_column_slice(torques) - self.inverse(room, state, &still)?;
         let inertia = self.inertia(room, state.q)?;
-        // The entry that decomposition finds nothing left of tells the joint.
-        let massless =
-            (0..inertia.nrows()).find(|&at| inertia.view((0, 0), (at + 1, at + 1)).into_owned().cholesky().is_none());
-        match (inertia.cholesky(), massless) {
-            (Some(factors), None) => Ok(factors.solve(&missing)),
-            (_, at) => {
-                let joint = at.and_then(|at| at.checked_sub(self.first())).map(|joint| &self.names[joint]);
-                let name = joint.map_or_else(|| "the base".to_owned(), |name| format!("joint `{name}`"));
-                let text =
-                    format!("{name} moves no mass, and torques would move it without limit; give its links masses");
-                Err(Error::new(ErrorKind::BadValue, text))
-            }
+        let block = |at: usize| inertia.view((0, 0), (at + 1, at + 1)).into_owned();
+        let massless = (0..inertia.nrows()).find(|&at| block(at).cholesky().is_none());
+        match (massless, inertia.clone().cholesky()) {
+            (None, Some(factors)) => Ok(factors.solve(&missing)),
+            (at, _) => Err(self.massless(at.and_then(|at| at.checked_sub(self.first())))),
         }
+    }
+
+    fn massless(&self, joint: Option<usize>) -> Error {
+        let text = match joint {
+            Some(joint) => format!(
+                "link `{}` behind joint `{}` and what it carries have no mass that the joint moves, and torques would move it without limit; give masses",
+                self.links[joint], self.names[joint]
+            ),
+            None => "the base and what it carries have no mass that torques move; give masses".to_owned(),
+        };
+        Error::new(ErrorKind::BadValue, text)
     }
 
     /// Where the joints stand among the freedoms.

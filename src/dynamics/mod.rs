@@ -3,6 +3,7 @@
 //! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
 //! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
 
+mod articulated;
 mod clearance;
 mod data;
 mod equations;
@@ -14,6 +15,7 @@ mod scalar;
 mod six;
 mod tree;
 
+pub use articulated::{Articulation, Cause, Drive, Massless};
 pub use clearance::{Clearance, Touch};
 pub use data::{Data, Matrices, Motion};
 pub use equations::{Base, Equations, State, Workspace};

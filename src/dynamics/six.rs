@@ -63,6 +63,10 @@ impl<S: Scalar> Six<S> {
         Six { linear: add(&self.linear, &other.linear), angular: add(&self.angular, &other.angular) }
     }
 
+    pub(super) fn scaled(&self, factor: &S) -> Self {
+        Six { linear: scaled(&self.linear, factor), angular: scaled(&self.angular, factor) }
+    }
+
     pub(super) fn half(&self) -> Self {
         let halved = |a: &Three<S>| std::array::from_fn(|i| a[i].half());
         Six { linear: halved(&self.linear), angular: halved(&self.angular) }
