@@ -47,6 +47,9 @@ pub struct Arguments {
     /// Leave the friction of joints out
     #[arg(long)]
     no_friction: bool,
+    /// Take inertias that no body has as they are told
+    #[arg(long)]
+    as_told: bool,
     /// Where the table goes; standard output without it
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -92,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = between(&robot, arguments)?;
     let table = Table::read(&arguments.states)?;
-    let report = report(&robot, gravity, arguments, &table).map_err(|error| error.in_file(&arguments.states))?;
+    let report = report(&robot, gravity, arguments, &table)?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
     match &arguments.out {
         Some(file) => Ok(write_atomically(file, text.as_bytes())?),
@@ -138,14 +141,18 @@ fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Vector3<f64>)
 
 fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &Table) -> Result<Report> {
     let (count, moving) = (table.q, robot.moving().len());
-    let leading = Equations::new(robot, Base::Fixed)?.joints().len();
+    let new = |robot: &Robot, base| {
+        let new = if arguments.as_told { Equations::as_told } else { Equations::new };
+        new(robot, base).map_err(|error| error.in_file(&arguments.robot))
+    };
+    let leading = new(robot, Base::Fixed)?.joints().len();
     // A table may tell of joints that follow others, too: then each is on its own.
     let all =
         if [moving, moving + 7].contains(&count) && moving > leading { Some(without_followers(robot)?) } else { None };
     let robot = all.as_ref().unwrap_or(robot);
-    let joints = Equations::new(robot, Base::Fixed)?.joints().to_vec();
+    let joints = new(robot, Base::Fixed)?.joints().to_vec();
     let base = if count == joints.len() + 7 { Base::Floating } else { Base::Fixed };
-    let mut equations = Equations::new(robot, base)?.with_gravity(gravity);
+    let mut equations = new(robot, base)?.with_gravity(gravity);
     if arguments.no_friction {
         equations = equations.without_friction();
     }
@@ -155,11 +162,12 @@ fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &T
             "{count} columns q0.. are given; the robot has {} independent joints ({names}), and 7 more where its root moves freely",
             joints.len()
         );
-        return Err(Error::new(ErrorKind::BadValue, text));
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(&arguments.states));
     }
     let mut room = equations.workspace();
     let answer = |(index, row): (usize, &Row)| {
-        answer(&equations, &mut room, row).map_err(|error| error.with_context(format!("row {}", index + 1)))
+        answer(&equations, &mut room, row)
+            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(&arguments.states))
     };
     let states = table.rows.iter().enumerate().map(answer).collect::<Result<_>>()?;
     Ok(Report { format: 1, joints, floating: base == Base::Floating, states })

@@ -7,12 +7,15 @@ use super::articulated::{self, Articulation, Cause, Massless};
 use super::data::{Data, Matrices, Motion};
 use super::six::Six;
 use super::tree::{Place, Tree};
-use crate::model::{Joint, Robot};
+use crate::model::{Joint, Link, Robot};
 use crate::spatial::Inertia;
 use crate::{Error, ErrorKind, Result};
 
 /// How far the length of a quaternion may be from one.
 const ROUNDED: f64 = 1e-3;
+
+/// What is negligible of a link's mass and inertia, as a share of the robot's mass (and that times a square metre).
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// Whether the root link stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,17 +79,23 @@ impl Equations {
     /// Those of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame (of a floating root: of the world).
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a mass that no body has (negative, not finite, an inertia against the triangle inequality), with the link's name.
+    /// [`ErrorKind::BadValue`], with the link's name, for a mass below zero, and where links that are fixed to one another have together an inertia that no
+    /// body has: one of a mass that is not positive, or against the triangle inequality.
     pub fn new(robot: &Robot, base: Base) -> Result<Self> {
-        for link in robot.links() {
-            let inertia = link.inertia();
-            let weighs = inertia.generalised().iter().any(|entry| *entry != 0.0);
-            if weighs {
-                let checked = Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational());
-                checked.map_err(|error| error.with_context(format!("link `{}`", link.name)))?;
-            }
-        }
         let model = Model::new(robot)?;
+        check_masses(robot, &model)?;
+        Equations::of(robot, &model, base)
+    }
+
+    /// The same with all figures as they are told, whether bodies can have them or not.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a figure beyond doubles.
+    pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
+        Equations::of(robot, &Model::new(robot)?, base)
+    }
+
+    fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
         let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
         let laws: Vec<_> = moving.iter().map(|joint| robot.law(joint)).collect();
         let leads = |(joint, law): &(&&Joint, &crate::model::Mimic)| law.leader == joint.name;
@@ -102,7 +111,7 @@ impl Equations {
             Ok(Drive { freedom, factor, offset, armature, damping, friction })
         };
         let drives = moving.iter().zip(&laws).map(drive).collect::<Result<_>>()?;
-        Ok(Equations { tree: Tree::new(&model), base, gravity: Vector3::new(0.0, 0.0, -9.81), names, links, drives })
+        Ok(Equations { tree: Tree::new(model), base, gravity: Vector3::new(0.0, 0.0, -9.81), names, links, drives })
     }
 
     /// The same under another gravity \[m/s^2\].
@@ -369,6 +378,32 @@ impl Equations {
         }
         matrix
     }
+}
+
+/// Refuses what no body has: of the links that are fixed to one another the first that has it alone is named, else the first of all.
+fn check_masses(robot: &Robot, model: &Model) -> Result<()> {
+    // Less is what rounding has left of nothing.
+    let least = NEGLIGIBLE * model.mass().abs();
+    let weighs = |inertia: &Inertia| inertia.generalised().iter().any(|entry| entry.abs() > least);
+    let fault = |inertia: &Inertia| {
+        let checked = Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational());
+        weighs(inertia).then_some(checked.err()).flatten()
+    };
+    let told = |link: &Link, error: Error| error.with_context(format!("link `{}`", link.name));
+    for (body, inertia) in model.bodies.iter().enumerate() {
+        let links =
+            || (0..robot.links().len()).filter(|&link| model.link(link).0 == body).map(|link| &robot.links()[link]);
+        if let Some(link) = links().find(|link| link.inertia().mass() < 0.0) {
+            let text = format!("mass {} kg: give one that is not below zero", link.inertia().mass());
+            return Err(told(link, Error::new(ErrorKind::BadValue, text)));
+        }
+        if let Some(error) = fault(inertia) {
+            let alone = links().find_map(|link| fault(&link.inertia()).map(|error| told(link, error)));
+            let first = links().find(|link| weighs(&link.inertia()));
+            return Err(alone.or_else(|| Some(told(first?, error.clone()))).unwrap_or(error));
+        }
+    }
+    Ok(())
 }
 
 /// The sign of a number; none of zero.

@@ -2,7 +2,7 @@
 
 use groebot::ErrorKind;
 use groebot::dynamics::{Base, Equations, Model, State};
-use groebot::model::{Mass, Mimic, Origin, Robot};
+use groebot::model::{Joint, JointType, Link, Mass, Mimic, Origin, Robot};
 use groebot::number::BigRational;
 use groebot::robots;
 use groebot::spatial::Pose;
@@ -218,6 +218,24 @@ fn what_no_body_has_is_refused_by_its_link() {
     let name = link.name.clone();
     let error = Equations::new(&Robot::new(parts).unwrap(), Base::Fixed).unwrap_err().to_string();
     assert!(error.contains(&name) && error.contains("mass -1"), "{error}");
+
+    // A rod of which only one moment is told is no body; fixed to another link it may be part of one.
+    let mut parts = plain.parts().clone();
+    let zero = BigRational::default;
+    let thin = [BigRational::new(1.into(), 1000.into()), zero(), zero(), zero(), zero(), zero()];
+    let bad = Mass { mass: BigRational::from_integer(1.into()), origin: Origin::identity(), moments: thin };
+    let moving = parts.links.iter().position(|link| link.name == "wrist_3_link").unwrap();
+    let mut child = Joint::new("mount", JointType::Fixed, "wrist_3_link", "camera");
+    child.origin.placement.origin[0] = BigRational::new(1.into(), 10.into());
+    parts.joints.push(child);
+    parts.links.push(Link { mass: Some(bad.clone()), ..Link::new("camera") });
+    assert!(Equations::new(&Robot::new(parts.clone()).unwrap(), Base::Fixed).is_ok());
+    parts.links[moving].mass = None;
+    let alone = Robot::new(parts).unwrap();
+    let error = Equations::new(&alone, Base::Fixed).unwrap_err().to_string();
+    assert!(error.contains("link `camera`") && error.contains("each principal moment"), "{error}");
+    assert!(Equations::as_told(&alone, Base::Fixed).is_ok());
+
     let mut parts = plain.parts().clone();
     parts.links.iter_mut().for_each(|link| link.mass = None);
     let massless = Equations::new(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
