@@ -5,17 +5,14 @@ use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 use super::Model;
 use super::articulated::{self, Articulation, Cause, Massless};
 use super::data::{Data, Matrices, Motion};
+use super::masses::check_masses;
 use super::six::Six;
 use super::tree::{Place, Tree};
-use crate::model::{Joint, Link, Robot};
-use crate::spatial::Inertia;
+use crate::model::{Joint, Robot};
 use crate::{Error, ErrorKind, Result};
 
 /// How far the length of a quaternion may be from one.
 const ROUNDED: f64 = 1e-3;
-
-/// What is negligible of a link's mass and inertia, as a share of the robot's mass (and that times a square metre).
-const NEGLIGIBLE: f64 = 1e-12;
 
 /// Whether the root link stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +24,7 @@ pub enum Base {
     Floating,
 }
 
-/// What a joint that others follow does to its own bodies and theirs: joint `k` moves by `factor` times the value of a freedom, and `offset`.
+/// How a joint is moved, and what of its own moves with it: its value is `factor` times that of a freedom, and `offset`.
 #[derive(Clone, Debug, PartialEq)]
 struct Drive {
     freedom: usize,
@@ -36,6 +33,14 @@ struct Drive {
     armature: f64,
     damping: f64,
     friction: f64,
+}
+
+impl Drive {
+    /// The torque against which the joint turns at a rate: viscous and Coulomb friction.
+    fn friction(&self, rate: f64) -> f64 {
+        let sign = if rate == 0.0 { 0.0 } else { rate.signum() };
+        self.damping * rate + self.friction * sign
+    }
 }
 
 /// The equations of motion of a robot: metres, kilograms, seconds, radians. They do not change, and calls write to a [`Workspace`] alone.
@@ -60,7 +65,7 @@ pub struct State<'a> {
     pub velocity: &'a [f64],
 }
 
-/// Room for the equations of one robot: made once, calls allocate nothing but what they return.
+/// Room for the equations of one robot: made once; what calls allocate are vectors and matrices that they return, and vectors of zeros.
 #[derive(Clone, Debug)]
 pub struct Workspace {
     data: Data<f64>,
@@ -170,8 +175,7 @@ impl Equations {
         self.set_in_motion(room, state, acceleration, true);
         let mut torques = self.newton_euler(room);
         for (joint, drive) in self.drives.iter().enumerate() {
-            let friction = drive.damping * room.rates[joint] + drive.friction * sign(room.rates[joint]);
-            let own = drive.armature * room.accelerations[joint] + friction;
+            let own = drive.armature * room.accelerations[joint] + drive.friction(room.rates[joint]);
             torques[self.first() + drive.freedom] += drive.factor * own;
         }
         Ok(torques)
@@ -244,12 +248,12 @@ impl Equations {
     fn forward_by_bodies(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<DVector<f64>> {
         let first = self.first();
         self.place(room, state.q);
-        // What the velocity stands for here changes by nothing but gravity.
+        // Of the accelerations only that of gravity is known.
         self.set_in_motion(room, state, &vec![0.0; self.freedoms()], true);
         let Workspace { data, articulation, rates, accelerations, torques: own, rotors, motion, .. } = room;
         for (joint, drive) in self.drives.iter().enumerate() {
-            let friction = drive.damping * rates[joint] + drive.friction * sign(rates[joint]);
-            (own[joint], rotors[joint]) = (torques[first + joint] - friction, drive.armature);
+            let left = torques[first + joint] - drive.friction(rates[joint]);
+            (own[joint], rotors[joint]) = (left, drive.armature);
         }
         let [base, pull] = *motion;
         let base_cause = match self.base {
@@ -273,12 +277,12 @@ impl Equations {
         let still = vec![0.0; self.freedoms()];
         let missing = DVector::from_column_slice(torques) - self.inverse(room, state, &still)?;
         let inertia = self.inertia(room, state.q)?;
+        if let Some(factors) = inertia.clone().cholesky() {
+            return Ok(factors.solve(&missing));
+        }
         let block = |at: usize| inertia.view((0, 0), (at + 1, at + 1)).into_owned();
         let massless = (0..inertia.nrows()).find(|&at| block(at).cholesky().is_none());
-        match (massless, inertia.clone().cholesky()) {
-            (None, Some(factors)) => Ok(factors.solve(&missing)),
-            (at, _) => Err(self.massless(at.and_then(|at| at.checked_sub(self.first())))),
-        }
+        Err(self.massless(massless.and_then(|at| at.checked_sub(self.first()))))
     }
 
     fn massless(&self, joint: Option<usize>) -> Error {
@@ -378,35 +382,4 @@ impl Equations {
         }
         matrix
     }
-}
-
-/// Refuses what no body has: of the links that are fixed to one another the first that has it alone is named, else the first of all.
-fn check_masses(robot: &Robot, model: &Model) -> Result<()> {
-    // Less is what rounding has left of nothing.
-    let least = NEGLIGIBLE * model.mass().abs();
-    let weighs = |inertia: &Inertia| inertia.generalised().iter().any(|entry| entry.abs() > least);
-    let fault = |inertia: &Inertia| {
-        let checked = Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational());
-        weighs(inertia).then_some(checked.err()).flatten()
-    };
-    let told = |link: &Link, error: Error| error.with_context(format!("link `{}`", link.name));
-    for (body, inertia) in model.bodies.iter().enumerate() {
-        let links =
-            || (0..robot.links().len()).filter(|&link| model.link(link).0 == body).map(|link| &robot.links()[link]);
-        if let Some(link) = links().find(|link| link.inertia().mass() < 0.0) {
-            let text = format!("mass {} kg: give one that is not below zero", link.inertia().mass());
-            return Err(told(link, Error::new(ErrorKind::BadValue, text)));
-        }
-        if let Some(error) = fault(inertia) {
-            let alone = links().find_map(|link| fault(&link.inertia()).map(|error| told(link, error)));
-            let first = links().find(|link| weighs(&link.inertia()));
-            return Err(alone.or_else(|| Some(told(first?, error.clone()))).unwrap_or(error));
-        }
-    }
-    Ok(())
-}
-
-/// The sign of a number; none of zero.
-fn sign(x: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.signum() }
 }

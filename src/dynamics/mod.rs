@@ -8,6 +8,7 @@ mod clearance;
 mod data;
 mod equations;
 mod lagrange;
+mod masses;
 mod model;
 mod momentum;
 mod placed;
