@@ -15,7 +15,7 @@ use crate::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "Examples:
   groebot dynamics ur5.urdf --states states.csv -o out.csv
-  groebot dynamics rh0 --states flight.csv --gravity 0,0,-1.62 --json
+  groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json
 
 states.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description; before them, where the root moves freely, its
 position x, y, z and its quaternion x, y, z, w), v0, v1, ... (the root's linear and angular velocity in its own frame first), a0, a1, ... and, if they are known,

@@ -18,33 +18,27 @@ pub trait Divisible: Scalar + Div<Output = Self> {}
 
 impl<S: Scalar + Div<Output = S>> Divisible for S {}
 
-impl Scalar for f64 {
-    fn zero() -> f64 {
-        0.0
-    }
+macro_rules! scalars {
+    ($($float:ty)*) => {
+        $(
+            impl Scalar for $float {
+                fn zero() -> $float {
+                    0.0
+                }
 
-    fn one() -> f64 {
-        1.0
-    }
+                fn one() -> $float {
+                    1.0
+                }
 
-    fn half(&self) -> f64 {
-        0.5 * self
-    }
+                fn half(&self) -> $float {
+                    0.5 * self
+                }
+            }
+        )*
+    };
 }
 
-impl Scalar for f32 {
-    fn zero() -> f32 {
-        0.0
-    }
-
-    fn one() -> f32 {
-        1.0
-    }
-
-    fn half(&self) -> f32 {
-        0.5 * self
-    }
-}
+scalars!(f64 f32);
 
 /// A number and its derivative along one direction: what is computed of it carries both.
 #[derive(Clone, Copy, Debug, PartialEq)]

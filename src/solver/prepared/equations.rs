@@ -3,7 +3,7 @@
 use groebot_runtime::storage::Array;
 use groebot_runtime::{Number, With};
 
-use super::code::{Assembler, Code, Memory};
+use super::code::{Assembler, Code, Line, Memory};
 use crate::solver::{Demand, Layout, Operand};
 
 /// Values that code computes from parameters and from what the equations read of joints.
@@ -29,15 +29,15 @@ impl Equations {
         Equations { memory: assembler.memory(), code, results }
     }
 
-    /// What is made of the results, each by its index.
+    /// What is made of the results.
     #[inline]
-    pub fn with<N: Number, R>(&self, parameters: &[N], at: &[N], make: impl FnOnce(&dyn Fn(usize) -> N) -> R) -> R
+    pub fn with<N: Number, R>(&self, parameters: &[N], at: &[N], make: impl FnOnce(Results<'_, N>) -> R) -> R
     where
         f64: With<N>,
     {
         self.memory.with(parameters, at, |memory| {
             self.code.run(memory);
-            make(&|index| memory[self.results[index] as usize].0)
+            make(Results { memory, places: &self.results })
         })
     }
 
@@ -47,9 +47,20 @@ impl Equations {
     where
         f64: With<N>,
     {
-        self.memory.with(parameters, at, |memory| {
-            self.code.run(memory);
-            A::by(self.results.len(), |index| memory[self.results[index] as usize].0)
-        })
+        self.with(parameters, at, |results| A::by(self.results.len(), |index| results.at(index)))
+    }
+}
+
+/// What code has left in memory.
+pub(super) struct Results<'a, N> {
+    memory: &'a [Line<N>],
+    places: &'a [u32],
+}
+
+impl<N: Number> Results<'_, N> {
+    /// The result with this index.
+    #[inline(always)]
+    pub fn at(&self, index: usize) -> N {
+        self.memory[self.places[index] as usize].0
     }
 }

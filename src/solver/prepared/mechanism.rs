@@ -79,7 +79,7 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
     fn jacobian(&self, p: &Parameters<Self>, at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
         let joints = self.facts.joints.len();
         Some(self.jacobian.as_ref()?.with(p.as_ref(), at.as_ref(), |value| {
-            Array::by(self.facts.equations, |i| Array::by(joints, |j| value(i * joints + j)))
+            Array::by(self.facts.equations, |i| Array::by(joints, |j| value.at(i * joints + j)))
         }))
     }
 
@@ -89,9 +89,9 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
     {
         let (count, joints) = (self.facts.shorts, self.facts.joints.len());
         self.short.with(p.as_ref(), at.as_ref(), |value| Short {
-            value: Array::by(count, value),
-            size: Array::by(count, |i| value(count + i)),
-            columns: Array::by(joints, |j| Array::by(count, |i| value((2 + j) * count + i))),
+            value: Array::by(count, |i| value.at(i)),
+            size: Array::by(count, |i| value.at(count + i)),
+            columns: Array::by(joints, |j| Array::by(count, |i| value.at((2 + j) * count + i))),
         })
     }
 }
