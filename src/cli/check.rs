@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::console::{self, Paint};
 use super::derive::{check, refuse_failures};
 use super::ends::EndArguments;
-use super::files::{CERTIFICATE, CHECKS, is_ours, printed_solvers};
-use super::{Halt, Outcome, json};
+use super::files::{CERTIFICATE, CHECKS, DYNAMICS, is_ours, printed_solvers};
+use super::{Halt, Outcome, dynamics, json};
 use crate::derive::coupled::ChainStage;
 use crate::derive::sequential::Derived;
 use crate::derive::{Derivation, Proved, Source, stages};
@@ -44,14 +44,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
     let source = Source::read_between(folder, &arguments.ends.ends()?)?;
     let mut findings = vec![read(&source)];
-    match reprove(folder, &source) {
-        Ok(derivation) => {
+    let motion = dynamics::reprove(folder, &source.ends).transpose();
+    // A folder may hold equations of motion alone.
+    let proved_again =
+        if motion.is_some() && !folder.join(CERTIFICATE).exists() { None } else { Some(reprove(folder, &source)) };
+    match proved_again {
+        None => {}
+        Some(Ok(derivation)) => {
             findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Ok(proved(&derivation)) });
             findings.extend(stored_stages(folder, &source, &derivation)?);
             findings.push(numeric_checks(folder, &source, &derivation)?);
         }
-        Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Err(error) }),
+        Some(Err(error)) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Err(error) }),
     }
+    let motion = motion.map(|verdict| verdict.map(|proof| proof.to_string()));
+    findings.extend(motion.map(|verdict| Finding { what: DYNAMICS.to_owned(), verdict }));
     if arguments.json {
         console::print(&json::text(&told(&findings)))?;
     } else {

@@ -18,16 +18,21 @@ pub const CHECKS: &str = "6_check.csv";
 /// The file of the proof.
 pub const CERTIFICATE: &str = "certificate.json";
 
+/// The file of the proof of equations of motion.
+pub const DYNAMICS: &str = "7_dynamics.json";
+
 /// So many bytes of a certificate tell that it is one of ours.
 const HEAD: usize = 200;
 
 /// Whether this is a folder with a stored certificate.
 pub fn is_derived(folder: &Path) -> bool {
     let mut head = [0; HEAD];
-    let read = fs::File::open(folder.join(CERTIFICATE)).and_then(|mut file| file.read(&mut head));
     // The first key tells; before formats had numbers it was the other.
     let is_ours = |text: &str| text.contains("\"proves\"") || text.contains("\"groebot\"");
-    read.is_ok_and(|count| is_ours(&String::from_utf8_lossy(&head[..count])))
+    [CERTIFICATE, DYNAMICS].iter().any(|name| {
+        let read = fs::File::open(folder.join(name)).and_then(|mut file| file.read(&mut head));
+        read.is_ok_and(|count| is_ours(&String::from_utf8_lossy(&head[..count])))
+    })
 }
 
 /// Fails where a file of `files` would take the place of one that groebot did not write: in a folder that nothing was derived into.
@@ -92,17 +97,7 @@ pub fn assemble_files(
     checked: &Report,
     folder: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>> {
-    let mut files = Vec::new();
-    if !is_same_file(&source.path, &folder.join(source.name)) {
-        files.push((source.name.to_owned(), source.text.clone().into_bytes()));
-    }
-    for name in source.beside() {
-        let path = source.path.with_file_name(name);
-        if !is_same_file(&path, &folder.join(name)) {
-            files.push((name.to_owned(), read_text(&path, TEXT_LIMIT)?.into_bytes()));
-        }
-    }
-    files.extend(source.task_file().filter(|_| !keeps_task(source, folder)));
+    let mut files = source_files(source, folder)?;
     files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
     if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Coupled(_), Some((_, page))) =
         (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
@@ -116,6 +111,25 @@ pub fn assemble_files(
     files.extend(printed_solvers(derivation.program(), source));
     files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
     files.sort_by(|a, b| a.0.cmp(&b.0));
+    Ok(files)
+}
+
+/// The input with the files that it refers to and what was asked of it, as far as `folder` does not hold them yet.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn source_files(source: &Source, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut files = Vec::new();
+    if !is_same_file(&source.path, &folder.join(source.name)) {
+        files.push((source.name.to_owned(), source.text.clone().into_bytes()));
+    }
+    for name in source.beside() {
+        let path = source.path.with_file_name(name);
+        if !is_same_file(&path, &folder.join(name)) {
+            files.push((name.to_owned(), read_text(&path, TEXT_LIMIT)?.into_bytes()));
+        }
+    }
+    files.extend(source.task_file().filter(|_| !keeps_task(source, folder)));
     Ok(files)
 }
 

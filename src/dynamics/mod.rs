@@ -3,26 +3,22 @@
 //! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
 //! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
 
-mod articulated;
 mod clearance;
-mod data;
 mod equations;
+pub mod exact;
 mod lagrange;
 mod masses;
 mod model;
 mod momentum;
 mod placed;
-mod scalar;
-mod six;
-mod tree;
+mod recursions;
 
-pub use articulated::{Articulation, Cause, Drive, Massless};
 pub use clearance::{Clearance, Touch};
-pub use data::{Data, Matrices, Motion};
 pub use equations::{Base, Equations, State, Workspace};
 pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;
 pub use placed::Placed;
-pub use scalar::{Divisible, Dual, Scalar};
-pub use six::{Frame, Mass, Six};
-pub use tree::{Body, Freedom, Place, Tree};
+pub use recursions::{
+    Articulation, Body, Cause, Data, Derivatives, Divisible, Drive, Dual, Energy, Frame, Freedom, Mass, Massless,
+    Matrices, Motion, Place, Scalar, Six, Tree,
+};

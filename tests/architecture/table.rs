@@ -17,7 +17,7 @@ const TABLE: [(&str, Uses); 21] = [
     ("spatial", Uses::Only(&["number"])),
     ("model", Uses::Only(&["number", "spatial"])),
     ("kinematics", Uses::Only(&["number", "roots", "spatial", "model"])),
-    ("dynamics", Uses::Only(&["spatial", "model", "kinematics"])),
+    ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (

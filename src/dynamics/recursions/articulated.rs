@@ -2,7 +2,7 @@
 //!
 //! R. Featherstone, Rigid Body Dynamics Algorithms (2008), table 7.1, and section 9.2 for a base that moves freely.
 
-use super::data::Data;
+use super::data::{Data, bias};
 use super::scalar::{Divisible, Scalar};
 use super::six::{Frame, Mass, Matrix, Six, Three, add, cross, dot, turned, turned_back};
 use super::tree::Tree;
@@ -47,6 +47,8 @@ pub struct Drive<'a, S> {
     pub rates: &'a [S],
     /// As `rates` tells.
     pub torques: &'a [S],
+    /// What acts from outside on the bodies, in their own frames, the base first; of nothing an empty list.
+    pub outside: &'a [Six<S>],
     /// By joint, the inertia of its rotor.
     pub rotors: &'a [S],
 }
@@ -192,19 +194,15 @@ impl<S: Divisible> Articulation<S> {
         is_positive: impl Fn(&S) -> bool + Copy,
         accelerations: &mut [S],
     ) -> Result<Six<S>, Massless> {
-        for &joint in &tree.order {
-            let body = &tree.bodies[joint];
-            let velocity = body.parent.map_or(&drive.base, |parent| &data.velocities[parent]);
-            let mut velocity = data.frames[joint].motion_inward(velocity);
-            body.quicken(&mut velocity, drive.rates[joint].clone());
-            let own = &mut self.bodies[joint];
+        data.move_bodies(tree, &drive.base, drive.rates);
+        for (joint, (body, own)) in tree.bodies.iter().zip(&mut self.bodies).enumerate() {
+            let velocity = &data.velocities[joint];
             own.resistance = Resistance::of(&body.mass);
-            own.bias = velocity.pushing(&body.mass.times(&velocity));
-            own.turning = body.turning(&velocity, &drive.rates[joint]);
-            data.velocities[joint] = velocity;
+            own.bias = bias(&body.mass, velocity, drive.outside.get(joint + 1));
+            own.turning = body.turning(velocity, &drive.rates[joint]);
         }
         let mut base = Resistance::of(&tree.base);
-        let mut base_bias = drive.base.pushing(&tree.base.times(&drive.base));
+        let mut base_bias = bias(&tree.base, &drive.base, drive.outside.first());
         for &joint in tree.order.iter().rev() {
             let (body, own) = (&tree.bodies[joint], &mut self.bodies[joint]);
             own.push = own.resistance.times(&body.axis());

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 
-use super::Model;
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Matrix, Three};
+use crate::dynamics::Model;
 use crate::spatial::{Inertia, Pose, Screw};
 
 /// How a body moves against its parent: about or along the z axis of its own frame.
@@ -80,9 +80,27 @@ impl<S: Scalar> Body<S> {
     }
 }
 
+impl<S: Scalar> Tree<S> {
+    /// The same over other numbers.
+    pub fn map<T: Scalar>(&self, number: impl Fn(&S) -> T + Copy) -> Tree<T> {
+        let body = |body: &Body<S>| Body {
+            parent: body.parent,
+            freedom: body.freedom,
+            frame: body.frame.map(number),
+            mass: body.mass.map(number),
+        };
+        Tree { base: self.base.map(number), bodies: self.bodies.iter().map(body).collect(), order: self.order.clone() }
+    }
+}
+
 impl Tree<f64> {
     /// That of a model.
     pub fn new(model: &Model) -> Self {
+        Tree::with_poses(model).0
+    }
+
+    /// The same, and by joint where its body's frame stands in the base frame at the zero configuration.
+    pub(in crate::dynamics) fn with_poses(model: &Model) -> (Self, Vec<Pose>) {
         let mut frames = vec![Pose::identity(); model.joints().len()];
         let mut bodies: Vec<Option<Body<f64>>> = vec![None; model.joints().len()];
         for &joint in &model.order {
@@ -94,15 +112,12 @@ impl Tree<f64> {
             bodies[joint] = Some(Body {
                 parent,
                 freedom,
-                frame: frame(&base_from_parent.inv_mul(&base_from_body)),
+                frame: Frame::of(&base_from_parent.inv_mul(&base_from_body)),
                 mass: mass(&model.bodies[joint + 1].placed(&base_from_body.inverse())),
             });
         }
-        Tree {
-            base: mass(&model.bodies[0]),
-            bodies: bodies.into_iter().flatten().collect(),
-            order: model.order.clone(),
-        }
+        let bodies = bodies.into_iter().flatten().collect();
+        (Tree { base: mass(&model.bodies[0]), bodies, order: model.order.clone() }, frames)
     }
 }
 
@@ -125,11 +140,14 @@ fn upright(direction: &UnitVector3<f64>) -> Matrix3<f64> {
     Matrix3::from_columns(&[first, direction.cross(&first), direction.into_inner()])
 }
 
-fn frame(pose: &Pose) -> Frame<f64> {
-    let rotation = pose.rotation.to_rotation_matrix();
-    let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
-    let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
-    Frame { rotation, position: std::array::from_fn(|i| pose.translation.vector[i]) }
+impl Frame<f64> {
+    /// That of a pose.
+    pub(in crate::dynamics) fn of(pose: &Pose) -> Self {
+        let rotation = pose.rotation.to_rotation_matrix();
+        let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
+        let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        Frame { rotation, position: std::array::from_fn(|i| pose.translation.vector[i]) }
+    }
 }
 
 /// A rotation's entry, a whole one where rounding alone keeps it from that.

@@ -1,4 +1,4 @@
-//! `groebot dynamics`: the equations of motion of a robot at states of a table.
+//! The equations of motion of a robot at states of a table.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -6,67 +6,13 @@ use std::path::{Path, PathBuf};
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
-use super::export::described;
-use super::{Outcome, console};
+use super::Arguments;
+use crate::cli::export::described;
+use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;
 use crate::model::{JointType, Robot};
 use crate::{Error, ErrorKind, Result};
-
-const EXAMPLES: &str = "Examples:
-  groebot dynamics ur5.urdf --states states.csv -o out.csv
-  groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json
-
-states.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description; before them, where the root moves freely, its
-position x, y, z and its quaternion x, y, z, w), v0, v1, ... (the root's linear and angular velocity in its own frame first), a0, a1, ... and, if they are known,
-tau0, tau1, ... Without velocities and accelerations they are zero. The count of q tells whether the root moves freely, and whether joints that
-follow others are told too: then each is on its own.
-
-Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
-g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.";
-
-/// Tells torques, inertia, Coriolis and gravity terms of a robot at states
-#[derive(clap::Args)]
-#[command(after_help = EXAMPLES)]
-pub struct Arguments {
-    /// A robot of groebot, or a description in URDF or TOML
-    #[arg(value_name = "ROBOT-or-FILE")]
-    robot: PathBuf,
-    /// The states, CSV
-    #[arg(long, value_name = "FILE")]
-    states: PathBuf,
-    /// The link from which joints move: those that do not lie between it and the tip stand still at zero
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link up to which joints move
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Gravity in the frame of the root, or of `--base` [m/s^2]
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, default_value = "0,0,-9.81")]
-    gravity: Vector3<f64>,
-    /// Leave the friction of joints out
-    #[arg(long)]
-    no_friction: bool,
-    /// Take inertias that no body has as they are told
-    #[arg(long)]
-    as_told: bool,
-    /// Where the table goes; standard output without it
-    #[arg(short, long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// JSON in place of the table
-    #[arg(long)]
-    json: bool,
-}
-
-/// Three numbers between commas.
-fn vector(text: &str) -> std::result::Result<Vector3<f64>, String> {
-    let numbers: Option<Vec<f64>> =
-        text.split(',').map(|word| word.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    match numbers.as_deref() {
-        Some(&[x, y, z]) => Ok(Vector3::new(x, y, z)),
-        _ => Err("give three finite numbers between commas, such as 0,0,-9.81".to_owned()),
-    }
-}
 
 /// What is told of all states.
 #[derive(Serialize)]
@@ -91,10 +37,10 @@ struct Answer {
 }
 
 /// Reads the states and writes what is asked of them.
-pub fn run(arguments: &Arguments) -> Outcome {
+pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = between(&robot, arguments)?;
-    let table = Table::read(&arguments.states)?;
+    let table = Table::read(states)?;
     let report = report(&robot, gravity, arguments, &table)?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
     match &arguments.out {
@@ -136,23 +82,23 @@ fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Vector3<f64>)
     let robot = Robot::new(parts)?;
     let model = crate::dynamics::Model::new(&robot)?;
     let turn = base.map_or_else(nalgebra::UnitQuaternion::identity, |base| model.link(base).1.rotation);
-    Ok((robot, turn * arguments.gravity))
+    Ok((robot, turn * arguments.gravity.in_doubles()))
 }
 
 fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &Table) -> Result<Report> {
     let (count, moving) = (table.q, robot.moving().len());
-    let new = |robot: &Robot, base| {
+    let new = |robot: &Robot| {
         let new = if arguments.as_told { Equations::as_told } else { Equations::new };
-        new(robot, base).map_err(|error| error.in_file(&arguments.robot))
+        new(robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))
     };
-    let leading = new(robot, Base::Fixed)?.joints().len();
+    let mut equations = new(robot)?;
     // A table may tell of joints that follow others, too: then each is on its own.
-    let all =
-        if [moving, moving + 7].contains(&count) && moving > leading { Some(without_followers(robot)?) } else { None };
-    let robot = all.as_ref().unwrap_or(robot);
-    let joints = new(robot, Base::Fixed)?.joints().to_vec();
+    if [moving, moving + 7].contains(&count) && moving > equations.joints().len() {
+        equations = new(&without_followers(robot)?)?;
+    }
+    let joints = equations.joints().to_vec();
     let base = if count == joints.len() + 7 { Base::Floating } else { Base::Fixed };
-    let mut equations = new(robot, base)?.with_gravity(gravity);
+    equations = equations.with_base(base).with_gravity(gravity);
     if arguments.no_friction {
         equations = equations.without_friction();
     }
@@ -162,12 +108,12 @@ fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &T
             "{count} columns q0.. are given; the robot has {} independent joints ({names}), and 7 more where its root moves freely",
             joints.len()
         );
-        return Err(Error::new(ErrorKind::BadValue, text).in_file(&arguments.states));
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(&table.file));
     }
     let mut room = equations.workspace();
     let answer = |(index, row): (usize, &Row)| {
         answer(&equations, &mut room, row)
-            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(&arguments.states))
+            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(&table.file))
     };
     let states = table.rows.iter().enumerate().map(answer).collect::<Result<_>>()?;
     Ok(Report { format: 1, joints, floating: base == Base::Floating, states })
@@ -184,21 +130,14 @@ fn answer(equations: &Equations, room: &mut Workspace, row: &Row) -> Result<Answ
     let still = vec![0.0; equations.freedoms()];
     let or_still = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| still.clone());
     let (velocity, acceleration) = (or_still(&row.velocity), or_still(&row.acceleration));
-    let state = State { q: &row.q, velocity: &velocity };
-    let torques = equations.inverse(room, state, &acceleration)?;
-    let [inertia, coriolis] = equations.matrices(room, state)?;
-    let gravity = equations.gravity(room, &row.q)?;
-    let given = row.torques.as_deref().unwrap_or(torques.as_slice());
-    let changes = equations.forward(room, state, given)?;
+    let state = State::new(&row.q, &velocity);
     let rows = |matrix: &DMatrix<f64>| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
     let list = |vector: &DVector<f64>| vector.as_slice().to_vec();
-    Ok(Answer {
-        tau: list(&torques),
-        inertia: rows(&inertia),
-        coriolis: rows(&coriolis),
-        g: list(&gravity),
-        qdd: list(&changes),
-    })
+    let tau = list(equations.inverse(room, state, &acceleration)?);
+    let [inertia, coriolis] = equations.matrices(room, state)?.map(rows);
+    let g = list(equations.gravity(room, &row.q)?);
+    let qdd = list(equations.forward(room, state, row.torques.as_deref().unwrap_or(&tau))?);
+    Ok(Answer { tau, inertia, coriolis, g, qdd })
 }
 
 fn json(report: &Report) -> String {
@@ -225,6 +164,7 @@ fn csv(report: &Report) -> Result<String> {
 
 /// The states that are read.
 struct Table {
+    file: PathBuf,
     /// How many columns begin with q.
     q: usize,
     rows: Vec<Row>,
@@ -271,7 +211,7 @@ impl Table {
                 torques: optional(&columns[3])?,
             });
         }
-        Ok(Table { q: columns[0].len(), rows })
+        Ok(Table { file: file.to_owned(), q: columns[0].len(), rows })
     }
 }
 

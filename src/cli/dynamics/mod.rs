@@ -1,0 +1,99 @@
+//! `groebot dynamics`: the equations of motion of a robot, at states of a table or as polynomials.
+
+mod states;
+mod symbolic;
+
+use std::path::PathBuf;
+
+use nalgebra::Vector3;
+use num_traits::ToPrimitive;
+
+use super::Outcome;
+use crate::number::parse_rational;
+use crate::spatial::exact::ExactVector;
+
+pub use symbolic::reprove;
+
+const EXAMPLES: &str = "Examples:
+  groebot dynamics ur5.urdf --states states.csv -o out.csv
+  groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json
+  groebot dynamics --symbolic derivations/scara
+  groebot dynamics --symbolic ur5.urdf --tip forearm_link --numbers -o ur5_dynamics
+
+states.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description; before them, where the root moves freely, its
+position x, y, z and its quaternion x, y, z, w), v0, v1, ... (the root's linear and angular velocity in its own frame first), a0, a1, ... and, if they are known,
+tau0, tau1, ... Without velocities and accelerations they are zero. The count of q tells whether the root moves freely, and whether joints that
+follow others are told too: then each is on its own.
+
+Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
+g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.
+
+With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt and
+.tex with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
+
+/// Tells torques, inertia, Coriolis and gravity terms of a robot at states, or as polynomials
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A robot of groebot, or a description in URDF or TOML; with --symbolic also a chain or a mechanism's folder
+    #[arg(value_name = "ROBOT-or-FILE")]
+    robot: PathBuf,
+    /// The states, CSV
+    #[arg(long, value_name = "FILE", required_unless_present = "symbolic")]
+    states: Option<PathBuf>,
+    /// Tell polynomials in cosines, sines and what bodies weigh
+    #[arg(long, conflicts_with_all = ["states", "no_friction", "as_told", "json"])]
+    symbolic: bool,
+    /// With --symbolic: what bodies weigh in the numbers of the description
+    #[arg(long, requires = "symbolic")]
+    numbers: bool,
+    /// With --symbolic: LaTeX
+    #[arg(long, requires = "symbolic")]
+    latex: bool,
+    /// The link from which joints move: those that do not lie between it and the tip stand still at zero
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// The link up to which joints move
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+    /// Gravity in the frame of the root, or of `--base` [m/s^2]; with --symbolic its direction, its size is g
+    #[arg(long, value_name = "X,Y,Z", value_parser = gravity, allow_hyphen_values = true, default_value = "0,0,-9.81")]
+    gravity: Gravity,
+    /// Leave the friction of joints out
+    #[arg(long)]
+    no_friction: bool,
+    /// Take inertias that no body has as they are told
+    #[arg(long)]
+    as_told: bool,
+    /// Where the table goes, or the folder of polynomials; standard output without it
+    #[arg(short, long, value_name = "FILE-or-FOLDER")]
+    out: Option<PathBuf>,
+    /// JSON in place of the table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Gravity(ExactVector);
+
+impl Gravity {
+    fn in_doubles(&self) -> Vector3<f64> {
+        Vector3::from(self.0.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN)))
+    }
+}
+
+/// Three numbers between commas.
+fn gravity(text: &str) -> std::result::Result<Gravity, String> {
+    let numbers: Option<Vec<_>> = text.split(',').map(|word| parse_rational(word.trim()).ok()).collect();
+    let exact = numbers.and_then(|numbers| ExactVector::try_from(numbers).ok()).map(Gravity);
+    let finite = exact.filter(|gravity| gravity.in_doubles().iter().all(|entry| entry.is_finite()));
+    finite.ok_or_else(|| "give three finite numbers between commas, such as 0,0,-9.81".to_owned())
+}
+
+/// Tells what is asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    match &arguments.states {
+        Some(states) => states::run(arguments, states),
+        None => symbolic::run(arguments),
+    }
+}

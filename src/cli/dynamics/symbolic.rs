@@ -1,0 +1,144 @@
+//! The equations of motion of a chain as polynomials, with a certificate.
+
+use std::path::Path;
+
+use super::Arguments;
+use crate::cli::files::{DYNAMICS, refuse_overwriting, source_files};
+use crate::cli::{Outcome, console};
+use crate::derive::explain::{Document, Line, Part};
+use crate::derive::input::{Description, InputFile};
+use crate::derive::{Ends, Source};
+use crate::document::read_text;
+use crate::dynamics::exact::{Certificate, ExactModel, MOST_TERMS, Masses, Proof, Symbolic, masses};
+use crate::files::write_folder_atomically;
+use crate::kinematics::Chain;
+use crate::model::Robot;
+use crate::number::BigRational;
+use crate::robots;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The files of what the certificate proves.
+const TEXT: &str = "7_dynamics.txt";
+const LATEX: &str = "7_dynamics.tex";
+/// The most joints of equations as polynomials.
+const MOST_JOINTS: usize = 7;
+/// The longest file that is read again, in bytes.
+const LIMIT: u64 = 64_000_000;
+
+/// Tells the polynomials, or writes them to a folder.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let ends = Ends { base: arguments.base.clone(), tip: arguments.tip.clone(), ..Ends::default() };
+    let asked = Asked::read(&arguments.robot, &ends)?;
+    let numbers = arguments.numbers.then(|| asked.numbers()).transpose()?;
+    let told = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
+    let Asked { chain, .. } = &asked;
+    let gravity = &arguments.gravity.0;
+    let symbolic = equations(chain, told, arguments).map_err(|error| error.in_file(&arguments.robot))?;
+    let Some(folder) = &arguments.out else {
+        return console::print(&if arguments.latex { latex(chain, &symbolic) } else { symbolic.to_text() });
+    };
+    let certificate = Certificate::new(&symbolic, chain, told, gravity);
+    certificate.prove(chain, &symbolic.to_text())?;
+    let own = [(TEXT, symbolic.to_text()), (LATEX, latex(chain, &symbolic)), (DYNAMICS, certificate.to_json())];
+    let mut files = asked.files(folder)?;
+    files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
+    refuse_overwriting(folder, &files)?;
+    write_folder_atomically(folder, &files, &Watch::none())?;
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    console::print(&format!(
+        "{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
+        chain.joints().len(),
+        symbolic.terms(),
+        folder.display(),
+        names.join(", ")
+    ))
+}
+
+fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result<Symbolic> {
+    if chain.joints().len() > MOST_JOINTS {
+        let text = format!(
+            "{} joints; equations of motion are polynomials for up to {MOST_JOINTS}: choose --base and --tip, or take --states",
+            chain.joints().len()
+        );
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    let model = ExactModel::new(chain, masses, &arguments.gravity.0, MOST_TERMS)?;
+    Symbolic::new(model).map_err(|error| match (error.kind(), masses) {
+        (ErrorKind::Overflow, Masses::Symbols) => {
+            error.with_context("give --numbers, or fewer joints by --base and --tip")
+        }
+        _ => error,
+    })
+}
+
+/// Proves the equations of motion in a folder again, if it has any.
+///
+/// # Errors
+/// As [`Certificate::prove`], and [`ErrorKind::BadValue`] where what bodies weigh is not what the robot's description says; with the file.
+pub fn reprove(folder: &Path, ends: &Ends) -> Result<Option<Proof>> {
+    let file = folder.join(DYNAMICS);
+    if !file.is_file() {
+        return Ok(None);
+    }
+    let certificate = Certificate::from_json(&read_text(&file, LIMIT)?).map_err(|error| error.in_file(&file))?;
+    let asked = Asked::read(folder, ends)?;
+    if certificate.has_numbers() && !certificate.has(&asked.numbers()?) {
+        let text = "its numbers are not what the bodies of the description weigh";
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(&file));
+    }
+    let text = folder.join(TEXT);
+    let proof = certificate.prove(&asked.chain, &read_text(&text, LIMIT)?).map_err(|error| error.in_file(&text))?;
+    Ok(Some(proof))
+}
+
+/// A chain, and where it is from.
+struct Asked {
+    chain: Chain,
+    source: Option<Source>,
+    robot: Option<Robot>,
+    ends: Ends,
+}
+
+impl Asked {
+    fn read(path: &Path, ends: &Ends) -> Result<Self> {
+        if let Some(robot) = path.to_str().and_then(robots::robot) {
+            let chain = robot.chain(ends.base.as_deref(), ends.tip.as_deref())?.ideal().0;
+            return Ok(Asked { chain, source: None, robot: Some(robot), ends: ends.clone() });
+        }
+        let input = InputFile::read(path)?;
+        let source = Source::read_between(path, ends)?;
+        let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
+        let text = "this describes no chain of joints; give a chain or a robot";
+        let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(path))?.clone();
+        let robot = if let Description::Robot(robot) = input.description { Some(robot) } else { None };
+        let ends = source.ends.clone();
+        Ok(Asked { chain, source: Some(source), robot, ends })
+    }
+
+    /// What the bodies weigh.
+    fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
+        let text = "this chain's description tells no masses; leave --numbers out";
+        let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
+        let path = robot.path(self.ends.base.as_deref(), self.ends.tip.as_deref())?;
+        masses(robot, &path, &self.chain)
+    }
+
+    /// The input's own files, as far as a folder has them not.
+    fn files(&self, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+        let text =
+            "a robot of groebot has no file that can be proved again; export it by `groebot export`, and give that";
+        let source = self.source.as_ref().ok_or_else(|| Error::new(ErrorKind::Unsupported, text))?;
+        source_files(source, folder)
+    }
+}
+
+/// A page of LaTeX.
+fn latex(chain: &Chain, symbolic: &Symbolic) -> String {
+    let told = symbolic.legend().into_iter().map(|line| Part::Paragraph(Line::of(&line)));
+    let equation = |(name, entry): (String, String)| Part::Equation {
+        number: String::new(),
+        formula: format!("{name} = {entry}"),
+    };
+    let parts = told.chain(symbolic.entries().into_iter().map(equation)).collect();
+    Document { title: format!("Equations of motion of {}", chain.name()), parts }.to_latex()
+}

@@ -1,0 +1,236 @@
+//! The equations of motion of a robot, `M q'' + C q' + N + friction = torques`. Main type: [`Equations`].
+
+mod changes;
+mod forward;
+mod inverse;
+mod matrices;
+mod workspace;
+
+use nalgebra::Vector3;
+
+pub use workspace::Workspace;
+
+use super::Model;
+use super::masses::check_masses;
+use super::recursions::{Frame, Tree};
+use crate::model::{Joint, Robot};
+use crate::spatial::Wrench;
+use crate::{Error, ErrorKind, Result};
+
+/// How far the length of a quaternion may be from one.
+const ROUNDED: f64 = 1e-3;
+
+/// Whether the root link stands still.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// It does. A configuration has a value for each independent joint.
+    Fixed,
+    /// It moves freely. Before the joints a configuration has the root's position (x, y, z) and orientation (a quaternion x, y, z, w) in the world, and a
+    /// velocity the root's linear and angular velocity in its own frame.
+    Floating,
+}
+
+/// How a joint is moved, and what of its own moves with it: its value is `factor` times that of a freedom, and `offset`.
+#[derive(Clone, Debug, PartialEq)]
+struct Drive {
+    freedom: usize,
+    factor: f64,
+    offset: f64,
+    armature: f64,
+    damping: f64,
+    friction: f64,
+}
+
+impl Drive {
+    /// The torque against which the joint turns at a rate: viscous and Coulomb friction.
+    fn friction(&self, rate: f64) -> f64 {
+        let sign = if rate == 0.0 { 0.0 } else { rate.signum() };
+        self.damping * rate + self.friction * sign
+    }
+}
+
+/// The equations of motion of a robot: metres, kilograms, seconds, radians. They do not change, and calls write to a [`Workspace`] alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equations {
+    tree: Tree<f64>,
+    base: Base,
+    /// In the frame of the root at the zero configuration.
+    gravity: Vector3<f64>,
+    names: Vec<String>,
+    /// By independent joint, the link behind it.
+    links: Vec<String>,
+    drives: Vec<Drive>,
+    /// By link of the robot, the joint that moves it, if one does, and where its frame stands in the joint's body.
+    frames: Vec<(Option<usize>, Frame<f64>)>,
+    /// The link whose frame a body's ten numbers are told in, that of the base first.
+    told_in: Vec<usize>,
+}
+
+/// What the equations are asked at: where a robot is and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct State<'a> {
+    /// The configuration.
+    pub q: &'a [f64],
+    /// The velocity.
+    pub velocity: &'a [f64],
+    /// What acts on links from outside, each in the frame of a link, whose place in the robot is told.
+    pub outside: &'a [(usize, Wrench)],
+}
+
+impl<'a> State<'a> {
+    /// That of a robot on which nothing acts from outside.
+    pub fn new(q: &'a [f64], velocity: &'a [f64]) -> Self {
+        State { q, velocity, outside: &[] }
+    }
+
+    /// The same, and links are pushed so, each in the frame of the link with that place in the robot.
+    #[must_use]
+    pub fn pushed(self, outside: &'a [(usize, Wrench)]) -> Self {
+        State { outside, ..self }
+    }
+}
+
+impl Equations {
+    /// Those of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame (of a floating root: of the world).
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`], with the link's name, for a mass below zero, and where links that are fixed to one another have together an inertia that no
+    /// body has: one of a mass that is not positive, or against the triangle inequality.
+    pub fn new(robot: &Robot, base: Base) -> Result<Self> {
+        let model = Model::new(robot)?;
+        check_masses(robot, &model)?;
+        Equations::of(robot, &model, base)
+    }
+
+    /// The same with all figures as they are told, whether bodies can have them or not.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a figure beyond doubles.
+    pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
+        Equations::of(robot, &Model::new(robot)?, base)
+    }
+
+    fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
+        let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
+        let laws: Vec<_> = moving.iter().map(|joint| robot.law(joint)).collect();
+        let leads = |(joint, law): &(&&Joint, &crate::model::Mimic)| law.leader == joint.name;
+        let leading = || moving.iter().zip(&laws).filter(leads).map(|(joint, _)| joint);
+        let names: Vec<String> = leading().map(|joint| joint.name.clone()).collect();
+        let links = leading().map(|joint| joint.child.clone()).collect();
+        let drive = |(joint, law): (&&Joint, &crate::model::Mimic)| {
+            let [factor, offset] = law.law();
+            let unknown =
+                || joint.error(ErrorKind::BadValue, &format!("it follows `{}`, which does not move", law.leader));
+            let freedom = names.iter().position(|name| *name == law.leader).ok_or_else(unknown)?;
+            let Joint { armature, damping, friction, .. } = **joint;
+            Ok(Drive { freedom, factor, offset, armature, damping, friction })
+        };
+        let drives = moving.iter().zip(&laws).map(drive).collect::<Result<_>>()?;
+        let (tree, base_from_body) = Tree::with_poses(model);
+        let frame_of = |link: usize| {
+            let (body, base_from_link) = model.link(link);
+            let joint = body.checked_sub(1);
+            let body_from_link = joint.map_or(base_from_link, |joint| base_from_body[joint].inv_mul(&base_from_link));
+            (joint, Frame::of(&body_from_link))
+        };
+        let behind = robot.moving().into_iter().map(|place| robot.ends(place).1);
+        Ok(Equations {
+            tree,
+            base,
+            gravity: Vector3::new(0.0, 0.0, -9.81),
+            names,
+            links,
+            drives,
+            frames: (0..robot.links().len()).map(frame_of).collect(),
+            told_in: std::iter::once(robot.root_place()).chain(behind).collect(),
+        })
+    }
+
+    /// The same on another base.
+    #[must_use]
+    pub fn with_base(mut self, base: Base) -> Self {
+        self.base = base;
+        self
+    }
+
+    /// The same under another gravity \[m/s^2\].
+    #[must_use]
+    pub fn with_gravity(mut self, gravity: Vector3<f64>) -> Self {
+        self.gravity = gravity;
+        self
+    }
+
+    /// The same without the friction of joints.
+    #[must_use]
+    pub fn without_friction(mut self) -> Self {
+        self.drives.iter_mut().for_each(|drive| (drive.damping, drive.friction) = (0.0, 0.0));
+        self
+    }
+
+    /// The independent joints, in the order of a configuration.
+    pub fn joints(&self) -> &[String] {
+        &self.names
+    }
+
+    /// How many numbers a velocity has.
+    pub fn freedoms(&self) -> usize {
+        self.names.len() + if self.base == Base::Floating { 6 } else { 0 }
+    }
+
+    /// How many numbers a configuration has.
+    pub fn coordinates(&self) -> usize {
+        self.names.len() + if self.base == Base::Floating { 7 } else { 0 }
+    }
+
+    /// Where the joints stand among the freedoms.
+    fn first(&self) -> usize {
+        self.freedoms() - self.names.len()
+    }
+
+    fn check(&self, state: State<'_>, third: Option<(&str, &[f64])>) -> Result<()> {
+        self.check_place(state.q)?;
+        for (name, list) in std::iter::once(("velocity", state.velocity)).chain(third) {
+            check_list(name, list, self.freedoms())?;
+        }
+        for (link, wrench) in state.outside {
+            self.check_link(*link)?;
+            if !wrench.to_vector().iter().all(|x| x.is_finite()) {
+                let text = format!(
+                    "what acts on link {link} from outside is {:?}; give finite numbers",
+                    wrench.to_vector().as_slice()
+                );
+                return Err(Error::new(ErrorKind::BadValue, text));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_place(&self, q: &[f64]) -> Result<()> {
+        check_list("q", q, self.coordinates())?;
+        if self.base == Base::Floating {
+            let length = q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
+            if (length - 1.0).abs() > ROUNDED {
+                let text = format!("the quaternion q3..q6 has length {length}; give one of length 1");
+                return Err(Error::new(ErrorKind::BadValue, text));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_link(&self, link: usize) -> Result<()> {
+        let most = self.frames.len() - 1;
+        let text = || format!("there is no link {link}; links are counted from 0 to {most}");
+        if link <= most { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
+    }
+}
+
+fn check_list(name: &str, list: &[f64], count: usize) -> Result<()> {
+    let text = if list.len() != count {
+        format!("{name}: {} numbers are given, the robot has {count}", list.len())
+    } else if let Some(at) = list.iter().position(|value| !value.is_finite()) {
+        format!("{name}{at} is {}; give a finite number", list[at])
+    } else {
+        return Ok(());
+    };
+    Err(Error::new(ErrorKind::BadValue, text))
+}

@@ -1,0 +1,14 @@
+//! Dynamics in exact polynomials: of the cosines and sines of angles, and of what bodies weigh. Main type: [`Symbolic`].
+
+mod certificate;
+mod lagrange;
+mod masses;
+mod model;
+mod number;
+mod symbolic;
+
+pub use certificate::{Certificate, Proof};
+pub use masses::masses;
+pub use model::{ExactModel, Masses, NUMBERS};
+pub use number::{Exact, Setting};
+pub use symbolic::{MOST_TERMS, Symbolic};
