@@ -21,6 +21,14 @@ fn folders() -> Vec<PathBuf> {
     folders
 }
 
+/// The direction of gravity of the equations of motion in a folder that has such.
+fn gravity_of(folder: &Path) -> Option<String> {
+    let certificate = fs::read_to_string(folder.join("7_dynamics.json")).ok()?;
+    let certificate: serde_json::Value = serde_json::from_str(&certificate).unwrap();
+    let entries: Vec<String> = serde_json::from_value(certificate["gravity"].clone()).unwrap();
+    Some(entries.join(","))
+}
+
 /// What is wrong with a folder: a stage that a derivation writes otherwise, a file that none writes, a failing check.
 fn fault(folder: &Path) -> Option<String> {
     let source = Source::read(folder).unwrap();
@@ -49,8 +57,15 @@ fn fault(folder: &Path) -> Option<String> {
             || !name.starts_with(['1', '2', '3', '4', '5', '6'])
     };
     let unknown = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert_eq!(folder.join("7_dynamics.txt").exists(), folder.join("7_dynamics.json").exists());
     if let Some(name) = unknown.into_iter().find(|name| !is_known(name)) {
         return Some(format!("no derivation writes {name}"));
+    }
+    if let Some(gravity) = gravity_of(folder) {
+        let told = run(&["dynamics", "--symbolic", text(folder), "--gravity", &gravity]);
+        if told.code != 0 || fs::read_to_string(folder.join("7_dynamics.txt")).ok().as_ref() != Some(&told.out) {
+            return Some("7_dynamics.txt is out of date".to_owned());
+        }
     }
     let ran = run(&["check", text(folder)]);
     (ran.code != 0).then_some(ran.out + &ran.err)
@@ -61,7 +76,12 @@ fn every_folder_is_what_a_derivation_writes_and_passes_its_check() {
     let folders = folders();
     assert!(folders.len() >= 44, "{}", folders.len());
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        folders.iter().for_each(|folder| drop(super::succeed(&["derive", text(folder), "--quiet"])));
+        for folder in &folders {
+            super::succeed(&["derive", text(folder), "--quiet"]);
+            if let Some(gravity) = gravity_of(folder) {
+                super::succeed(&["dynamics", "--symbolic", text(folder), "-o", text(folder), "--gravity", &gravity]);
+            }
+        }
         return;
     }
     let (next, workers) = (AtomicUsize::new(0), std::thread::available_parallelism().map_or(1, usize::from));

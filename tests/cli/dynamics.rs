@@ -124,3 +124,33 @@ fn what_is_no_table_of_states_is_refused() {
     let usage = run(&gravity);
     assert!(usage.code == 2 && usage.err.contains("three finite numbers"), "{}", usage.err);
 }
+
+/// The planar arm of every textbook, and its files.
+#[test]
+fn polynomials_are_printed_written_and_proved_again() {
+    let folder = tempdir().unwrap();
+    let (arm, out) = (folder.path().join("arm.urdf"), folder.path().join("out"));
+    fs::write(&arm, ARM).unwrap();
+    let [arm, out_text] = [text(&arm), text(&out)];
+    let told = succeed(&["dynamics", "--symbolic", arm, "--numbers"]);
+    // Both rods have 0.7 kg m^2 about their joints, and 2 kg a metre away: Spong, Hutchinson and Vidyasagar as above.
+    assert!(told.contains("\nM11 = 2*c2 + 17/5\n") && told.contains("\nM21 = c2 + 7/10\n"), "{told}");
+    assert!(told.contains("\nC21 = v1*s2\n"), "{told}");
+    let latex = succeed(&["dynamics", "--symbolic", arm, "--latex"]);
+    assert!(latex.contains("M_{22} = \\mathit{Iyy}_{2}") && latex.ends_with("\\end{document}\n"), "{latex}");
+    let said = succeed(&["dynamics", "--symbolic", arm, "--numbers", "-o", out_text]);
+    assert!(said.contains("2 joints") && said.contains("proved"), "{said}");
+    assert!(succeed(&["check", out_text]).contains("M' - 2 C is skew"));
+    // What bodies weigh is the description's.
+    let robot = out.join("0_robot.urdf");
+    fs::write(&robot, ARM.replacen("mass value=\"2\"", "mass value=\"3\"", 1)).unwrap();
+    assert!(run(&["check", out_text]).err.contains("weigh"));
+    fs::write(&robot, ARM).unwrap();
+    let file = out.join("7_dynamics.txt");
+    fs::write(&file, fs::read_to_string(&file).unwrap().replace("M22 = 7/10", "M22 = 7/9")).unwrap();
+    let ran = run(&["check", out_text]);
+    assert!(ran.code == 1 && ran.err.contains("`M22` is not what the chain has"), "{}", ran.err);
+    let chain = super::root("derivations/scara");
+    assert!(refused(&["dynamics", "--symbolic", text(&chain), "--numbers"]).contains("tells no masses"));
+    assert!(refused(&["dynamics", "--symbolic", "nao_v5", "-o", out_text]).contains("several ends"));
+}

@@ -9,23 +9,23 @@ use groebot::spatial::{Pose, Wrench};
 use nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3};
 
 /// SplitMix64 (Steele, Lea and Flood 2014), numbers between -1 and 1.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn number(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn numbers(&mut self, count: usize, most: f64) -> Vec<f64> {
+    pub fn numbers(&mut self, count: usize, most: f64) -> Vec<f64> {
         (0..count).map(|_| most * self.number()).collect()
     }
 }
 
 /// The corpus tells no masses of it: each link weighs something else, off its axis.
-fn ur5() -> Robot {
+pub fn ur5() -> Robot {
     let mut parts = Robot::from_urdf(include_str!("../corpus/urdf/ur5.urdf")).unwrap().parts().clone();
     let share = |numerator: i64, denominator: i64| BigRational::new(numerator.into(), denominator.into());
     for (number, link) in (1..).zip(&mut parts.links) {
@@ -43,14 +43,14 @@ fn all() -> [Robot; 4] {
 }
 
 /// The configuration of a free root, and of joints.
-fn floating(random: &mut Random, joints: usize) -> Vec<f64> {
+pub fn floating(random: &mut Random, joints: usize) -> Vec<f64> {
     let mut q = random.numbers(7 + joints, 2.0);
     let length = DVector::from_column_slice(&q[3..7]).norm();
     q[3..7].iter_mut().for_each(|x| *x /= length);
     q
 }
 
-fn assert_near(found: &DMatrix<f64>, expected: &DMatrix<f64>, share: f64, what: &str) {
+pub fn assert_near(found: &DMatrix<f64>, expected: &DMatrix<f64>, share: f64, what: &str) {
     let miss = (found - expected).amax();
     assert!(miss <= share * expected.amax().max(1.0), "{what}: off by {miss:e} of {:e}", expected.amax());
 }

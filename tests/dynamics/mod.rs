@@ -3,7 +3,9 @@
 mod clearance;
 mod coriolis;
 mod equations;
+mod exact;
 mod lagrange;
+mod pinocchio;
 mod placed;
 
 use groebot::dynamics::Model;

@@ -28,8 +28,8 @@ follow others are told too: then each is on its own.
 Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
 g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.
 
-With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt and
-.tex with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
+With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt
+with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
 
 /// Tells torques, inertia, Coriolis and gravity terms of a robot at states, or as polynomials
 #[derive(clap::Args)]
@@ -47,8 +47,8 @@ pub struct Arguments {
     /// With --symbolic: what bodies weigh in the numbers of the description
     #[arg(long, requires = "symbolic")]
     numbers: bool,
-    /// With --symbolic: LaTeX
-    #[arg(long, requires = "symbolic")]
+    /// With --symbolic: a page of LaTeX
+    #[arg(long, requires = "symbolic", conflicts_with = "out")]
     latex: bool,
     /// The link from which joints move: those that do not lie between it and the tip stand still at zero
     #[arg(long, value_name = "LINK")]

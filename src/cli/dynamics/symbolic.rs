@@ -19,7 +19,6 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// The files of what the certificate proves.
 const TEXT: &str = "7_dynamics.txt";
-const LATEX: &str = "7_dynamics.tex";
 /// The most joints of equations as polynomials.
 const MOST_JOINTS: usize = 7;
 /// The longest file that is read again, in bytes.
@@ -39,7 +38,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let certificate = Certificate::new(&symbolic, chain, told, gravity);
     certificate.prove(chain, &symbolic.to_text())?;
-    let own = [(TEXT, symbolic.to_text()), (LATEX, latex(chain, &symbolic)), (DYNAMICS, certificate.to_json())];
+    let own = [(TEXT, symbolic.to_text()), (DYNAMICS, certificate.to_json())];
     let mut files = asked.files(folder)?;
     files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
     refuse_overwriting(folder, &files)?;

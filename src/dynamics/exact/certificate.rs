@@ -3,12 +3,14 @@
 use std::collections::HashMap;
 use std::fmt;
 
+use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
+use super::base_parameters::BaseParameters;
 use super::lagrange::inertia_and_potential;
 use super::model::{ExactModel, Masses};
 use super::number::Exact;
-use super::symbolic::{MOST_TERMS, Symbolic, christoffel};
+use super::symbolic::{MOST_TERMS, Symbolic, christoffel, dependent};
 use crate::document::JsonFormat;
 use crate::dynamics::recursions::Scalar;
 use crate::kinematics::Chain;
@@ -49,15 +51,18 @@ pub struct Proof {
     pub joints: usize,
     /// Terms of M, C and N.
     pub terms: usize,
+    /// Base parameters, where they are told.
+    pub base_parameters: Option<usize>,
 }
 
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Proof { joints, terms } = self;
+        let Proof { joints, terms, base_parameters } = self;
         write!(
             f,
             "{terms} terms of {joints} joints proved again: M is the sum of J' mu J and symmetric, C is Christoffel's, M' - 2 C is skew, N = dV/dq"
-        )
+        )?;
+        base_parameters.map_or(Ok(()), |count| write!(f, "; {count} base parameters, no fewer"))
     }
 }
 
@@ -142,6 +147,7 @@ struct Told {
     coriolis: Vec<Vec<Exact>>,
     gravity: Vec<Exact>,
     potential: Exact,
+    base: Option<BaseParameters>,
 }
 
 impl Told {
@@ -171,9 +177,15 @@ impl Told {
         let coriolis = (0..count).map(&mut row).collect::<Result<_>>()?;
         let gravity = (0..count).map(|i| take(format!("N{}", i + 1))).collect::<Result<_>>()?;
         let potential = take("V".to_owned())?;
+        let mut forms = Vec::new();
+        while let Ok(form) = take(format!("B{}", forms.len() + 1)) {
+            forms.push(form);
+        }
+        let base =
+            (model.has_symbols && !model.setting.has_roots()).then(|| base_parameters(model, &forms)).transpose()?;
         match entries.keys().min() {
-            None => Ok(Told { inertia, coriolis, gravity, potential }),
-            Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is none of M, C, N and V"))),
+            None => Ok(Told { inertia, coriolis, gravity, potential, base }),
+            Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is none of M, C, N, V and B"))),
         }
     }
 
@@ -203,8 +215,33 @@ impl Told {
             same(format!("N{}", joint + 1), found, &slope)?;
         }
         model.setting.check()?;
+        if let Some(base) = &self.base {
+            base.prove(model, dependent(&self.inertia, &self.gravity))?;
+        }
         let lower = self.inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]);
         let terms = lower.chain(self.coriolis.iter().flatten()).chain(&self.gravity).map(Exact::terms).sum();
-        Ok(Proof { joints: count, terms })
+        let base_parameters = self.base.as_ref().map(|base| base.forms.len());
+        Ok(Proof { joints: count, terms, base_parameters })
     }
+}
+
+/// Base parameters as they are told: each a linear form whose first number is its own, with the factor one.
+fn base_parameters(model: &ExactModel, told: &[Exact]) -> Result<BaseParameters> {
+    let mut base = BaseParameters { pivots: Vec::new(), forms: Vec::new() };
+    for (at, number) in told.iter().enumerate() {
+        let form = model.coefficients(number);
+        let pivot = form.as_ref().and_then(|form| form.iter().position(|x| !x.is_zero()));
+        let (Some(form), Some(pivot)) = (form, pivot) else {
+            let text = format!("`B{}` is no linear form in what bodies weigh", at + 1);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        };
+        base.pivots.push(pivot);
+        base.forms.push(form);
+    }
+    let own = |k: usize, row: usize| &base.forms[row][base.pivots[k]];
+    let count = base.forms.len();
+    let is_own =
+        (0..count).all(|k| (0..count).all(|row| if row == k { own(k, row).is_one() } else { own(k, row).is_zero() }));
+    let text = "a base parameter's first number stands in another one, or has another factor than one";
+    if is_own { Ok(base) } else { Err(Error::new(ErrorKind::BadValue, text)) }
 }

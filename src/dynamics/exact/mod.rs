@@ -1,5 +1,6 @@
 //! Dynamics in exact polynomials: of the cosines and sines of angles, and of what bodies weigh. Main type: [`Symbolic`].
 
+mod base_parameters;
 mod certificate;
 mod lagrange;
 mod masses;
@@ -7,6 +8,7 @@ mod model;
 mod number;
 mod symbolic;
 
+pub use base_parameters::BaseParameters;
 pub use certificate::{Certificate, Proof};
 pub use masses::masses;
 pub use model::{ExactModel, Masses, NUMBERS};

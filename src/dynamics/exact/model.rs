@@ -23,6 +23,8 @@ const MOST_PRIME: u32 = 1000;
 #[derive(Clone, Debug)]
 pub struct ExactModel {
     pub(super) setting: Arc<Setting>,
+    /// Whether masses are symbols, which are then the first variables.
+    pub(super) has_symbols: bool,
     pub(super) tree: Tree<Exact>,
     pub(super) joints: Vec<ExactJoint>,
     /// The direction of gravity, whose size is `g`.
@@ -106,7 +108,7 @@ impl ExactModel {
         let tree = Tree { base: Mass::zero(), bodies, order: (0..joints.len()).collect() };
         let down = down.unit(&setting);
         setting.check()?;
-        Ok(ExactModel { setting, tree, joints, down })
+        Ok(ExactModel { setting, has_symbols: matches!(masses, Masses::Symbols), tree, joints, down })
     }
 
     /// The places of the joints.
@@ -117,6 +119,26 @@ impl ExactModel {
             ways => Place::Slide(variable(&ways[0])),
         };
         self.joints.iter().map(place).collect()
+    }
+
+    /// A linear form in what bodies weigh as a number.
+    pub(super) fn linear(&self, form: &[BigRational]) -> Exact {
+        let terms = form.iter().zip(self.setting.ring().variables()).filter(|(coefficient, _)| !coefficient.is_zero());
+        let term = |(coefficient, name): (&BigRational, &String)| {
+            Exact::from(coefficient.clone()) * self.setting.variable(name)
+        };
+        terms.map(term).fold(Exact::zero(), |sum, term| sum + term)
+    }
+
+    /// The coefficients of a number that is a linear form in what bodies weigh.
+    pub(super) fn coefficients(&self, number: &Exact) -> Option<Vec<BigRational>> {
+        let layout = self.setting.ring().layout();
+        let mut form = vec![BigRational::zero(); NUMBERS.len() * self.joints.len()];
+        for term in self.setting.polynomial(number).terms() {
+            let (place, 1) = layout.pure_power(&term.monomial)? else { return None };
+            *form.get_mut(place)? = term.coefficient.clone();
+        }
+        Some(form)
     }
 
     /// How a joint changes the variables: by minus the sine and by the cosine, or by one.

@@ -57,6 +57,10 @@ impl Setting {
         &self.ring
     }
 
+    pub(super) fn has_roots(&self) -> bool {
+        self.squares.iter().any(|square| square.less.is_none())
+    }
+
     /// Fails when a sum has had more terms than are allowed.
     pub(super) fn check(&self) -> Result<()> {
         let (most, terms) = (self.most, self.exceeded.load(Ordering::Relaxed));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::base_parameters::BaseParameters;
 use super::model::ExactModel;
 use super::number::Exact;
 use crate::dynamics::recursions::{Data, Matrices, Motion, Scalar, Six};
@@ -21,6 +22,8 @@ pub struct Symbolic {
     pub(super) coriolis: Vec<Vec<Exact>>,
     pub(super) gravity: Vec<Exact>,
     pub(super) potential: Exact,
+    /// Where masses are symbols and axes rational.
+    pub(super) base: Option<BaseParameters>,
 }
 
 impl Symbolic {
@@ -47,7 +50,8 @@ impl Symbolic {
         let inertia: Vec<Vec<Exact>> = matrices.inertia.chunks(count).map(<[_]>::to_vec).collect();
         let coriolis = christoffel(&model, &inertia)?;
         model.setting.check()?;
-        let symbolic = Symbolic { inertia, coriolis, gravity: torques, potential, model };
+        let base = base_parameters(&model, &inertia, &torques)?;
+        let symbolic = Symbolic { inertia, coriolis, gravity: torques, potential, base, model };
         let terms = symbolic.terms();
         if terms > MOST_TERMS {
             let text = format!("M, C and N have {terms} terms; at most {MOST_TERMS} are allowed");
@@ -60,6 +64,11 @@ impl Symbolic {
     pub fn terms(&self) -> usize {
         let lower = self.inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]);
         lower.chain(self.coriolis.iter().flatten()).chain(&self.gravity).map(Exact::terms).sum()
+    }
+
+    /// The base parameters, where masses are symbols and the joints' axes have rational directions.
+    pub fn base_parameters(&self) -> Option<&BaseParameters> {
+        self.base.as_ref()
     }
 
     fn text(&self, number: &Exact, style: Style) -> String {
@@ -81,6 +90,9 @@ impl Symbolic {
             tell(format!("N{}", i + 1), number);
         }
         tell("V".to_owned(), &self.potential);
+        for (i, form) in self.base.iter().flat_map(|base| &base.forms).enumerate() {
+            tell(format!("B{}", i + 1), &self.model.linear(form));
+        }
         entries
     }
 
@@ -89,7 +101,7 @@ impl Symbolic {
         let mut lines = vec![
             "$M q'' + C q' + N$ are the torques; $M$ is symmetric, $M' - 2*C$ is skew, and $N$ are the derivatives of the potential energy $V$.".to_owned(),
             format!(
-                "Gravity is g along ({}).",
+                "Gravity is $g$ along $({})$.",
                 self.model.down.each_ref().map(|x| self.text(x, Style::Text)).join(", ")
             ),
         ];
@@ -113,6 +125,12 @@ impl Symbolic {
              axes of the base where all joints are at zero."
                 .to_owned(),
         );
+        if let Some(base) = &self.base {
+            lines.push(format!(
+                "$M$, $C$ and $N$ depend on {} base parameters alone, $B1$ and so on; no fewer would do.",
+                base.forms.len()
+            ));
+        }
         lines
     }
 
@@ -127,6 +145,21 @@ impl Symbolic {
         }
         text
     }
+}
+
+/// What M and N depend on, where masses are symbols and axes rational.
+pub(super) fn base_parameters(
+    model: &ExactModel,
+    inertia: &[Vec<Exact>],
+    gravity: &[Exact],
+) -> Result<Option<BaseParameters>> {
+    let tells = model.has_symbols && !model.setting.has_roots();
+    tells.then(|| BaseParameters::of(model, dependent(inertia, gravity))).transpose()
+}
+
+/// The entries that tell what bodies weigh.
+pub(super) fn dependent<'a>(inertia: &'a [Vec<Exact>], gravity: &'a [Exact]) -> impl Iterator<Item = &'a Exact> {
+    inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]).chain(gravity)
 }
 
 /// The Coriolis matrix: of row i and column j the sum over k of half of `dM_ij/dq_k + dM_ik/dq_j - dM_kj/dq_i` times the rate of k.
