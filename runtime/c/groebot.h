@@ -29,10 +29,13 @@
 #endif
 #endif
 
+#ifndef GB_REAL
+#define GB_REAL
 #ifdef GB_FLOAT
 typedef float gb_real;
 #else
 typedef double gb_real;
+#endif
 #endif
 
 /* A number of the target is infinite or not a number. */

@@ -16,6 +16,7 @@ mod batch;
 mod conditions;
 pub mod derivatives;
 mod double;
+pub mod dynamics;
 mod joints;
 pub mod lanes;
 pub mod limits;

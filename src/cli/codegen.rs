@@ -78,7 +78,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let in_two = arguments.lang == Language::C && !arguments.single_file;
     let header = if in_two { Some(header_of(path)?) } else { None };
     if !arguments.force {
-        [Some(path), header.as_ref()].into_iter().flatten().try_for_each(|path| refuse_foreign(path))?;
+        [Some(path), header.as_ref()]
+            .into_iter()
+            .flatten()
+            .try_for_each(|path| refuse_foreign(path, "--force to replace it"))?;
     }
     match header {
         None => write_atomically(path, arguments.text()?.as_bytes())?,
@@ -183,7 +186,7 @@ impl Arguments {
 }
 
 /// Fails for a file that is there and that groebot did not write.
-fn refuse_foreign(path: &Path) -> Result<()> {
+fn refuse_foreign(path: &Path, otherwise: &str) -> Result<()> {
     let file = match fs::File::open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
@@ -193,6 +196,15 @@ fn refuse_foreign(path: &Path) -> Result<()> {
     if head.map_while(std::result::Result::ok).any(|line| line.contains(MARK)) {
         return Ok(());
     }
-    let text = "this file is there, and groebot did not write it; give another name, or --force to replace it";
+    let text = format!("this file is there, and groebot did not write it; give another name, or {otherwise}");
     Err(Error::new(ErrorKind::BadValue, text).in_file(path))
+}
+
+/// Writes a file that groebot generates, in the place of none or of one that it wrote.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] where somebody else's file stands there, [`ErrorKind::Io`].
+pub(super) fn write_generated(path: &Path, text: &str) -> Result<()> {
+    refuse_foreign(path, "move it away")?;
+    write_atomically(path, text.as_bytes())
 }

@@ -6,6 +6,7 @@
 //! of a file (`skeleton/`), filled from one `outline::Outline`.
 
 pub mod c99;
+pub mod dynamics;
 pub mod ikfast;
 pub mod rust;
 pub mod single_file;

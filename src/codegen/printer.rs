@@ -77,7 +77,9 @@ pub(super) fn packed_lines(items: Vec<String>, lead: &str) -> String {
 /// Prints code of one function.
 pub(super) struct Printer<'a> {
     language: &'a dyn Expressions,
-    names: &'a Names,
+    /// By parameter and by unknown.
+    parameters: &'a [String],
+    unknowns: &'a [String],
     demand: Demand,
     /// Number of register 0.
     first_register: usize,
@@ -88,11 +90,18 @@ pub(super) struct Printer<'a> {
 impl<'a> Printer<'a> {
     /// For code whose registers count from `first_register`.
     pub fn new(language: &'a dyn Expressions, names: &'a Names, demand: Demand, first_register: usize) -> Self {
-        Printer { language, names, demand, first_register, waiting: HashMap::new() }
+        let (parameters, unknowns) = (&names.parameters[..], &names.unknowns[..]);
+        Printer { language, parameters, unknowns, demand, first_register, waiting: HashMap::new() }
     }
 
-    pub fn names(&self) -> &'a Names {
-        self.names
+    /// For code that reads parameters alone.
+    pub fn of(language: &'a dyn Expressions, parameters: &'a [String], demand: Demand) -> Self {
+        Printer { language, parameters, unknowns: &[], demand, first_register: 0, waiting: HashMap::new() }
+    }
+
+    /// By unknown.
+    pub fn unknowns(&self) -> &'a [String] {
+        self.unknowns
     }
 
     pub fn demand(&self) -> &Demand {
@@ -134,7 +143,7 @@ impl<'a> Printer<'a> {
 
     /// An unknown: a local variable.
     pub fn unknown(&self, index: usize) -> String {
-        self.names.unknowns[index].clone()
+        self.unknowns[index].clone()
     }
 
     fn register(&self, index: usize) -> String {
@@ -147,7 +156,7 @@ impl<'a> Printer<'a> {
                 Expression { text: self.language.literal(value), binding: Binding::Sign }
             }
             Operand::Constant(value) => Expression::atom(self.language.literal(value)),
-            Operand::Parameter(index) => Expression::atom(&self.names.parameters[index]),
+            Operand::Parameter(index) => Expression::atom(&self.parameters[index]),
             Operand::Unknown(index) => Expression::atom(self.unknown(index)),
             Operand::Register(index) => {
                 self.waiting.remove(&index).unwrap_or_else(|| Expression::atom(self.register(index)))

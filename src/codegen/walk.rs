@@ -230,7 +230,7 @@ impl<'a> Walk<'a> {
                 }
                 Step::Set { unknown, value } if printer.demand().wants_unknown(*unknown) => {
                     let value = printer.operand(*value);
-                    self.push([self.dialect.declare(&printer.names().unknowns[*unknown], &value)]);
+                    self.push([self.dialect.declare(&printer.unknowns()[*unknown], &value)]);
                 }
                 Step::Set { .. } => {}
                 Step::Roots { unknown, polynomials, typical } => {
@@ -308,7 +308,7 @@ impl<'a> Walk<'a> {
         let lines = printer.settle();
         self.push(lines);
         self.push(finds);
-        let name = printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str());
+        let name = printer.demand().wants_unknown(unknown).then(|| printer.unknowns()[unknown].as_str());
         self.open(dialect.open_roots(number, name, is_pair));
     }
 
@@ -316,9 +316,8 @@ impl<'a> Walk<'a> {
         self.loops += 1;
         let lines = printer.settle();
         self.push(lines);
-        let name = |unknown: usize| {
-            printer.demand().wants_unknown(unknown).then(|| printer.names().unknowns[unknown].as_str())
-        };
+        let name =
+            |unknown: usize| printer.demand().wants_unknown(unknown).then(|| printer.unknowns()[unknown].as_str());
         let names: Vec<Option<&str>> = joint.unknowns().into_iter().map(name).collect();
         let table = Table::new(joint, values);
         let place = self.scene.tables.iter().position(|other| *other == table);
@@ -347,7 +346,7 @@ impl<'a> Walk<'a> {
             };
             let wanted = values.into_iter().filter(|(unknown, _)| printer.demand().wants_unknown(*unknown));
             let lines: Vec<String> =
-                wanted.map(|(unknown, value)| dialect.declare(&printer.names().unknowns[unknown], &value)).collect();
+                wanted.map(|(unknown, value)| dialect.declare(&printer.unknowns()[unknown], &value)).collect();
             self.push(lines);
             joints.push(scene.program.joints.iter().position(|other| other.value == *joint));
         }

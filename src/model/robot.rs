@@ -47,6 +47,21 @@ impl Robot {
         }
     }
 
+    /// The robot whose rotations are what their numbers mean: quarter turns where 1.5708 is told.
+    ///
+    /// # Errors
+    /// As [`Robot::new`].
+    pub fn as_meant(&self) -> Result<Self> {
+        let mut parts = self.parts.clone();
+        for joint in &mut parts.joints {
+            let placement = &mut joint.origin.placement;
+            if let Some(meant) = placement.meant.take() {
+                placement.rotation = meant;
+            }
+        }
+        Robot::new(parts)
+    }
+
     /// The plain data of this robot.
     pub fn parts(&self) -> &RobotParts {
         &self.parts

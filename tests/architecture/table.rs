@@ -24,7 +24,7 @@ const TABLE: [(&str, Uses); 21] = [
         "witness",
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
     ),
-    ("codegen", Uses::Only(&["number", "solver"])),
+    ("codegen", Uses::Only(&["number", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
     ("gait", Uses::Only(&["spatial", "model", "kinematics", "dynamics", "motion"])),
     ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),

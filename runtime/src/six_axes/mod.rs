@@ -23,7 +23,7 @@ mod screw;
 mod section;
 mod shifted_qr;
 mod solve;
-mod vector;
+pub(crate) mod vector;
 
 pub use answers::{Answer, Answers, ROOM};
 pub use chain::{Chain, Formulation, Formulations};

@@ -78,7 +78,7 @@ const WHOLE: f64 = 6_755_399_441_055_744.0;
 /// The cosines and the sines of angles up to a million rad, to the last bit but where an angle is in the middle between two quarter turns those of
 /// [`crate::trigonometry`].
 #[inline(always)]
-pub(super) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N]; 2] {
+pub(crate) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N]; 2] {
     let shifted = Lanes(*angles) * FRAC_2_PI + WHOLE;
     let [c, s] = within_quarter(Lanes(*angles), shifted - WHOLE);
     let (mut cosines, mut sines) = ([0.0; N], [0.0; N]);

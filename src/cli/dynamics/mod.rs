@@ -1,5 +1,6 @@
 //! `groebot dynamics`: the equations of motion of a robot, at states of a table or as polynomials.
 
+mod code;
 mod states;
 mod symbolic;
 
@@ -17,6 +18,8 @@ pub use symbolic::reprove;
 const EXAMPLES: &str = "Examples:
   groebot dynamics ur5.urdf --states states.csv -o out.csv
   groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json
+  groebot dynamics ur5.urdf --lang c -o ur5_dynamics.c
+  groebot dynamics ur5.urdf --lang rust --functions inverse,inertia > src/ur5_dynamics.rs
   groebot dynamics --symbolic derivations/scara
   groebot dynamics --symbolic ur5.urdf --tip forearm_link --numbers -o ur5_dynamics
 
@@ -27,6 +30,10 @@ follow others are told too: then each is on its own.
 
 Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
 g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.
+
+With --lang the equations of motion are printed as code, friction left out: inverse (torques of a motion), gravity, inertia (M), coriolis (C), forward and derivatives
+(of inverse dynamics by configuration and velocity); Rust stands on the crate groebot-runtime, C on runtime/c/groebot_dynamics.h. With --floating the root moves
+freely.
 
 With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt
 with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
@@ -39,11 +46,20 @@ pub struct Arguments {
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
     /// The states, CSV
-    #[arg(long, value_name = "FILE", required_unless_present = "symbolic")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["symbolic", "lang"])]
     states: Option<PathBuf>,
     /// Tell polynomials in cosines, sines and what bodies weigh
     #[arg(long, conflicts_with_all = ["states", "no_friction", "as_told", "json"])]
     symbolic: bool,
+    /// Print code in this language
+    #[arg(long, value_name = "LANGUAGE", conflicts_with_all = ["states", "symbolic", "no_friction", "json"])]
+    lang: Option<code::Language>,
+    /// With --lang: which functions (default: all)
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang")]
+    functions: Vec<code::FunctionName>,
+    /// With --lang: the root moves freely
+    #[arg(long, requires = "lang")]
+    floating: bool,
     /// With --symbolic: what bodies weigh in the numbers of the description
     #[arg(long, requires = "symbolic")]
     numbers: bool,
@@ -65,7 +81,7 @@ pub struct Arguments {
     /// Take inertias that no body has as they are told
     #[arg(long)]
     as_told: bool,
-    /// Where the table goes, or the folder of polynomials; standard output without it
+    /// Where the table or code goes, or the folder of polynomials; C goes into NAME.c and NAME.h beside it; standard output without it
     #[arg(short, long, value_name = "FILE-or-FOLDER")]
     out: Option<PathBuf>,
     /// JSON in place of the table
@@ -92,8 +108,9 @@ fn gravity(text: &str) -> std::result::Result<Gravity, String> {
 
 /// Tells what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
-    match &arguments.states {
-        Some(states) => states::run(arguments, states),
-        None => symbolic::run(arguments),
+    match (&arguments.states, arguments.lang) {
+        (Some(states), _) => states::run(arguments, states),
+        (None, Some(language)) => code::run(arguments, language),
+        (None, None) => symbolic::run(arguments),
     }
 }

@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
 }
 
 /// The robot whose other joints stand still, and gravity in its root's frame.
-fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Vector3<f64>)> {
+pub(super) fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Vector3<f64>)> {
     let place = |name: &Option<String>| name.as_ref().map(|name| robot.link(name)).transpose();
     let (base, tip) = (place(&arguments.base)?, place(&arguments.tip)?);
     let above = |link: Option<usize>| link.map_or_else(Vec::new, |link| robot.ancestry(link));

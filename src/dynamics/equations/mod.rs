@@ -1,6 +1,7 @@
 //! The equations of motion of a robot, `M q'' + C q' + N + friction = torques`. Main type: [`Equations`].
 
 mod changes;
+mod formal;
 mod forward;
 mod inverse;
 mod matrices;
@@ -8,6 +9,7 @@ mod workspace;
 
 use nalgebra::Vector3;
 
+pub use formal::{Formal, FormalState, Value};
 pub use workspace::Workspace;
 
 use super::Model;
@@ -170,6 +172,11 @@ impl Equations {
     /// The independent joints, in the order of a configuration.
     pub fn joints(&self) -> &[String] {
         &self.names
+    }
+
+    /// Whether the root moves freely.
+    pub fn is_floating(&self) -> bool {
+        self.base == Base::Floating
     }
 
     /// How many numbers a velocity has.

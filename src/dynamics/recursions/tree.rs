@@ -121,6 +121,36 @@ impl Tree<f64> {
     }
 }
 
+impl Tree<f64> {
+    /// A tree that moves alike, whose bodies have as many zeros as go among their ten numbers. What of a body is the same however its joint stands counts with what
+    /// carries it: of one that turns about z its mass, that times its height along z, and the inertia across z of a thin rod on the axis; of one that slides
+    /// its inertia tensor. The base, where it is fixed, weighs nothing. (M. Gautier and W. Khalil, IEEE Trans. Robotics and Automation 6, 1990.)
+    #[must_use]
+    pub fn lean(&self, is_fixed: bool) -> Self {
+        let mut tree = self.clone();
+        for &joint in tree.order.iter().rev() {
+            let Body { parent, freedom, frame, mass } = &mut tree.bodies[joint];
+            let [xx, xy, yy, xz, yz, zz] = mass.tensor;
+            let [x, y, z] = mass.moment;
+            let carried = match freedom {
+                Freedom::Turn => Mass { mass: mass.mass, moment: [0.0, 0.0, z], tensor: [yy, 0.0, yy, 0.0, 0.0, 0.0] },
+                Freedom::Slide => Mass { mass: 0.0, moment: [0.0; 3], tensor: mass.tensor },
+            };
+            *mass = match freedom {
+                Freedom::Turn => Mass { mass: 0.0, moment: [x, y, 0.0], tensor: [xx - yy, xy, 0.0, xz, yz, zz] },
+                Freedom::Slide => Mass { mass: mass.mass, moment: mass.moment, tensor: [0.0; 6] },
+            };
+            let (carried, parent) = (carried.outward(frame), *parent);
+            let below = parent.map_or(&mut tree.base, |parent| &mut tree.bodies[parent].mass);
+            *below = below.plus(&carried);
+        }
+        if is_fixed {
+            tree.base = Mass::zero();
+        }
+        tree
+    }
+}
+
 /// How a joint moves, and a frame of its body in the base frame, its z axis the joint's: turned as the parent's is as far as that goes.
 fn frame_of(screw: &Screw, base_from_parent: &Pose) -> (Freedom, Pose) {
     let (freedom, direction, origin) = match screw {
@@ -146,22 +176,33 @@ impl Frame<f64> {
         let rotation = pose.rotation.to_rotation_matrix();
         let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
         let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
-        Frame { rotation, position: std::array::from_fn(|i| pose.translation.vector[i]) }
+        Frame { rotation, position: std::array::from_fn(|i| without_dust(pose.translation.vector[i], 1.0)) }
     }
 }
 
+/// What rounding along a chain leaves of nothing: as a share of one in rotations, of a metre, of a body's greatest number.
+const DUST: f64 = 1e-13;
+
 /// A rotation's entry, a whole one where rounding alone keeps it from that.
 fn rounded(entry: f64) -> f64 {
-    if (entry - entry.round()).abs() <= 4.0 * f64::EPSILON { entry.round() } else { entry }
+    if (entry - entry.round()).abs() <= DUST { entry.round() } else { entry }
+}
+
+/// The same without what rounding alone has left beside a number of this size.
+fn without_dust(entry: f64, size: f64) -> f64 {
+    if entry.abs() <= DUST * size { 0.0 } else { entry }
 }
 
 /// A body's ten numbers about the origin of the frame that it is told in.
 fn mass(inertia: &Inertia) -> Mass<f64> {
     let generalised = inertia.generalised();
     let entry = |i: usize, j: usize| generalised[(3 + i, 3 + j)];
+    let tensor = [entry(0, 0), entry(1, 0), entry(1, 1), entry(2, 0), entry(2, 1), entry(2, 2)];
+    let moment = inertia.centre_of_mass().coords * inertia.mass();
+    let size = tensor.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
     Mass {
         mass: inertia.mass(),
-        moment: (inertia.centre_of_mass().coords * inertia.mass()).into(),
-        tensor: [entry(0, 0), entry(1, 0), entry(1, 1), entry(2, 0), entry(2, 1), entry(2, 2)],
+        moment: std::array::from_fn(|i| without_dust(moment[i], inertia.mass())),
+        tensor: tensor.map(|entry| without_dust(entry, size)),
     }
 }

@@ -1,0 +1,20 @@
+//! What printed equations of motion stand on: cosines and sines of all joints at once.
+
+use core::f64::consts::TAU;
+
+use crate::six_axes::vector;
+
+/// Beyond so many rad an angle first loses whole turns.
+const FAR: f64 = 1e6;
+
+/// The cosines and the sines of angles in rad, each within one unit of its last place up to a million rad.
+#[inline(always)]
+pub fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N]; 2] {
+    let mut near = *angles;
+    for angle in &mut near {
+        if !(-FAR..=FAR).contains(angle) {
+            *angle %= TAU;
+        }
+    }
+    vector::cosines_and_sines(&near)
+}

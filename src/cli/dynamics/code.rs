@@ -1,0 +1,73 @@
+//! The equations of motion of a robot as code.
+
+use clap::ValueEnum;
+
+use super::Arguments;
+use super::states::between;
+use crate::cli::codegen::write_generated;
+use crate::cli::export::described;
+use crate::cli::{Outcome, console};
+use crate::codegen::dynamics::{Function, Printed};
+use crate::dynamics::{Base, Equations};
+use crate::{Error, ErrorKind};
+
+/// What is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Language {
+    /// Rust, on the crate groebot-runtime
+    Rust,
+    /// C99, on groebot_dynamics.h
+    C,
+}
+
+/// A function by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FunctionName {
+    Inverse,
+    Gravity,
+    Inertia,
+    Coriolis,
+    Forward,
+    Derivatives,
+}
+
+impl FunctionName {
+    fn function(self) -> Function {
+        Function::ALL[self as usize]
+    }
+}
+
+/// Prints the code, or writes it to files.
+pub fn run(arguments: &Arguments, language: Language) -> Outcome {
+    let (described, _) = described(&arguments.robot)?;
+    let meant = described.as_meant()?;
+    let (robot, gravity) = between(&meant, arguments)?;
+    let base = if arguments.floating { Base::Floating } else { Base::Fixed };
+    let new = if arguments.as_told { Equations::as_told } else { Equations::new };
+    let equations = new(&robot, base).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
+    let functions = match arguments.functions.as_slice() {
+        [] => Function::ALL.to_vec(),
+        asked => asked.iter().map(|name| name.function()).collect(),
+    };
+    let mut remarks =
+        vec![format!("Gravity: {}, {}, {} m/s^2. Friction is left out.", gravity.x, gravity.y, gravity.z)];
+    if meant != described {
+        remarks.push("Rotations are taken for what their numbers mean: 1.5708 for a quarter turn.".to_owned());
+    }
+    let printed = Printed { name: robot.name(), equations: &equations, remarks, functions };
+    let fault = |error: Error| error.in_file(&arguments.robot);
+    match (language, &arguments.out) {
+        (Language::Rust, None) => console::print(&printed.rust().map_err(fault)?),
+        (Language::Rust, Some(file)) => Ok(write_generated(file, &printed.rust().map_err(fault)?)?),
+        (Language::C, Some(file)) if file.extension().is_some_and(|end| end == "c") => {
+            let stem = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("dynamics");
+            let [header, source] = printed.c99(stem).map_err(fault)?;
+            write_generated(&file.with_extension("h"), &header)?;
+            Ok(write_generated(file, &source)?)
+        }
+        (Language::C, _) => {
+            let text = "C goes into two files: give the name of the source file by -o NAME.c";
+            Err(Error::new(ErrorKind::BadValue, text).into())
+        }
+    }
+}
