@@ -4,6 +4,7 @@ mod batch;
 pub mod builder;
 mod coupled;
 mod derivations;
+mod dynamics;
 mod forward;
 mod frames;
 mod freestanding;

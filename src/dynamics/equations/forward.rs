@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::{Base, Drive, Equations, State, Workspace};
+use super::{Base, Equations, State, Workspace};
 use crate::dynamics::recursions::{self, Cause, Massless, Six};
 use crate::{Error, ErrorKind, Result};
 
@@ -13,8 +13,7 @@ impl Equations {
     /// As [`Equations::inverse`], and where bodies without mass would have to move, with the names of the link and its joint.
     pub fn forward<'r>(&self, room: &'r mut Workspace, state: State<'_>, torques: &[f64]) -> Result<&'r DVector<f64>> {
         self.check(state, Some(("torques", torques)))?;
-        let leads = |(at, drive): (usize, &Drive)| drive.freedom == at && drive.factor == 1.0;
-        if self.drives.iter().enumerate().all(leads) {
+        if self.is_plain {
             self.forward_by_bodies(room, state, torques)?;
         } else {
             self.forward_by_inertia(room, state, torques)?;

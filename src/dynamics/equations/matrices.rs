@@ -16,7 +16,7 @@ impl Equations {
         self.check_place(q)?;
         self.prepare_still(room, q);
         room.data.inertia(&self.tree, &mut room.full);
-        self.gather(&room.full.inertia, room.full.size, &mut room.inertia);
+        self.gather_symmetric(&room.full.inertia, room.full.size, &mut room.inertia);
         self.add_rotors(&mut room.inertia);
         Ok(&room.inertia)
     }
@@ -37,7 +37,7 @@ impl Equations {
         self.check(state, None)?;
         self.prepare(room, state, None);
         room.data.matrices(&self.tree, &room.base[0], &room.rates, &mut room.full);
-        self.gather(&room.full.inertia, room.full.size, &mut room.inertia);
+        self.gather_symmetric(&room.full.inertia, room.full.size, &mut room.inertia);
         self.gather(&room.full.coriolis, room.full.size, &mut room.coriolis);
         self.add_rotors(&mut room.inertia);
         Ok([&room.inertia, &room.coriolis])

@@ -62,6 +62,8 @@ pub struct Equations {
     /// By independent joint, the link behind it.
     links: Vec<String>,
     drives: Vec<Drive>,
+    /// Whether each joint is a freedom, in order.
+    is_plain: bool,
     /// By link of the robot, the joint that moves it, if one does, and where its frame stands in the joint's body.
     frames: Vec<(Option<usize>, Frame<f64>)>,
     /// The link whose frame a body's ten numbers are told in, that of the base first.
@@ -127,7 +129,9 @@ impl Equations {
             let Joint { armature, damping, friction, .. } = **joint;
             Ok(Drive { freedom, factor, offset, armature, damping, friction })
         };
-        let drives = moving.iter().zip(&laws).map(drive).collect::<Result<_>>()?;
+        let drives: Vec<Drive> = moving.iter().zip(&laws).map(drive).collect::<Result<_>>()?;
+        let leads = |(at, drive): (usize, &Drive)| drive.freedom == at && drive.factor == 1.0;
+        let is_plain = drives.iter().enumerate().all(leads);
         let (tree, base_from_body) = Tree::with_poses(model);
         let frame_of = |link: usize| {
             let (body, base_from_link) = model.link(link);
@@ -143,6 +147,7 @@ impl Equations {
             names,
             links,
             drives,
+            is_plain,
             frames: (0..robot.links().len()).map(frame_of).collect(),
             told_in: std::iter::once(robot.root_place()).chain(behind).collect(),
         })

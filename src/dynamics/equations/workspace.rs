@@ -142,6 +142,12 @@ impl Equations {
 
     /// A matrix of all joints, by rows, for the independent ones.
     pub(super) fn gather(&self, all: &[f64], size: usize, into: &mut DMatrix<f64>) {
+        if self.is_plain {
+            for (mut row, entries) in into.row_iter_mut().zip(all.chunks_exact(size)) {
+                row.iter_mut().zip(entries).for_each(|(own, entry)| *own = *entry);
+            }
+            return;
+        }
         into.fill(0.0);
         for (i, row) in all.chunks_exact(size).enumerate() {
             let (at, above) = self.freedom(i);
@@ -150,6 +156,11 @@ impl Equations {
                 into[(at, beside)] += above * factor * entry;
             }
         }
+    }
+
+    /// The same for a matrix that is symmetric.
+    pub(super) fn gather_symmetric(&self, all: &[f64], size: usize, into: &mut DMatrix<f64>) {
+        if self.is_plain { into.as_mut_slice().copy_from_slice(all) } else { self.gather(all, size, into) }
     }
 
     /// The freedom that moves one of the base's or a joint, and by how much.
