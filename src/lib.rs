@@ -55,6 +55,10 @@ pub mod kinematics;
 
 pub mod dynamics;
 
+pub mod control;
+
+mod drawing;
+
 pub mod solver;
 
 pub mod motion;

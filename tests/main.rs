@@ -4,6 +4,7 @@ mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
 mod codegen;
+mod control;
 mod corpus;
 mod derive;
 mod document;

@@ -7,7 +7,8 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 21] = [
+const TABLE: [(&str, Uses); 23] = [
+    ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
     ("poly", Uses::Only(&["number"])),
@@ -18,6 +19,7 @@ const TABLE: [(&str, Uses); 21] = [
     ("model", Uses::Only(&["number", "spatial"])),
     ("kinematics", Uses::Only(&["number", "roots", "spatial", "model"])),
     ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
+    ("control", Uses::Only(&["drawing", "dynamics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (
@@ -26,7 +28,7 @@ const TABLE: [(&str, Uses); 21] = [
     ),
     ("codegen", Uses::Only(&["number", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
-    ("gait", Uses::Only(&["spatial", "model", "kinematics", "dynamics", "motion"])),
+    ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
     ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
     ("sim", Uses::AllAbove),

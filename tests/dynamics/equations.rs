@@ -194,14 +194,14 @@ fn friction_and_rotors_are_counted_once() {
 }
 
 /// Near what a test expects, as vectors of any kind.
-fn near(found: &[f64], expected: &[f64], least: f64, what: &str) {
+pub fn near(found: &[f64], expected: &[f64], least: f64, what: &str) {
     let size = expected.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     let miss = found.iter().zip(expected).fold(0.0, |miss: f64, (a, b)| miss.max((a - b).abs()));
     assert!(found.len() == expected.len() && miss <= least * size, "{what}: off by {miss:e} of {size:e}");
 }
 
 /// A configuration that is moved along a velocity for a while, a free root in its own frame.
-fn moved(base: Base, q: &[f64], velocity: &[f64], time: f64) -> Vec<f64> {
+pub fn moved(base: Base, q: &[f64], velocity: &[f64], time: f64) -> Vec<f64> {
     let mut q = q.to_vec();
     let joints = if base == Base::Fixed { 0 } else { 7 };
     if base == Base::Floating {

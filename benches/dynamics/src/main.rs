@@ -1,8 +1,10 @@
 //! Times equations of motion, printed and by the library, beside Pinocchio: one interleaved run, medians of processor time.
 
+use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::{CString, c_char, c_double, c_int};
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use groebot::dynamics::{Base, Equations, State};
 use groebot::model::{JointType, Robot};
@@ -54,6 +56,26 @@ fn now() -> f64 {
     unsafe { clock_gettime(THREAD, &mut time) };
     time.seconds as f64 * 1e9 + time.nanoseconds as f64
 }
+
+/// Counts what is allocated: calls of the library must not.
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: all is handed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 /// Who computes something: a call goes through all states.
 struct Contender<'a> {
@@ -274,9 +296,11 @@ fn main() {
         let mut times = vec![Vec::with_capacity(ROUNDS); contenders.len()];
         for _ in 0..ROUNDS {
             for (contender, times) in contenders.iter_mut().zip(&mut times) {
-                let start = now();
+                let (start, before) = (now(), ALLOCATIONS.load(Ordering::Relaxed));
                 (contender.run)();
                 times.push((now() - start) / STATES as f64);
+                let allocated = ALLOCATIONS.load(Ordering::Relaxed) - before;
+                assert!(contender.who != "library" || allocated == 0, "{} allocates", FUNCTIONS[contender.function]);
             }
         }
         let median = |times: &mut Vec<f64>| {

@@ -2,9 +2,9 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::frame::Frame;
-use super::svg::{Svg, Swatch};
 use super::{INNER, LEFT, Walk};
+use crate::drawing::frame::Frame;
+use crate::drawing::svg::{Svg, Swatch};
 use crate::gait::biped::Biped;
 use crate::gait::footprint::{Footprint, Side};
 use crate::spatial::angle;

@@ -1,8 +1,8 @@
 //! How far the zero moment point is inside the support polygon, in time, with the phases in which one foot stands alone.
 
-use super::frame::Frame;
-use super::svg::{Svg, Swatch};
 use super::{INNER, LEFT, Walk};
+use crate::drawing::frame::Frame;
+use crate::drawing::svg::{Svg, Swatch};
 use crate::gait::footprint::Side;
 use crate::gait::schedule::Action;
 use crate::gait::summary::least_margin;

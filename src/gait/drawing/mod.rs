@@ -1,13 +1,12 @@
 //! A walk as a picture, SVG: from above, the margin of the zero moment point in time, the paths in space, and the joints in time.
 
 mod floor;
-mod frame;
 mod margin;
 mod series;
-mod svg;
 
 use super::biped::Biped;
 use super::plan::Walk;
+use crate::drawing::svg::Svg;
 
 /// The width of the picture, what is left of its frames, and the width of those that take all of it \[px\].
 const WIDTH: f64 = 1200.0;
@@ -21,7 +20,7 @@ impl Walk {
     /// point in time, with the least one marked and the times shaded in which one foot stands alone; the paths of ankles and trunk; each
     /// joint that moves, against its limits. Metres, millimetres for the margin, seconds, degrees.
     pub fn to_svg(&self, biped: &Biped) -> String {
-        let mut svg = svg::Svg::default();
+        let mut svg = Svg::default();
         let above = floor::draw(self, biped, GAP, &mut svg);
         let margin = margin::draw(self, above + GAP, &mut svg);
         let paths = series::draw_paths(self, biped, margin + GAP, &mut svg);

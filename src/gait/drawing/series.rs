@@ -2,9 +2,9 @@
 
 use nalgebra::{Point2, Point3, Vector3};
 
-use super::frame::Frame;
-use super::svg::Svg;
 use super::{GAP, INNER, LEFT, Walk};
+use crate::drawing::frame::Frame;
+use crate::drawing::svg::Svg;
 use crate::gait::biped::Biped;
 use crate::gait::footprint::Side;
 
@@ -71,7 +71,7 @@ pub(super) fn draw_joints(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -
     let mut end = top;
     for (place, joint) in moving.enumerate() {
         let (column, row) = (place % COLUMNS, place / COLUMNS);
-        let height = ABOVE + PANEL.1 + super::frame::BELOW + GAP / 2.0;
+        let height = ABOVE + PANEL.1 + crate::drawing::frame::BELOW + GAP / 2.0;
         let corner = (LEFT + column as f64 * (PANEL.0 + BESIDE), top + row as f64 * height);
         end = draw_joint(walk, biped, joint, corner, svg);
     }

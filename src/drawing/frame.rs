@@ -7,23 +7,23 @@ const APART: (f64, f64) = (60.0, 18.0);
 /// The most ticks of an axis.
 const MOST: f64 = 16.0;
 /// What the numbers below a frame take of the page \[px\].
-pub(super) const BELOW: f64 = 18.0;
+pub(crate) const BELOW: f64 = 18.0;
 
 /// A rectangle of the page, and what its sides stand for: the first axis goes to the right, the second one up.
-pub(super) struct Frame {
+pub(crate) struct Frame {
     /// The upper left corner \[px\].
-    pub(super) corner: (f64, f64),
+    pub(crate) corner: (f64, f64),
     /// Width and height \[px\].
-    pub(super) size: (f64, f64),
+    pub(crate) size: (f64, f64),
     /// The values at the lower left corner.
-    pub(super) low: (f64, f64),
+    pub(crate) low: (f64, f64),
     /// The values at the upper right corner.
-    pub(super) high: (f64, f64),
+    pub(crate) high: (f64, f64),
 }
 
 impl Frame {
     /// Where a pair of values is on the page \[px\].
-    pub(super) fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
+    pub(crate) fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let share = |value: f64, low: f64, high: f64| (value - low) / (high - low);
         (
             self.corner.0 + share(x, self.low.0, self.high.0) * self.size.0,
@@ -32,12 +32,12 @@ impl Frame {
     }
 
     /// Where the frame and its numbers end, downwards \[px\].
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.corner.1 + self.size.1 + BELOW
     }
 
     /// Draws the frame with lines and numbers at round values; the last number of each axis has its unit.
-    pub(super) fn draw(&self, units: (&str, &str), svg: &mut Svg) {
+    pub(crate) fn draw(&self, units: (&str, &str), svg: &mut Svg) {
         let bottom = self.corner.1 + self.size.1;
         let right = self.corner.0 + self.size.0;
         let along = ticks(self.low.0, self.high.0, (self.size.0 / APART.0).min(MOST));

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 /// What stands before an entry of a legend.
 #[derive(Clone, Copy)]
-pub(super) enum Swatch {
+pub(crate) enum Swatch {
     /// A piece of line.
     Line,
     /// A small rectangle.
@@ -20,42 +20,42 @@ const SWATCH: f64 = 50.0;
 
 /// The elements of a picture, without its head.
 #[derive(Default)]
-pub(super) struct Svg(String);
+pub(crate) struct Svg(String);
 
 impl Svg {
     /// Adds an element.
-    pub(super) fn add(&mut self, element: std::fmt::Arguments<'_>) {
+    pub(crate) fn add(&mut self, element: std::fmt::Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ = self.0.write_fmt(element);
         self.0.push('\n');
     }
 
     /// Adds a line through `points` \[px\].
-    pub(super) fn line(&mut self, class: &str, points: impl IntoIterator<Item = (f64, f64)>) {
+    pub(crate) fn line(&mut self, class: &str, points: impl IntoIterator<Item = (f64, f64)>) {
         self.add(format_args!(r#"<polyline class="{class}" points="{}"/>"#, listed(points)));
     }
 
     /// Adds a polygon, the more solid the greater `opacity`, up to 1.
-    pub(super) fn polygon(&mut self, class: &str, opacity: f64, points: impl IntoIterator<Item = (f64, f64)>) {
+    pub(crate) fn polygon(&mut self, class: &str, opacity: f64, points: impl IntoIterator<Item = (f64, f64)>) {
         let points = listed(points);
         self.add(format_args!(r#"<polygon class="{class}" opacity="{opacity:.2}" points="{points}"/>"#));
     }
 
     /// Adds a rectangle from its upper left corner.
-    pub(super) fn rectangle(&mut self, class: &str, (x, y): (f64, f64), (width, height): (f64, f64)) {
+    pub(crate) fn rectangle(&mut self, class: &str, (x, y): (f64, f64), (width, height): (f64, f64)) {
         self.add(format_args!(
             r#"<rect class="{class}" x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}"/>"#
         ));
     }
 
     /// Adds text at the left end of its base line; classes `middle` and `end` let it stand about or before that point.
-    pub(super) fn text(&mut self, class: &str, (x, y): (f64, f64), text: &str) {
+    pub(crate) fn text(&mut self, class: &str, (x, y): (f64, f64), text: &str) {
         let text = text.replace('&', "&amp;").replace('<', "&lt;");
         self.add(format_args!(r#"<text class="{class}" x="{x:.1}" y="{y:.1}">{text}</text>"#));
     }
 
     /// Adds a legend on one line: swatches of a class, each with its words.
-    pub(super) fn legend(&mut self, (mut x, y): (f64, f64), entries: &[(Swatch, &str, &str)]) {
+    pub(crate) fn legend(&mut self, (mut x, y): (f64, f64), entries: &[(Swatch, &str, &str)]) {
         for (swatch, class, words) in entries {
             match swatch {
                 Swatch::Line => self.line(class, [(x, y - 4.0), (x + 24.0, y - 4.0)]),
@@ -68,7 +68,7 @@ impl Svg {
     }
 
     /// The picture, of this width and height \[px\].
-    pub(super) fn finish(self, width: f64, height: f64) -> String {
+    pub(crate) fn finish(self, width: f64, height: f64) -> String {
         let size = format!(r#"width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}""#);
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {size}>\n{STYLE}\n{}</svg>\n", self.0)
     }

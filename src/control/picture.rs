@@ -1,0 +1,58 @@
+//! A tracked motion as a picture: errors and torques in time.
+
+use super::Sample;
+use crate::drawing::frame::Frame;
+use crate::drawing::svg::{Svg, Swatch};
+
+const WIDTH: f64 = 1000.0;
+const LEFT: f64 = 70.0;
+const HEIGHT: f64 = 220.0;
+const GAP: f64 = 20.0;
+/// Lines are told apart by their colours, as many as there are here.
+const COLOURS: [&str; 8] = ["#1f5f9e", "#b05a00", "#2f8f4e", "#b0126f", "#6b4fa0", "#7a6a1f", "#3aa0a0", "#444444"];
+
+/// Errors of all joints and their torques in time, as SVG; `names` are the joints'.
+pub fn errors_and_torques(samples: &[Sample], names: &[String]) -> String {
+    let mut svg = Svg::default();
+    let errors = |joint: usize| samples.iter().map(move |sample| 1e3 * (sample.q[joint] - sample.desired[joint]));
+    let torques = |joint: usize| samples.iter().map(move |sample| sample.torques[joint]);
+    let end = panel(&mut svg, GAP, "errors, what is less what should be", "1e-3", samples, names, errors);
+    let end = panel(&mut svg, end + GAP, "torques and forces", "N m, N", samples, names, torques);
+    svg.finish(WIDTH, end + GAP)
+}
+
+/// One panel below `top`; where it ends \[px\].
+fn panel<I: Iterator<Item = f64>>(
+    svg: &mut Svg,
+    top: f64,
+    title: &str,
+    unit: &str,
+    samples: &[Sample],
+    names: &[String],
+    values: impl Fn(usize) -> I,
+) -> f64 {
+    svg.text("title", (LEFT, top + 12.0), title);
+    let all = (0..names.len()).flat_map(&values);
+    let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
+    let room = 0.05 * (high - low).max(1e-12);
+    let end = samples.last().map_or(1.0, |sample| sample.time);
+    let frame = Frame {
+        corner: (LEFT, top + 42.0),
+        size: (WIDTH - LEFT - GAP, HEIGHT),
+        low: (0.0, low - room),
+        high: (end.max(1e-9), high + room),
+    };
+    frame.draw(("s", unit), svg);
+    for (joint, name) in names.iter().enumerate() {
+        let colour = COLOURS[joint % COLOURS.len()];
+        let class = format!("joint\" style=\"stroke: {colour}");
+        let points = samples.iter().zip(values(joint)).map(|(sample, value)| frame.at((sample.time, value)));
+        svg.line(&class, points);
+        let shown: String = name.chars().take(16).collect();
+        svg.legend(
+            (LEFT + 150.0 * (joint % 6) as f64, top + 26.0 + 12.0 * (joint / 6) as f64),
+            &[(Swatch::Line, &class, &shown)],
+        );
+    }
+    frame.end()
+}
