@@ -33,6 +33,7 @@ mod report;
 mod solve;
 mod strata;
 mod targets;
+mod track;
 mod walk;
 
 use std::io::Write;
@@ -81,6 +82,7 @@ enum Command {
     Basis(basis::Arguments),
     Walk(walk::Arguments),
     Dynamics(dynamics::Arguments),
+    Track(track::Arguments),
     Export(export::Arguments),
     Follow(follow::Arguments),
 }
@@ -129,6 +131,7 @@ pub fn run() -> ExitCode {
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
+        Command::Track(arguments) => track::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Follow(arguments) => follow::run(arguments),
     };

@@ -207,10 +207,12 @@ fn singular_and_other_jacobians_are_refused_or_damped() {
     let mut exact = WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
     let error = exact.torques(&target, State::new(&q, &[0.0; 9])).unwrap_err();
     assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("9 joints"), "{error}");
-    assert!(WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.02))
-        .unwrap()
-        .torques(&target, State::new(&q, &[0.0; 9]))
-        .is_ok());
+    assert!(
+        WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.02))
+            .unwrap()
+            .torques(&target, State::new(&q, &[0.0; 9]))
+            .is_ok()
+    );
 }
 
 #[test]
@@ -251,7 +253,8 @@ fn energy_is_kept() {
             Ok(&self.0)
         }
     }
-    let plant = equations(include_str!("../corpus/dynamics/rrp.urdf")).with_gravity(nalgebra::Vector3::new(0.0, 0.0, -0.5));
+    let plant =
+        equations(include_str!("../corpus/dynamics/rrp.urdf")).with_gravity(nalgebra::Vector3::new(0.0, 0.0, -0.5));
     let desired = waves(3);
     let mut closed = ClosedLoop::new(&plant, Nothing(vec![0.0; 3]), 5e-4, Disturbance::default()).unwrap();
     let samples = closed.run([&[0.3, 0.2, 0.5], &[0.4, 0.1, 0.0]], 10.0, desired, &Watch::none()).unwrap();

@@ -41,7 +41,7 @@ impl FunctionName {
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let (described, _) = described(&arguments.robot)?;
     let meant = described.as_meant()?;
-    let (robot, gravity) = between(&meant, arguments)?;
+    let (robot, gravity) = between(&meant, arguments.ends(), arguments.gravity.in_doubles())?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let new = if arguments.as_told { Equations::as_told } else { Equations::new };
     let equations = new(&robot, base).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);

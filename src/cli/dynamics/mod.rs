@@ -1,7 +1,7 @@
 //! `groebot dynamics`: the equations of motion of a robot, at states of a table or as polynomials.
 
 mod code;
-mod states;
+pub mod states;
 mod symbolic;
 
 use std::path::PathBuf;
@@ -89,17 +89,23 @@ pub struct Arguments {
     json: bool,
 }
 
+impl Arguments {
+    fn ends(&self) -> [Option<&str>; 2] {
+        [self.base.as_deref(), self.tip.as_deref()]
+    }
+}
+
 #[derive(Clone, Debug)]
-struct Gravity(ExactVector);
+pub struct Gravity(ExactVector);
 
 impl Gravity {
-    fn in_doubles(&self) -> Vector3<f64> {
+    pub fn in_doubles(&self) -> Vector3<f64> {
         Vector3::from(self.0.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN)))
     }
 }
 
 /// Three numbers between commas.
-fn gravity(text: &str) -> std::result::Result<Gravity, String> {
+pub fn gravity(text: &str) -> std::result::Result<Gravity, String> {
     let numbers: Option<Vec<_>> = text.split(',').map(|word| parse_rational(word.trim()).ok()).collect();
     let exact = numbers.and_then(|numbers| ExactVector::try_from(numbers).ok()).map(Gravity);
     let finite = exact.filter(|gravity| gravity.in_doubles().iter().all(|entry| entry.is_finite()));

@@ -39,7 +39,7 @@ struct Answer {
 /// Reads the states and writes what is asked of them.
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
-    let (robot, gravity) = between(&robot, arguments)?;
+    let (robot, gravity) = between(&robot, arguments.ends(), arguments.gravity.in_doubles())?;
     let table = Table::read(states)?;
     let report = report(&robot, gravity, arguments, &table)?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
@@ -49,19 +49,19 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     }
 }
 
-/// The robot whose other joints stand still, and gravity in its root's frame.
-pub(super) fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Vector3<f64>)> {
-    let place = |name: &Option<String>| name.as_ref().map(|name| robot.link(name)).transpose();
-    let (base, tip) = (place(&arguments.base)?, place(&arguments.tip)?);
+/// The robot whose joints move between two links alone, and gravity \[m/s^2\] in its root's frame, of which the frame of the base is told.
+pub(in crate::cli) fn between(
+    robot: &Robot,
+    ends: [Option<&str>; 2],
+    gravity: Vector3<f64>,
+) -> Result<(Robot, Vector3<f64>)> {
+    let place = |name: Option<&str>| name.map(|name| robot.link(name)).transpose();
+    let (base, tip) = (place(ends[0])?, place(ends[1])?);
     let above = |link: Option<usize>| link.map_or_else(Vec::new, |link| robot.ancestry(link));
     let (carrying, path) = (above(base), above(tip));
     if tip.is_some() && !carrying.iter().all(|joint| path.contains(joint)) {
-        let text = format!(
-            "link `{}` is not above link `{}`",
-            arguments.base.as_deref().unwrap_or_default(),
-            arguments.tip.as_deref().unwrap_or_default()
-        );
-        return Err(Error::new(ErrorKind::BadValue, text));
+        let [base, tip] = ends.map(Option::unwrap_or_default);
+        return Err(Error::new(ErrorKind::BadValue, format!("link `{base}` is not above link `{tip}`")));
     }
     let mut parts = robot.parts().clone();
     let below = |joint: usize| {
@@ -82,7 +82,7 @@ pub(super) fn between(robot: &Robot, arguments: &Arguments) -> Result<(Robot, Ve
     let robot = Robot::new(parts)?;
     let model = crate::dynamics::Model::new(&robot)?;
     let turn = base.map_or_else(nalgebra::UnitQuaternion::identity, |base| model.link(base).1.rotation);
-    Ok((robot, turn * arguments.gravity.in_doubles()))
+    Ok((robot, turn * gravity))
 }
 
 fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &Table) -> Result<Report> {
@@ -163,32 +163,34 @@ fn csv(report: &Report) -> Result<String> {
 }
 
 /// The states that are read.
-struct Table {
+pub(in crate::cli) struct Table {
     file: PathBuf,
     /// How many columns begin with q.
     q: usize,
-    rows: Vec<Row>,
+    pub rows: Vec<Row>,
 }
 
 /// A state, and what else the table tells of it.
-struct Row {
-    q: Vec<f64>,
-    velocity: Option<Vec<f64>>,
-    acceleration: Option<Vec<f64>>,
-    torques: Option<Vec<f64>>,
+pub(in crate::cli) struct Row {
+    pub time: Option<f64>,
+    pub q: Vec<f64>,
+    pub velocity: Option<Vec<f64>>,
+    pub acceleration: Option<Vec<f64>>,
+    pub torques: Option<Vec<f64>>,
 }
 
 impl Table {
-    fn read(file: &Path) -> Result<Self> {
+    pub fn read(file: &Path) -> Result<Self> {
         let fault = |error: csv::Error| Error::new(ErrorKind::Syntax, error.to_string()).in_file(file);
         let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(opened);
         let names: Vec<String> = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
         let columns = ["q", "v", "a", "tau"].map(|head| columns(&names, head));
-        let known: usize = columns.iter().map(Vec::len).sum();
+        let time = names.iter().position(|name| name == "t");
+        let known = columns.iter().map(Vec::len).sum::<usize>() + usize::from(time.is_some());
         if known != names.len() || columns[0].is_empty() {
             let text = format!(
-                "the first row is `{}`; give the names q0, q1, ..., v0, ..., a0, ... and tau0, ..., each list whole",
+                "the first row is `{}`; give the names q0, q1, ..., v0, ..., a0, ... and tau0, ..., each list whole, and t for a time",
                 names.join(",")
             );
             return Err(Error::new(ErrorKind::Syntax, text).in_file(file).at_line(1));
@@ -205,6 +207,7 @@ impl Table {
             let list = |columns: &Vec<usize>| columns.iter().map(number).collect::<Result<Vec<f64>>>();
             let optional = |columns: &Vec<usize>| (!columns.is_empty()).then(|| list(columns)).transpose();
             rows.push(Row {
+                time: time.as_ref().map(number).transpose()?,
                 q: list(&columns[0])?,
                 velocity: optional(&columns[1])?,
                 acceleration: optional(&columns[2])?,
