@@ -23,6 +23,7 @@ mod files;
 mod fk;
 mod follow;
 mod forms;
+mod identify;
 mod ik;
 mod info;
 mod json;
@@ -83,6 +84,7 @@ enum Command {
     Walk(walk::Arguments),
     Dynamics(dynamics::Arguments),
     Track(track::Arguments),
+    Identify(identify::Arguments),
     Export(export::Arguments),
     Follow(follow::Arguments),
 }
@@ -132,6 +134,7 @@ pub fn run() -> ExitCode {
         Command::Walk(arguments) => walk::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Track(arguments) => track::run(arguments),
+        Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Follow(arguments) => follow::run(arguments),
     };

@@ -14,6 +14,7 @@ mod placed;
 mod recursions;
 
 pub use clearance::{Clearance, Touch};
+pub use equations::identify::{CONFIDENT, Consistency, Estimate, Identification, Logged};
 pub use equations::{Base, Equations, Formal, FormalState, State, Value, Workspace};
 pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;

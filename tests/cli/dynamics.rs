@@ -154,3 +154,22 @@ fn polynomials_are_printed_written_and_proved_again() {
     assert!(refused(&["dynamics", "--symbolic", text(&chain), "--numbers"]).contains("tells no masses"));
     assert!(refused(&["dynamics", "--symbolic", "nao_v5", "-o", out_text]).contains("several ends"));
 }
+
+#[test]
+fn code_is_printed_in_both_languages() {
+    let files = files(ARM, "q0\n0\n");
+    let robot = text(&files.robot);
+    let rust = succeed(&["dynamics", robot, "--lang", "rust", "--functions", "gravity,inertia"]);
+    assert!(rust.contains("pub fn gravity(q: &[f64; COORDINATES]) -> Row {") && !rust.contains("fn inverse"), "{rust}");
+    let c = files.robot.with_file_name("arm_dynamics.c");
+    assert_eq!(succeed(&["dynamics", robot, "--lang", "c", "-o", text(&c)]), "");
+    let header = fs::read_to_string(c.with_extension("h")).unwrap();
+    assert!(
+        header
+            .contains("void arm_inverse(const gb_real q[2], const gb_real v[2], const gb_real a[2], gb_real out[2]);")
+    );
+    assert!(fs::read_to_string(&c).unwrap().contains("#include \"arm_dynamics.h\""));
+    fs::write(&c, "somebody's\n").unwrap();
+    assert!(refused(&["dynamics", robot, "--lang", "c", "-o", text(&c)]).contains("groebot did not write it"));
+    assert!(refused(&["dynamics", robot, "--lang", "c"]).contains("give the name of the source file"));
+}

@@ -18,6 +18,7 @@ mod interrupted;
 mod plan;
 mod refused;
 mod solve;
+mod track;
 mod walk;
 
 use std::collections::BTreeMap;

@@ -4,6 +4,7 @@ mod clearance;
 mod coriolis;
 mod equations;
 mod exact;
+mod identify;
 mod lagrange;
 mod pinocchio;
 mod placed;

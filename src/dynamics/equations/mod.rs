@@ -3,6 +3,7 @@
 mod changes;
 mod formal;
 mod forward;
+pub(super) mod identify;
 mod inverse;
 mod matrices;
 mod workspace;
