@@ -94,7 +94,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
     }
 
     /// Moves the robot on by a step.
-    fn advance(&mut self, q: &mut Vec<f64>, velocity: &mut Vec<f64>, torques: &[f64]) -> Result<()> {
+    fn advance(&mut self, q: &mut [f64], velocity: &mut [f64], torques: &[f64]) -> Result<()> {
         let step = self.step;
         let along = |from: &[f64], way: &[f64], time: f64| -> Vec<f64> {
             from.iter().zip(way).map(|(from, way)| from + time * way).collect()

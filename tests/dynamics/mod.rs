@@ -2,7 +2,7 @@
 
 mod clearance;
 mod coriolis;
-mod equations;
+pub mod equations;
 mod exact;
 mod identify;
 mod lagrange;

@@ -123,7 +123,7 @@ impl Equations {
         }
         let names = self.base_names(robot, &base);
         let name = |unknown: usize| self.unknown_name(&names, unknown);
-        let plain = solve(&matrix, &right, &name)?;
+        let plain = solve(&matrix, &right, name)?;
         // Each joint by what it misses: what is exact counts no more than what misses by a billionth of the torques.
         let least = 1e-9 * right.amax();
         let deviations = misses(&matrix, &right, &plain.0, count).map(|miss| miss.max(least));
@@ -132,7 +132,7 @@ impl Equations {
             matrix.row_mut(row).scale_mut(weight);
             right[row] *= weight;
         }
-        let (found, spread, condition) = solve(&matrix, &right, &name)?;
+        let (found, spread, condition) = solve(&matrix, &right, name)?;
         let spare = (rows - unknowns).max(1) as f64;
         let scale = ((&right - &matrix * &found).norm_squared() / spare).sqrt();
         for row in 0..rows {
