@@ -26,6 +26,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 12 --gait preview -o dynamic.csv
   groebot walk nao --footsteps steps.csv -o curve.json
   groebot walk nao --goal 2,0 --plot goal.svg
+  groebot walk teo --goal 1,0 --torques -o forces.csv
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv
@@ -169,6 +170,9 @@ pub struct Arguments {
     /// Where the picture goes, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Tell what motors and floor give: columns of torques and forces, and the greatest torques beside the motors' efforts
+    #[arg(long)]
+    torques: bool,
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
@@ -194,7 +198,26 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.quiet {
         return Ok(());
     }
-    console::print(&Summary::of(biped, &walk).to_string())
+    console::print(&Summary::of(biped, &walk).to_string())?;
+    if arguments.torques {
+        console::print(&torques(biped, &walk))?;
+    }
+    Ok(())
+}
+
+/// The greatest torque of each joint, beside what its motor gives.
+fn torques(biped: &Biped, walk: &Walk) -> String {
+    let mut text = "greatest torques [N m, N]\n".to_owned();
+    for greatest in walk.greatest_torques(biped, &walk.forces(biped)) {
+        let effort = match greatest.effort {
+            Some(effort) if greatest.torque > effort => format!("more than the motor's {effort}"),
+            Some(effort) => format!("of {effort}"),
+            None => String::new(),
+        };
+        text += &format!("  {}: {:.3} at {:.2} s {effort}", greatest.joint, greatest.torque, greatest.time).trim_end();
+        text += "\n";
+    }
+    text
 }
 
 impl GaitName {
@@ -291,7 +314,11 @@ impl Arguments {
     fn write(&self, biped: &Biped, walk: &Walk) -> Result<()> {
         let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
         if let Some(file) = &self.out {
-            let text = if is_json(file) { walk.to_json(biped) } else { walk.to_csv(biped) };
+            let text = match (is_json(file), self.torques) {
+                (true, _) => walk.to_json(biped),
+                (false, true) => walk.trajectory_with_forces(biped, &walk.forces(biped)).to_csv(),
+                (false, false) => walk.to_csv(biped),
+            };
             write_atomically(file, text.as_bytes())?;
         }
         if let Some(file) = &self.json {

@@ -23,6 +23,8 @@ pub struct JointRange {
     pub limits: (f64, f64),
     /// The greatest rate \[rad/s\]; infinite where it is not told.
     pub speed: f64,
+    /// The greatest torque or force of its motor \[N m or N\], where that is told.
+    pub effort: Option<f64>,
 }
 
 /// A foot: where its sole is and what of it touches the floor.
@@ -191,6 +193,7 @@ fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
             symbol: joint.symbol.clone().unwrap_or_else(|| name.clone()),
             limits: joint.limits.or(turns_freely).ok_or_else(|| missing("limits"))?,
             speed: joint.speed.filter(|speed| *speed > 0.0).unwrap_or(f64::INFINITY),
+            effort: joint.effort.filter(|effort| *effort > 0.0),
         })
     };
     robot.moving().into_iter().zip(model.joints().iter().map(|joint| &joint.name)).map(range).collect()

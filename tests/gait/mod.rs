@@ -3,6 +3,7 @@
 mod any;
 mod drawing;
 mod errata;
+mod forces;
 mod goals;
 mod nao;
 mod one_step;

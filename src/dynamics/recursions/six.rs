@@ -151,6 +151,17 @@ impl<S: Scalar> Frame<S> {
         }
     }
 
+    /// The parent's frame itself.
+    pub fn identity() -> Self {
+        let entry = |i: usize, j: usize| if i == j { S::one() } else { S::zero() };
+        Frame { rotation: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))), position: zeros() }
+    }
+
+    /// A force in the parent's frame as seen in the body's.
+    pub fn force_inward(&self, force: &Six<S>) -> Six<S> {
+        self.inverse().force_outward(force)
+    }
+
     /// A force in the body's frame as seen in the parent's.
     pub(in crate::dynamics) fn force_outward(&self, force: &Six<S>) -> Six<S> {
         let (linear, angular) = (turned(&self.rotation, &force.linear), turned(&self.rotation, &force.angular));
