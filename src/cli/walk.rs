@@ -214,7 +214,7 @@ fn torques(biped: &Biped, walk: &Walk) -> String {
             Some(effort) => format!("of {effort}"),
             None => String::new(),
         };
-        text += &format!("  {}: {:.3} at {:.2} s {effort}", greatest.joint, greatest.torque, greatest.time).trim_end();
+        text += format!("  {}: {:.3} at {:.2} s {effort}", greatest.joint, greatest.torque, greatest.time).trim_end();
         text += "\n";
     }
     text

@@ -91,7 +91,7 @@ fn root() -> String {
 fn inner(text: &str, root: &str) -> String {
     let is_kept = |line: &&str| {
         let line = line.trim_start();
-        let declares = line.starts_with("mod ") || line.starts_with("pub mod ");
+        let declares = ["mod ", "pub mod ", "pub(crate) mod "].iter().any(|head| line.starts_with(head));
         !(line.is_empty() || line.starts_with("//") || line.starts_with("#![") || declares && line.ends_with(';'))
     };
     let lines: String = text.lines().filter(is_kept).map(|line| format!("{}\n", line.trim_start())).collect();

@@ -138,18 +138,11 @@ impl Walk {
             let unit = if slides { "N" } else { "N m" };
             trajectory.figures.push(Figure { name: format!("tau:{}", range.name), unit: unit.to_owned(), values });
         }
-        let wrenches: [(&str, fn(&Forces) -> &Wrench); 3] = [
-            ("ground", |forces| &forces.ground),
-            ("left", |forces| &forces.feet[0]),
-            ("right", |forces| &forces.feet[1]),
-        ];
-        for (name, wrench) in wrenches {
-            for (entry, (end, unit)) in
-                [("fx", "N"), ("fy", "N"), ("fz", "N"), ("mx", "N m"), ("my", "N m"), ("mz", "N m")]
-                    .into_iter()
-                    .enumerate()
-            {
-                let values = forces.iter().map(|forces| wrench(forces).to_vector()[entry]).collect();
+        for (which, name) in ["ground", "left", "right"].into_iter().enumerate() {
+            let own = |forces: &Forces| if which == 0 { forces.ground } else { forces.feet[which - 1] };
+            for (entry, end) in ["fx", "fy", "fz", "mx", "my", "mz"].into_iter().enumerate() {
+                let values = forces.iter().map(|forces| own(forces).to_vector()[entry]).collect();
+                let unit = if entry < 3 { "N" } else { "N m" };
                 trajectory.figures.push(Figure { name: format!("{name}_{end}"), unit: unit.to_owned(), values });
             }
         }

@@ -175,7 +175,8 @@ fn work_space_is_that_of_the_thesis() {
     error.rows_mut(0, 3).copy_from(&(pose.translation.vector - target.pose.translation.vector));
     error.rows_mut(3, 3).copy_from(&(pose.rotation * target.pose.rotation.inverse()).scaled_axis());
     let six = |vector: &nalgebra::Vector6<f64>| DVector::from_column_slice(vector.as_slice());
-    let asked = six(&target.acceleration) - (&moving - six(&target.velocity)) * 40.0 - error * 400.0;
+    let late = moving - six(&target.velocity);
+    let asked = six(&target.acceleration) - late * 40.0 - error * 400.0;
     let force = effective.inertia * asked + effective.coriolis * moving + effective.gravity;
     near(&torques, (jacobian.transpose() * force).as_slice(), 1e-9, "(2-50)");
     assert_eq!(law.damped(), 0.0);

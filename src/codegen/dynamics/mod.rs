@@ -1,4 +1,4 @@
-//! Printing equations of motion as straight-line code: Rust ([`rust`]) and C99 ([`c99`]).
+//! Printing equations of motion as straight-line code: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
 //!
 //! The recursions of [`crate::dynamics`] run over numbers that write down how they are computed; what is known beforehand is computed at once, and nothing twice.
 

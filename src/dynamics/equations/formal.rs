@@ -7,7 +7,7 @@ use crate::dynamics::recursions::{
 use crate::{Error, ErrorKind, Result};
 
 /// Equations of motion over any numbers, without friction and what acts from outside. Where a joint stands comes in as the cosine and the sine of its angle, or
-/// its way: [`Formal::values`] tells what makes them of a configuration.
+/// its way: [`Equations::values`] tells what makes them of a configuration.
 #[derive(Clone, Debug)]
 pub struct Formal<S> {
     tree: Tree<S>,

@@ -1,9 +1,7 @@
 //! Bodies that move as one, and how what they weigh changes. Main type: [`Composite`].
 
-use super::data::Data;
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Six, cross, dot};
-use super::tree::Tree;
 
 /// Bodies as one, in a frame of one of them.
 #[derive(Clone, Debug)]
@@ -71,23 +69,5 @@ impl<S: Scalar> Composite<S> {
     /// Twice what the transpose makes of it.
     pub(super) fn coriolis_transposed(&self, motion: &Six<S>) -> Six<S> {
         self.rate.times(motion).add(&motion.pushing(&self.momentum).negated())
-    }
-}
-
-impl<S: Scalar> Data<S> {
-    /// Tells each body's composite alone, once velocities are known, and how the joints' unit motions change.
-    pub(super) fn compose(&mut self, tree: &Tree<S>) {
-        for (joint, body) in tree.bodies.iter().enumerate() {
-            let velocity = &self.velocities[joint];
-            self.composites[joint] = Composite::of(&body.mass, velocity);
-            self.turnings[joint] = body.turning(velocity, &S::one());
-        }
-    }
-
-    /// Adds what a joint carries to what carries it.
-    pub(super) fn hand_on(&mut self, tree: &Tree<S>, joint: usize, base: &mut Composite<S>) {
-        let outward = self.composites[joint].outward(&self.frames[joint]);
-        let below = tree.bodies[joint].parent.map_or(base, |parent| &mut self.composites[parent]);
-        *below = below.plus(&outward);
     }
 }

@@ -83,6 +83,22 @@ impl<S: Scalar> Data<S> {
         }
     }
 
+    /// Tells each body's composite alone, once velocities are known, and how the joints' unit motions change.
+    pub(super) fn compose(&mut self, tree: &Tree<S>) {
+        for (joint, body) in tree.bodies.iter().enumerate() {
+            let velocity = &self.velocities[joint];
+            self.composites[joint] = Composite::of(&body.mass, velocity);
+            self.turnings[joint] = body.turning(velocity, &S::one());
+        }
+    }
+
+    /// Adds what a joint carries to what carries it.
+    pub(super) fn hand_on(&mut self, tree: &Tree<S>, joint: usize, base: &mut Composite<S>) {
+        let outward = self.composites[joint].outward(&self.frames[joint]);
+        let below = tree.bodies[joint].parent.map_or(base, |parent| &mut self.composites[parent]);
+        *below = below.plus(&outward);
+    }
+
     /// The forces that a motion asks for: of each joint along its freedom, and that on the base. What acts from outside on the bodies stands in their own
     /// frames, the base first; of nothing an empty list.
     pub fn inverse(&mut self, tree: &Tree<S>, motion: &Motion<'_, S>, outside: &[Six<S>], torques: &mut [S]) -> Six<S> {
