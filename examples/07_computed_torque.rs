@@ -39,7 +39,7 @@ fn main() -> Result<()> {
         Ok(Logged { q, velocity, acceleration, torques })
     });
     let log = logged.collect::<Result<Vec<_>>>()?;
-    let found = known.identify(&described, &log, false)?;
+    let found = known.identify(&log, false)?;
     for estimate in &found.base {
         println!("{:>12.6} where {:>12.6} is told  {}", estimate.value, estimate.told, estimate.name);
     }

@@ -82,8 +82,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let equations =
         Equations::as_told(&robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
     let log = read(arguments)?;
-    let found = equations.identify(&robot, &log, arguments.friction).map_err(|error| error.in_file(&arguments.log))?;
-    let names = equations.parameter_names(&robot);
+    let found = equations.identify(&log, arguments.friction).map_err(|error| error.in_file(&arguments.log))?;
+    let names = equations.parameter_names();
     let report = report(&found, log.len(), equations.joints(), &names);
     if let Some(file) = &arguments.out {
         write_atomically(file, table(&report).as_bytes())?;

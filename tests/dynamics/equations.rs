@@ -324,7 +324,7 @@ fn the_regressor_times_what_bodies_weigh_is_the_torques() {
         let bare =
             bare.with_base(if q.len() == velocity.len() { Base::Fixed } else { Base::Floating }).without_friction();
         let parameters = equations.parameters();
-        assert_eq!(equations.parameter_names(robot).len(), parameters.len());
+        assert_eq!(equations.parameter_names().len(), parameters.len());
         let state = State::new(q, velocity);
         let product = equations.regressor(room, state, acceleration).unwrap() * DVector::from_vec(parameters);
         near(product.as_slice(), bare.inverse(room, state, acceleration).unwrap().as_slice(), 1e-12, robot.name());

@@ -39,7 +39,7 @@ fn parameters_and_friction_are_found_again() {
         let log = log(&equations, 100, |state, acceleration, _| {
             equations.inverse(&mut room, state, acceleration).unwrap().as_slice().to_vec()
         });
-        let found = equations.identify(&robot, &log, true).unwrap();
+        let found = equations.identify(&log, true).unwrap();
         for estimate in found.base.iter().chain(found.friction.iter().flatten()) {
             assert!((estimate.value - estimate.told).abs() < 1e-9, "{estimate:?}");
         }
@@ -47,7 +47,7 @@ fn parameters_and_friction_are_found_again() {
         assert!(matches!(found.consistency, Consistency::Consistent(_)), "{:?}", found.consistency);
         assert_eq!(found.base.len(), if robot.name() == "rrp" { 12 } else { 36 });
         // With friction as it is told the rest is found, too.
-        assert_eq!(equations.identify(&robot, &log, false).unwrap().friction.len(), 0);
+        assert_eq!(equations.identify(&log, false).unwrap().friction.len(), 0);
     }
 }
 
@@ -66,7 +66,7 @@ fn bounds_hold_as_often_as_they_say() {
             let mut normal = || (0..12).map(|_| noise.number()).sum::<f64>() / 2.0;
             torques.iter().zip([0.1, 1.0, 0.01]).map(|(torque, size)| torque + size * normal()).collect()
         });
-        for estimate in equations.identify(&robot, &log, false).unwrap().base {
+        for estimate in equations.identify(&log, false).unwrap().base {
             within += usize::from((estimate.value - estimate.told).abs() < CONFIDENT * estimate.deviation);
             all += 1;
         }
@@ -81,14 +81,14 @@ fn what_no_bodies_weigh_is_told() {
     let equations = Equations::new(&robot, Base::Fixed).unwrap();
     let mut numbers = equations.parameters();
     // The rod slides: its mass is known for itself.
-    let mass = equations.parameter_names(&robot).iter().position(|name| name == "rod.m").unwrap();
+    let mass = equations.parameter_names().iter().position(|name| name == "rod.m").unwrap();
     numbers[mass] = -1.0;
     let mut room = equations.workspace();
     let numbers = DVector::from_vec(numbers);
     let log = log(&equations, 100, |state, acceleration, _| {
         (equations.regressor(&mut room, state, acceleration).unwrap() * &numbers).as_slice().to_vec()
     });
-    let Consistency::Off { deviations, name } = equations.identify(&robot, &log, false).unwrap().consistency else {
+    let Consistency::Off { deviations, name } = equations.identify(&log, false).unwrap().consistency else {
         panic!("a mass below zero is taken");
     };
     assert!(deviations > 100.0 && !name.is_empty(), "{deviations} {name}");
@@ -99,14 +99,14 @@ fn a_log_that_does_not_tell_is_refused() {
     let robot = rrp();
     let equations = Equations::new(&robot, Base::Fixed).unwrap();
     let mut log = log(&equations, 100, |_, _, _| vec![0.0; 3]);
-    let error = equations.identify(&robot, &log[..2], false).unwrap_err().to_string();
+    let error = equations.identify(&log[..2], false).unwrap_err().to_string();
     assert!(error.contains("2 rows of 3 torques"), "{error}");
     log.iter_mut().for_each(|row| {
         row.velocity.fill(0.0);
         row.acceleration.fill(0.0);
     });
-    let error = equations.identify(&robot, &log, false).unwrap_err().to_string();
+    let error = equations.identify(&log, false).unwrap_err().to_string();
     assert!(error.contains("the log does not tell"), "{error}");
     log[7].torques[1] = f64::NAN;
-    assert!(equations.identify(&robot, &log, false).unwrap_err().to_string().contains("row 8"));
+    assert!(equations.identify(&log, false).unwrap_err().to_string().contains("row 8"));
 }

@@ -7,7 +7,6 @@
 use nalgebra::{DMatrix, DVector, Matrix4, SymmetricEigen};
 
 use super::{Equations, State};
-use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
 
 /// Columns whose part across others is less than this share of themselves depend on these.
@@ -89,7 +88,7 @@ impl Equations {
     /// # Errors
     /// As [`Equations::inverse`], with the row; [`ErrorKind::BadValue`] for a log that does not tell all base parameters apart, with one that it leaves open; [`ErrorKind::Unsupported`] for a base that moves
     /// freely.
-    pub fn identify(&self, robot: &Robot, log: &[Logged], with_friction: bool) -> Result<Identification> {
+    pub fn identify(&self, log: &[Logged], with_friction: bool) -> Result<Identification> {
         if self.is_floating() {
             return Err(Error::new(ErrorKind::Unsupported, "a robot whose root moves freely is not identified"));
         }
@@ -121,7 +120,7 @@ impl Equations {
                 }
             }
         }
-        let names = self.base_names(robot, &base);
+        let names = self.base_names(&base);
         let name = |unknown: usize| self.unknown_name(&names, unknown);
         let plain = solve(&matrix, &right, name)?;
         // Each joint by what it misses: what is exact counts no more than what misses by a billionth of the torques.
@@ -204,8 +203,8 @@ impl Equations {
         Ok(Base { pivots, combinations })
     }
 
-    fn base_names(&self, robot: &Robot, base: &Base) -> Vec<String> {
-        let names = self.parameter_names(robot);
+    fn base_names(&self, base: &Base) -> Vec<String> {
+        let names = self.parameter_names();
         let sum = |row: usize| {
             let mut text = names[base.pivots[row]].clone();
             for (column, factor) in base.combinations.row(row).iter().enumerate() {
@@ -362,7 +361,7 @@ fn solve(
     }
     let mut scaled = matrix.clone();
     scaled.column_iter_mut().zip(sizes.iter()).for_each(|(mut column, size)| column /= *size);
-    // Its singular values squared, and what they turn, are those of a small matrix; of that accuracy is lost beyond a condition of 1e8, so an orthogonal factor comes first.
+    // An orthogonal factor makes a small matrix of it, with the same singular values.
     let triangle = scaled.clone().qr();
     let reduced = triangle.q().transpose() * right;
     let factors = triangle.r().svd(true, true);

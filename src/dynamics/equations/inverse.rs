@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Base, Equations, State, Workspace};
 use crate::Result;
+use crate::dynamics::exact::NUMBERS;
 use crate::dynamics::recursions::Motion;
-use crate::model::Robot;
 use crate::spatial::Wrench;
 
 impl Equations {
@@ -100,11 +100,9 @@ impl Equations {
     }
 
     /// The names of what the bodies weigh: that of the link, and which of ten numbers.
-    pub fn parameter_names(&self, robot: &Robot) -> Vec<String> {
-        const NUMBERS: [&str; 10] = ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
-        let told_in = if self.base == Base::Floating { &self.told_in } else { &self.told_in[1..] };
-        let name = |link: &usize| NUMBERS.map(|number| format!("{}.{number}", robot.links()[*link].name));
-        told_in.iter().flat_map(name).collect()
+    pub fn parameter_names(&self) -> Vec<String> {
+        let told = if self.base == Base::Floating { &self.told_names } else { &self.told_names[1..] };
+        told.iter().flat_map(|link| NUMBERS.map(|number| format!("{link}.{number}"))).collect()
     }
 
     /// Adds what rotors and friction ask for.

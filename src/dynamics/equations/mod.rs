@@ -69,6 +69,8 @@ pub struct Equations {
     frames: Vec<(Option<usize>, Frame<f64>)>,
     /// The link whose frame a body's ten numbers are told in, that of the base first.
     told_in: Vec<usize>,
+    /// Its name.
+    told_names: Vec<String>,
 }
 
 /// What the equations are asked at: where a robot is and how it moves.
@@ -141,6 +143,7 @@ impl Equations {
             (joint, Frame::of(&body_from_link))
         };
         let behind = robot.moving().into_iter().map(|place| robot.ends(place).1);
+        let told_in: Vec<usize> = std::iter::once(robot.root_place()).chain(behind).collect();
         Ok(Equations {
             tree,
             base,
@@ -150,7 +153,8 @@ impl Equations {
             drives,
             is_plain,
             frames: (0..robot.links().len()).map(frame_of).collect(),
-            told_in: std::iter::once(robot.root_place()).chain(behind).collect(),
+            told_names: told_in.iter().map(|link| robot.links()[*link].name.clone()).collect(),
+            told_in,
         })
     }
 
