@@ -58,6 +58,8 @@ const EXAMPLES: &str = "Examples:
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
   groebot basis cyclic5.txt --order lex
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
+  groebot dynamics robot.urdf --states states.csv
+  groebot track robot.urdf --law computed-torque --trajectory t.csv
 
 Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 130 interrupted.";
 

@@ -313,16 +313,16 @@ impl Arguments {
 
     fn write(&self, biped: &Biped, walk: &Walk) -> Result<()> {
         let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        let trajectory = match self.torques {
+            true => walk.trajectory_with_forces(biped, &walk.forces(biped)),
+            false => walk.trajectory(biped),
+        };
         if let Some(file) = &self.out {
-            let text = match (is_json(file), self.torques) {
-                (true, _) => walk.to_json(biped),
-                (false, true) => walk.trajectory_with_forces(biped, &walk.forces(biped)).to_csv(),
-                (false, false) => walk.to_csv(biped),
-            };
+            let text = if is_json(file) { walk.json_of(biped, &trajectory) } else { trajectory.to_csv() };
             write_atomically(file, text.as_bytes())?;
         }
         if let Some(file) = &self.json {
-            write_atomically(file, walk.to_json(biped).as_bytes())?;
+            write_atomically(file, walk.json_of(biped, &trajectory).as_bytes())?;
         }
         if let Some(file) = &self.thesis {
             write_atomically(file, walk.to_thesis_csv(biped)?.as_bytes())?;

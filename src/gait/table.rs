@@ -63,6 +63,11 @@ impl Walk {
 
     /// The walk's trajectory as JSON, and beside it under `walk` the time between two samples, footsteps, phases, summary, and the support polygons.
     pub fn to_json(&self, biped: &Biped) -> String {
+        self.json_of(biped, &self.trajectory(biped))
+    }
+
+    /// The same with another trajectory of this walk: [`Walk::trajectory_with_forces`].
+    pub fn json_of(&self, biped: &Biped, trajectory: &Trajectory) -> String {
         let route = &self.schedule.route;
         let steps = route.steps.iter().map(|step| {
             let mut value = print(&step.print);
@@ -72,7 +77,7 @@ impl Walk {
         let support = |balance: &Balance| -> Value {
             balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect()
         };
-        let mut value = self.trajectory(biped).to_json();
+        let mut value = trajectory.to_json();
         value["walk"] = json!({
             "tick": self.schedule.tick,
             "start": { "left": print(&route.start[0]), "right": print(&route.start[1]) },

@@ -197,3 +197,19 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
     // A turn at which the feet meet is narrowed.
     assert!(succeed(&["walk", "nao", "--goal", "0,1", "--max-turn", "15"]).contains("1.000 m, turn 97.7 deg"));
 }
+
+/// Torques stand in both tables, and the greatest ones beside the efforts.
+#[test]
+fn a_walk_tells_what_motors_and_floor_give() {
+    let folder = tempdir().unwrap();
+    let [csv, json] = ["walk.csv", "walk.json"].map(|name| folder.path().join(name));
+    let [csv_text, json_text] = [&csv, &json].map(|file| text(file));
+    let ran = run(&["walk", "nao", "--steps", "2", "--torques", "-o", csv_text, "--json", json_text]);
+    assert!(ran.code == 0 && ran.out.contains("greatest torques") && ran.out.contains("LKneePitch: "), "{}", ran.out);
+    let head = fs::read_to_string(&csv).unwrap();
+    assert!(head.lines().nth(2).unwrap().ends_with("right_my [N m],right_mz [N m]"));
+    let told: serde_json::Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    let figures = told["figures"].as_array().unwrap();
+    assert!(figures.iter().any(|figure| figure["name"] == "tau:LKneePitch"));
+    assert_eq!(told["walk"]["steps"].as_array().unwrap().len(), 2);
+}

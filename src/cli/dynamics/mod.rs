@@ -38,7 +38,7 @@ freely.
 With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt
 with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
 
-/// Tells torques, inertia, Coriolis and gravity terms of a robot at states, or as polynomials
+/// Tells torques, inertia, Coriolis and gravity terms of a robot at states, as polynomials, or as code
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
