@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::dynamics::states::{Table, between};
-use super::dynamics::{Gravity, gravity};
+use super::dynamics::states::Table;
 use super::export::described;
+use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};
 use crate::files::write_atomically;
@@ -31,15 +31,8 @@ pub struct Arguments {
     /// The log, CSV
     #[arg(value_name = "LOG")]
     log: PathBuf,
-    /// The link from which joints move
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link up to which joints move
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Gravity in the frame of the root, or of `--base` [m/s^2]
-    #[arg(long, value_name = "X,Y,Z", value_parser = gravity, allow_hyphen_values = true, default_value = "0,0,-9.81")]
-    gravity: Gravity,
+    #[command(flatten)]
+    part: PartArguments,
     /// Find viscous and Coulomb friction of each joint, too; without it the description's is taken
     #[arg(long)]
     friction: bool,
@@ -77,8 +70,7 @@ struct Row<'a> {
 /// Reads the log and tells.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
-    let ends = [arguments.base.as_deref(), arguments.tip.as_deref()];
-    let (robot, gravity) = between(&robot, ends, arguments.gravity.in_doubles())?;
+    let (robot, gravity) = arguments.part.of(&robot)?;
     let equations =
         Equations::as_told(&robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
     let log = read(arguments)?;

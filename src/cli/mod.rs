@@ -28,6 +28,7 @@ mod ik;
 mod info;
 mod json;
 mod page;
+mod part;
 mod plan;
 mod progress;
 mod report;

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::dynamics::states::{Table, between};
-use super::dynamics::{Gravity, gravity};
+use super::dynamics::states::Table;
 use super::export::described;
+use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
@@ -43,15 +43,8 @@ pub struct Arguments {
     /// The trajectory, CSV
     #[arg(long, value_name = "FILE")]
     trajectory: PathBuf,
-    /// The link from which joints move
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link up to which joints move
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Gravity in the frame of the root, or of `--base` [m/s^2]
-    #[arg(long, value_name = "X,Y,Z", value_parser = gravity, allow_hyphen_values = true, default_value = "0,0,-9.81")]
-    gravity: Gravity,
+    #[command(flatten)]
+    part: PartArguments,
     /// The link that follows, of the law work-space
     #[arg(long, value_name = "LINK", required_if_eq("law", "work-space"))]
     link: Option<String>,
@@ -146,8 +139,7 @@ struct JointSummary {
 /// Follows and tells.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
-    let ends = [arguments.base.as_deref(), arguments.tip.as_deref()];
-    let (robot, gravity) = between(&robot, ends, arguments.gravity.in_doubles())?;
+    let (robot, gravity) = arguments.part.of(&robot)?;
     let equations = |robot: &Robot| -> Result<Equations> {
         let plain = Equations::new(robot, Base::Fixed)?.with_gravity(gravity);
         Ok(if arguments.no_friction { plain.without_friction() } else { plain })

@@ -11,7 +11,7 @@ use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
 use crate::gait::{
-    Biped, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at, words,
+    Biped, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at, words,
 };
 use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result};
@@ -194,21 +194,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let request = |height, ease| arguments.request(&usual.clone().eased(ease), biped, height);
     let walk = plan_at((biped, &walker.legs), arguments.hip_height, &usual.hip_heights, request, &session.watch)?;
     drop(session);
-    arguments.write(biped, &walk)?;
+    let forces = arguments.torques.then(|| walk.forces(biped));
+    arguments.write(biped, &walk, forces.as_deref())?;
     if arguments.quiet {
         return Ok(());
     }
     console::print(&Summary::of(biped, &walk).to_string())?;
-    if arguments.torques {
-        console::print(&torques(biped, &walk))?;
-    }
-    Ok(())
+    forces.map_or(Ok(()), |forces| console::print(&torques(biped, &walk, &forces)))
 }
 
 /// The greatest torque of each joint, beside what its motor gives.
-fn torques(biped: &Biped, walk: &Walk) -> String {
+fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
     let mut text = "greatest torques [N m, N]\n".to_owned();
-    for greatest in walk.greatest_torques(biped, &walk.forces(biped)) {
+    for greatest in walk.greatest_torques(biped, forces) {
         let effort = match greatest.effort {
             Some(effort) if greatest.torque > effort => format!("more than the motor's {effort}"),
             Some(effort) => format!("of {effort}"),
@@ -311,12 +309,10 @@ impl Arguments {
         Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
-    fn write(&self, biped: &Biped, walk: &Walk) -> Result<()> {
+    fn write(&self, biped: &Biped, walk: &Walk, forces: Option<&[Forces]>) -> Result<()> {
         let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-        let trajectory = match self.torques {
-            true => walk.trajectory_with_forces(biped, &walk.forces(biped)),
-            false => walk.trajectory(biped),
-        };
+        let trajectory =
+            forces.map_or_else(|| walk.trajectory(biped), |forces| walk.trajectory_with_forces(biped, forces));
         if let Some(file) = &self.out {
             let text = if is_json(file) { walk.json_of(biped, &trajectory) } else { trajectory.to_csv() };
             write_atomically(file, text.as_bytes())?;

@@ -1,9 +1,9 @@
 //! The equations of motion of a robot as code.
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::Arguments;
-use super::states::between;
 use crate::cli::codegen::write_generated;
 use crate::cli::export::described;
 use crate::cli::{Outcome, console};
@@ -20,34 +20,24 @@ pub enum Language {
     C,
 }
 
-/// A function by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FunctionName {
-    Inverse,
-    Gravity,
-    Inertia,
-    Coriolis,
-    Forward,
-    Derivatives,
-}
-
-impl FunctionName {
-    fn function(self) -> Function {
-        Function::ALL[self as usize]
-    }
+/// Reads a function by its name.
+pub fn functions() -> impl TypedValueParser<Value = Function> {
+    let known = |name: String| Function::ALL.into_iter().find(|function| function.name() == name);
+    let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
+    names.map(move |name| known(name).expect("one of the possible values"))
 }
 
 /// Prints the code, or writes it to files.
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let (described, _) = described(&arguments.robot)?;
     let meant = described.as_meant()?;
-    let (robot, gravity) = between(&meant, arguments.ends(), arguments.gravity.in_doubles())?;
+    let (robot, gravity) = arguments.part.of(&meant)?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let new = if arguments.as_told { Equations::as_told } else { Equations::new };
     let equations = new(&robot, base).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
     let functions = match arguments.functions.as_slice() {
         [] => Function::ALL.to_vec(),
-        asked => asked.iter().map(|name| name.function()).collect(),
+        asked => asked.to_vec(),
     };
     let mut remarks =
         vec![format!("Gravity: {}, {}, {} m/s^2. Friction is left out.", gravity.x, gravity.y, gravity.z)];

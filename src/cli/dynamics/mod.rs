@@ -6,12 +6,9 @@ mod symbolic;
 
 use std::path::PathBuf;
 
-use nalgebra::Vector3;
-use num_traits::ToPrimitive;
-
 use super::Outcome;
-use crate::number::parse_rational;
-use crate::spatial::exact::ExactVector;
+use super::part::PartArguments;
+use crate::codegen::dynamics::Function;
 
 pub use symbolic::reprove;
 
@@ -35,7 +32,7 @@ With --lang the equations of motion are printed as code, friction left out: inve
 (of inverse dynamics by configuration and velocity); Rust stands on the crate groebot-runtime, C on runtime/c/groebot_dynamics.h. With --floating the root moves
 freely.
 
-With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; -o FOLDER writes them as 7_dynamics.txt
+With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; gravity's direction is that of --gravity, its size g; -o FOLDER writes them as 7_dynamics.txt
 with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
 
 /// Tells torques, inertia, Coriolis and gravity terms of a robot at states, as polynomials, or as code
@@ -55,8 +52,8 @@ pub struct Arguments {
     #[arg(long, value_name = "LANGUAGE", conflicts_with_all = ["states", "symbolic", "no_friction", "json"])]
     lang: Option<code::Language>,
     /// With --lang: which functions (default: all)
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang")]
-    functions: Vec<code::FunctionName>,
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang", value_parser = code::functions())]
+    functions: Vec<Function>,
     /// With --lang: the root moves freely
     #[arg(long, requires = "lang")]
     floating: bool,
@@ -66,15 +63,8 @@ pub struct Arguments {
     /// With --symbolic: a page of LaTeX
     #[arg(long, requires = "symbolic", conflicts_with = "out")]
     latex: bool,
-    /// The link from which joints move: those that do not lie between it and the tip stand still at zero
-    #[arg(long, value_name = "LINK")]
-    base: Option<String>,
-    /// The link up to which joints move
-    #[arg(long, value_name = "LINK")]
-    tip: Option<String>,
-    /// Gravity in the frame of the root, or of `--base` [m/s^2]; with --symbolic its direction, its size is g
-    #[arg(long, value_name = "X,Y,Z", value_parser = gravity, allow_hyphen_values = true, default_value = "0,0,-9.81")]
-    gravity: Gravity,
+    #[command(flatten)]
+    part: PartArguments,
     /// Leave the friction of joints out
     #[arg(long)]
     no_friction: bool,
@@ -87,29 +77,6 @@ pub struct Arguments {
     /// JSON in place of the table
     #[arg(long)]
     json: bool,
-}
-
-impl Arguments {
-    fn ends(&self) -> [Option<&str>; 2] {
-        [self.base.as_deref(), self.tip.as_deref()]
-    }
-}
-
-#[derive(Clone, Debug)]
-pub struct Gravity(ExactVector);
-
-impl Gravity {
-    pub fn in_doubles(&self) -> Vector3<f64> {
-        Vector3::from(self.0.each_ref().map(|entry| entry.to_f64().unwrap_or(f64::NAN)))
-    }
-}
-
-/// Three numbers between commas.
-pub fn gravity(text: &str) -> std::result::Result<Gravity, String> {
-    let numbers: Option<Vec<_>> = text.split(',').map(|word| parse_rational(word.trim()).ok()).collect();
-    let exact = numbers.and_then(|numbers| ExactVector::try_from(numbers).ok()).map(Gravity);
-    let finite = exact.filter(|gravity| gravity.in_doubles().iter().all(|entry| entry.is_finite()));
-    finite.ok_or_else(|| "give three finite numbers between commas, such as 0,0,-9.81".to_owned())
 }
 
 /// Tells what is asked for.

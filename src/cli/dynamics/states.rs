@@ -11,7 +11,7 @@ use crate::cli::export::described;
 use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;
-use crate::model::{JointType, Robot};
+use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
 
 /// What is told of all states.
@@ -39,7 +39,7 @@ struct Answer {
 /// Reads the states and writes what is asked of them.
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
-    let (robot, gravity) = between(&robot, arguments.ends(), arguments.gravity.in_doubles())?;
+    let (robot, gravity) = arguments.part.of(&robot)?;
     let table = Table::read(states)?;
     let report = report(&robot, gravity, arguments, &table)?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
@@ -47,42 +47,6 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
         Some(file) => Ok(write_atomically(file, text.as_bytes())?),
         None => console::print(&text),
     }
-}
-
-/// The robot whose joints move between two links alone, and gravity \[m/s^2\] in its root's frame, of which the frame of the base is told.
-pub(in crate::cli) fn between(
-    robot: &Robot,
-    ends: [Option<&str>; 2],
-    gravity: Vector3<f64>,
-) -> Result<(Robot, Vector3<f64>)> {
-    let place = |name: Option<&str>| name.map(|name| robot.link(name)).transpose();
-    let (base, tip) = (place(ends[0])?, place(ends[1])?);
-    let above = |link: Option<usize>| link.map_or_else(Vec::new, |link| robot.ancestry(link));
-    let (carrying, path) = (above(base), above(tip));
-    if tip.is_some() && !carrying.iter().all(|joint| path.contains(joint)) {
-        let [base, tip] = ends.map(Option::unwrap_or_default);
-        return Err(Error::new(ErrorKind::BadValue, format!("link `{base}` is not above link `{tip}`")));
-    }
-    let mut parts = robot.parts().clone();
-    let below = |joint: usize| {
-        base.is_none_or(|base| robot.ancestry(robot.ends(joint).1).iter().any(|&up| robot.ends(up).0 == base))
-    };
-    for (joint, told) in parts.joints.iter_mut().enumerate() {
-        let moves = if tip.is_some() { path.contains(&joint) && !carrying.contains(&joint) } else { below(joint) };
-        if told.kind.is_single() && !moves {
-            (told.kind, told.limits, told.mimic) = (JointType::Fixed, None, None);
-        }
-    }
-    let still: Vec<String> =
-        parts.joints.iter().filter(|joint| !joint.kind.is_single()).map(|joint| joint.name.clone()).collect();
-    for actuator in &mut parts.actuators {
-        actuator.joints.retain(|(joint, _)| !still.contains(joint));
-    }
-    parts.actuators.retain(|actuator| !actuator.joints.is_empty());
-    let robot = Robot::new(parts)?;
-    let model = crate::dynamics::Model::new(&robot)?;
-    let turn = base.map_or_else(nalgebra::UnitQuaternion::identity, |base| model.link(base).1.rotation);
-    Ok((robot, turn * gravity))
 }
 
 fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &Table) -> Result<Report> {

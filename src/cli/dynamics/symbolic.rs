@@ -26,19 +26,20 @@ const LIMIT: u64 = 64_000_000;
 
 /// Tells the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let ends = Ends { base: arguments.base.clone(), tip: arguments.tip.clone(), ..Ends::default() };
+    let ends = Ends { base: arguments.part.base.clone(), tip: arguments.part.tip.clone(), ..Ends::default() };
     let asked = Asked::read(&arguments.robot, &ends)?;
     let numbers = arguments.numbers.then(|| asked.numbers()).transpose()?;
     let told = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
     let Asked { chain, .. } = &asked;
-    let gravity = &arguments.gravity.0;
+    let gravity = &arguments.part.gravity.0;
     let symbolic = equations(chain, told, arguments).map_err(|error| error.in_file(&arguments.robot))?;
     let Some(folder) = &arguments.out else {
         return console::print(&if arguments.latex { latex(chain, &symbolic) } else { symbolic.to_text() });
     };
     let certificate = Certificate::new(&symbolic, chain, told, gravity);
-    certificate.prove(chain, &symbolic.to_text())?;
-    let own = [(TEXT, symbolic.to_text()), (DYNAMICS, certificate.to_json())];
+    let text = symbolic.to_text();
+    certificate.prove(chain, &text)?;
+    let own = [(TEXT, text), (DYNAMICS, certificate.to_json())];
     let mut files = asked.files(folder)?;
     files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
     refuse_overwriting(folder, &files)?;
@@ -61,7 +62,7 @@ fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result
         );
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
-    let model = ExactModel::new(chain, masses, &arguments.gravity.0, MOST_TERMS)?;
+    let model = ExactModel::new(chain, masses, &arguments.part.gravity.0, MOST_TERMS)?;
     Symbolic::new(model).map_err(|error| match (error.kind(), masses) {
         (ErrorKind::Overflow, Masses::Symbols) => {
             error.with_context("give --numbers, or fewer joints by --base and --tip")

@@ -86,7 +86,7 @@ struct Moving<S> {
     rates: Vec<S>,
 }
 
-impl<S: Scalar + PartialEq> Formal<S> {
+impl<S: Scalar> Formal<S> {
     fn data(&self, state: &FormalState<S>) -> Data<S> {
         let mut data = Data::new(&self.tree);
         data.place(&self.tree, state.places.iter().cloned());
@@ -94,13 +94,9 @@ impl<S: Scalar + PartialEq> Formal<S> {
     }
 
     fn moving(&self, list: &[S]) -> Moving<S> {
-        let six = |list: &[S]| Six {
-            linear: std::array::from_fn(|i| list[i].clone()),
-            angular: std::array::from_fn(|i| list[3 + i].clone()),
-        };
         let rate = |drive: &FormalDrive<S>| drive.factor.clone() * list[self.first + drive.freedom].clone();
         Moving {
-            base: if self.first == 0 { Six::zero() } else { six(list) },
+            base: if self.first == 0 { Six::zero() } else { Six::of(list) },
             rates: self.drives.iter().map(rate).collect(),
         }
     }
@@ -229,10 +225,7 @@ impl<S: Divisible + PartialEq> Formal<S> {
         let pull = self.pull(state);
         let base_cause = match self.first {
             0 => Cause::Acceleration(pull.clone()),
-            _ => Cause::Force(Six {
-                linear: std::array::from_fn(|i| torques[i].clone()),
-                angular: std::array::from_fn(|i| torques[3 + i].clone()),
-            }),
+            _ => Cause::Force(Six::of(torques)),
         };
         let rotors: Vec<S> = self.drives.iter().map(|drive| drive.armature.clone()).collect();
         let drive = Drive {

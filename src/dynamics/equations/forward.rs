@@ -44,10 +44,7 @@ impl Equations {
         }
         let base_cause = match self.base {
             Base::Fixed => Cause::Acceleration(*pull),
-            Base::Floating => Cause::Force(Six {
-                linear: std::array::from_fn(|i| torques[i]),
-                angular: std::array::from_fn(|i| torques[3 + i]),
-            }),
+            Base::Floating => Cause::Force(Six::of(torques)),
         };
         let moving = recursions::Drive { base: base[0], base_cause, rates, torques: own, rotors, outside };
         let found = articulation.forward(&self.tree, data, &moving, |pivot| *pivot > 0.0, accelerations);

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix4, SymmetricEigen};
 
-use super::{Equations, State};
+use super::{Equations, State, sign};
 use crate::{Error, ErrorKind, Result};
 
 /// Columns whose part across others is less than this share of themselves depend on these.
@@ -281,10 +281,6 @@ impl Equations {
 fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn sign(rate: f64) -> f64 {
-    if rate == 0.0 { 0.0 } else { rate.signum() }
 }
 
 /// How far the farthest base parameter is from what was found.

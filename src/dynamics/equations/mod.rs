@@ -47,9 +47,13 @@ struct Drive {
 impl Drive {
     /// The torque against which the joint turns at a rate: viscous and Coulomb friction.
     fn friction(&self, rate: f64) -> f64 {
-        let sign = if rate == 0.0 { 0.0 } else { rate.signum() };
-        self.damping * rate + self.friction * sign
+        self.damping * rate + self.friction * sign(rate)
     }
+}
+
+/// Which way a rate goes: nowhere at rest.
+fn sign(rate: f64) -> f64 {
+    if rate == 0.0 { 0.0 } else { rate.signum() }
 }
 
 /// The equations of motion of a robot: metres, kilograms, seconds, radians. They do not change, and calls write to a [`Workspace`] alone.

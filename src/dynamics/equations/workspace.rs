@@ -79,12 +79,8 @@ impl Equations {
             room.accelerations[joint] = acceleration.map_or(0.0, |told| drive.factor * told[first + drive.freedom]);
         }
         if self.base == Base::Floating {
-            let six = |list: &[f64]| Six {
-                linear: std::array::from_fn(|i| list[i]),
-                angular: std::array::from_fn(|i| list[3 + i]),
-            };
-            let acceleration = acceleration.map_or(room.pull, |told| room.pull.add(&six(told)));
-            room.base = [six(state.velocity), acceleration];
+            let acceleration = acceleration.map_or(room.pull, |told| room.pull.add(&Six::of(told)));
+            room.base = [Six::of(state.velocity), acceleration];
         }
         if state.outside.is_empty() {
             return;

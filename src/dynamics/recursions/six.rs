@@ -59,6 +59,11 @@ impl<S: Scalar> Six<S> {
         Six { linear: zeros(), angular: zeros() }
     }
 
+    /// The six numbers at the front of a list.
+    pub(in crate::dynamics) fn of(list: &[S]) -> Self {
+        Six { linear: std::array::from_fn(|i| list[i].clone()), angular: std::array::from_fn(|i| list[3 + i].clone()) }
+    }
+
     pub(in crate::dynamics) fn add(&self, other: &Self) -> Self {
         Six { linear: add(&self.linear, &other.linear), angular: add(&self.angular, &other.angular) }
     }
