@@ -11,7 +11,8 @@ use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
 use crate::gait::{
-    Biped, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk, Walker, plan_at, words,
+    Biped, Chains, Difference, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk,
+    Walker, plan_at, words,
 };
 use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result};
@@ -27,6 +28,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk nao --footsteps steps.csv -o curve.json
   groebot walk nao --goal 2,0 --plot goal.svg
   groebot walk teo --goal 1,0 --torques -o forces.csv
+  groebot walk rh0 --torques --chains -o chains.csv
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --thesis joints.csv
   groebot walk rh0 --plan \"turn left 90\" --plot turn.svg
   groebot walk teo --goal 1,0.5 -o goal.csv
@@ -173,6 +175,9 @@ pub struct Arguments {
     /// Tell what motors and floor give: columns of torques and forces, and the greatest torques beside the motors' efforts
     #[arg(long)]
     torques: bool,
+    /// Tell the torques of two chains too, each on a foot of its own, RH0 (3-40) and (3-41), what goes between them through the trunk, and how they differ
+    #[arg(long, requires = "torques")]
+    chains: bool,
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
@@ -195,12 +200,24 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let walk = plan_at((biped, &walker.legs), arguments.hip_height, &usual.hip_heights, request, &session.watch)?;
     drop(session);
     let forces = arguments.torques.then(|| walk.forces(biped));
-    arguments.write(biped, &walk, forces.as_deref())?;
+    let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
+    arguments.write(biped, &walk, forces.as_deref(), chains.as_deref())?;
     if arguments.quiet {
         return Ok(());
     }
     console::print(&Summary::of(biped, &walk).to_string())?;
-    forces.map_or(Ok(()), |forces| console::print(&torques(biped, &walk, &forces)))
+    let Some(forces) = forces else { return Ok(()) };
+    console::print(&torques(biped, &walk, &forces))?;
+    chains.map_or(Ok(()), |chains| console::print(&difference(&walk.difference(biped, &forces, &chains))))
+}
+
+/// How two chains differ from the whole.
+fn difference(found: &Difference) -> String {
+    let Difference { torque, joint, time, swinging, between: [force, moment], rounding, .. } = found;
+    format!(
+        "two chains, each on its own foot\n  torques differ by up to {torque:.3} N m: {joint} at {time:.2} s\n  of a foot that swings up to {swinging:.1} N are asked\n  \
+         through the trunk go up to {force:.1} N and {moment:.2} N m; with that torques differ by {rounding:.1e}\n"
+    )
 }
 
 /// The greatest torque of each joint, beside what its motor gives.
@@ -309,10 +326,13 @@ impl Arguments {
         Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
-    fn write(&self, biped: &Biped, walk: &Walk, forces: Option<&[Forces]>) -> Result<()> {
+    fn write(&self, biped: &Biped, walk: &Walk, forces: Option<&[Forces]>, chains: Option<&[Chains]>) -> Result<()> {
         let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-        let trajectory =
+        let mut trajectory =
             forces.map_or_else(|| walk.trajectory(biped), |forces| walk.trajectory_with_forces(biped, forces));
+        if let Some(chains) = chains {
+            walk.add_chains(biped, chains, &mut trajectory);
+        }
         if let Some(file) = &self.out {
             let text = if is_json(file) { walk.json_of(biped, &trajectory) } else { trajectory.to_csv() };
             write_atomically(file, text.as_bytes())?;

@@ -69,14 +69,44 @@ impl Law for OpenLoop {
     }
 }
 
+/// What errors make of the acceleration that is desired.
+#[derive(Clone, Debug)]
+pub(super) struct Commanded {
+    gains: Gains,
+    sum: Vec<f64>,
+    accelerations: Vec<f64>,
+}
+
+impl Commanded {
+    /// That of gains in 1/s^2, 1/s and 1/s^3.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for gains that are not as many as freedoms, finite and not below zero.
+    pub(super) fn new(count: usize, gains: Gains) -> Result<Self> {
+        gains.check(count)?;
+        Ok(Commanded { gains, sum: vec![0.0; count], accelerations: vec![0.0; count] })
+    }
+
+    /// `q_d'' - Kv e' - Kp e - Ki int e`.
+    pub(super) fn accelerations(&mut self, desired: &Desired<'_>, state: &State<'_>) -> &[f64] {
+        for (at, commanded) in self.accelerations.iter_mut().enumerate() {
+            *commanded = desired.acceleration[at] + self.gains.pull(at, desired, state, &self.sum);
+        }
+        &self.accelerations
+    }
+
+    /// Adds errors that have lasted for a time \[s\].
+    pub(super) fn endure(&mut self, desired: &Desired<'_>, state: &State<'_>, time: f64) {
+        endured(&mut self.sum, desired, state, time);
+    }
+}
+
 /// Computed torque, RH0 (2-47): `M (q_d'' - Kv e' - Kp e) + C q' + N`, so that each error obeys `e'' + Kv e' + Kp e = 0`, whatever the others do.
 #[derive(Clone, Debug)]
 pub struct ComputedTorque {
     equations: Equations,
     room: Workspace,
-    gains: Gains,
-    sum: Vec<f64>,
-    commanded: Vec<f64>,
+    commanded: Commanded,
 }
 
 impl ComputedTorque {
@@ -85,24 +115,19 @@ impl ComputedTorque {
     /// # Errors
     /// [`ErrorKind::BadValue`] for gains that are not as many as freedoms, finite and not below zero; [`ErrorKind::Unsupported`] for a base that moves freely.
     pub fn new(equations: &Equations, gains: Gains) -> Result<Self> {
-        let count = fixed(equations)?;
-        gains.check(count)?;
-        let zeros = vec![0.0; count];
-        let (sum, commanded) = (zeros.clone(), zeros);
-        Ok(ComputedTorque { room: equations.workspace(), equations: equations.clone(), gains, sum, commanded })
+        let commanded = Commanded::new(fixed(equations)?, gains)?;
+        Ok(ComputedTorque { room: equations.workspace(), equations: equations.clone(), commanded })
     }
 }
 
 impl Law for ComputedTorque {
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]> {
-        for (at, commanded) in self.commanded.iter_mut().enumerate() {
-            *commanded = desired.acceleration[at] + self.gains.pull(at, desired, &state, &self.sum);
-        }
-        self.equations.inverse(&mut self.room, state, &self.commanded).map(|torques| torques.as_slice())
+        let commanded = self.commanded.accelerations(desired, &state);
+        self.equations.inverse(&mut self.room, state, commanded).map(|torques| torques.as_slice())
     }
 
     fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
-        endured(&mut self.sum, desired, &state, time);
+        self.commanded.endure(desired, &state, time);
     }
 }
 

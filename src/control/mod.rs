@@ -6,12 +6,14 @@ mod closed_loop;
 mod joint_space;
 mod picture;
 mod reference;
+mod two_chains;
 mod work_space;
 
 pub use closed_loop::{ClosedLoop, Disturbance, Sample};
 pub use joint_space::{ComputedTorque, Gains, GravityCompensation, OpenLoop};
 pub use picture::errors_and_torques;
 pub use reference::{Desired, Trajectory};
+pub use two_chains::TwoChains;
 pub use work_space::{Effective, Inversion, Target, WorkSpace};
 
 use crate::Result;

@@ -3,6 +3,7 @@
 //! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
 //! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
 
+mod chains;
 mod clearance;
 mod equations;
 pub mod exact;

@@ -24,14 +24,14 @@ pub struct ModelJoint {
 /// Body `k + 1` is moved by joint `k`; joints stand in the order of [`Robot::moving`]. Metres, kilograms, radians. It never changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    joints: Vec<ModelJoint>,
+    pub(super) joints: Vec<ModelJoint>,
     /// The joints, each behind those that carry it.
     pub(super) order: Vec<usize>,
     /// What the bodies weigh, in the base frame at the zero configuration.
     pub(super) bodies: Vec<Inertia>,
     /// The body of each link of the robot, and the link's frame in the base frame at the zero configuration.
-    links: Vec<(usize, Pose)>,
-    mass: f64,
+    pub(super) links: Vec<(usize, Pose)>,
+    pub(super) mass: f64,
 }
 
 impl Model {

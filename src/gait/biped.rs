@@ -150,6 +150,11 @@ impl Biped {
         self.model.joint(name)
     }
 
+    /// The unit of what moves a joint.
+    pub(super) fn torque_unit(&self, joint: usize) -> &'static str {
+        if self.model.joints()[joint].screw.axis().is_none() { "N" } else { "N m" }
+    }
+
     /// Half of the way from foot to foot, sideways, when the legs hang straight \[m\]: `W_p` of RH0, HipOffsetY of NAO Table 6.1.
     pub fn half_width(&self) -> f64 {
         self.feet[0].torso_from_sole.translation.y

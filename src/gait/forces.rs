@@ -6,7 +6,7 @@
 
 use nalgebra::{Point2, Point3, Vector3};
 
-use super::biped::Biped;
+use super::biped::{Biped, Foot};
 use super::footprint::Side;
 use super::plan::Walk;
 use super::zmp::GRAVITY;
@@ -42,6 +42,23 @@ pub struct Greatest {
     pub effort: Option<f64>,
 }
 
+/// How a biped moves at a sample, as central differences over three samples say.
+pub(super) struct Moving {
+    pub(super) places: Vec<Place<f64>>,
+    /// The torso's velocity, and its acceleration less that of gravity, in its own frame.
+    base: [Six<f64>; 2],
+    rates: Vec<f64>,
+    accelerations: Vec<f64>,
+}
+
+impl Moving {
+    /// For recursions.
+    pub(super) fn motion(&self) -> Motion<'_, f64> {
+        let [base, base_acceleration] = self.base;
+        Motion { base, base_acceleration, rates: &self.rates, accelerations: &self.accelerations }
+    }
+}
+
 impl Walk {
     /// The forces at every sample of the walk, which starts from rest and ends in rest.
     pub fn forces(&self, biped: &Biped) -> Vec<Forces> {
@@ -50,7 +67,8 @@ impl Walk {
         (0..self.motion.postures.len()).map(|sample| self.forces_at(biped, &tree, &mut data, sample)).collect()
     }
 
-    fn forces_at(&self, biped: &Biped, tree: &Tree<f64>, data: &mut Data<f64>, sample: usize) -> Forces {
+    /// How the biped moves at a sample.
+    pub(super) fn moving(&self, tree: &Tree<f64>, sample: usize) -> Moving {
         let (tick, postures) = (self.schedule.tick, &self.motion.postures);
         let here = &postures[sample];
         // Behind the last sample and before the first one it rests.
@@ -73,28 +91,39 @@ impl Walk {
             let three = neighbours[0].q.iter().zip(&here.q).zip(&neighbours[1].q);
             three.map(|((a, b), c)| change(*a, *b, *c) / time).collect()
         };
-        let (moving, changing) = (rates(|a, _, c| c - a, 2.0 * tick), rates(|a, b, c| c - 2.0 * b + a, tick * tick));
         let freedoms = tree.bodies.iter().map(|body| body.freedom);
-        data.place(tree, freedoms.zip(&here.q).map(|(freedom, q): (Freedom, &f64)| Place::of(freedom, *q)));
-        let motion =
-            Motion { base: velocity, base_acceleration: acceleration, rates: &moving, accelerations: &changing };
+        Moving {
+            places: freedoms.zip(&here.q).map(|(freedom, q): (Freedom, &f64)| Place::of(freedom, *q)).collect(),
+            base: [velocity, acceleration],
+            rates: rates(|a, _, c| c - a, 2.0 * tick),
+            accelerations: rates(|a, b, c| c - 2.0 * b + a, tick * tick),
+        }
+    }
+
+    fn forces_at(&self, biped: &Biped, tree: &Tree<f64>, data: &mut Data<f64>, sample: usize) -> Forces {
+        let world_from_torso = &self.motion.postures[sample].world_from_torso;
+        let moving = self.moving(tree, sample);
+        data.place(tree, moving.places.iter().copied());
         let mut torques = vec![0.0; tree.bodies.len()];
-        let base = data.inverse(tree, &motion, &[], &mut torques);
-        let ground = Wrench { f: base.linear.into(), tau: base.angular.into() }.transform(&here.world_from_torso);
+        let base = data.inverse(tree, &moving.motion(), &[], &mut torques);
+        let ground = wrench(&base).transform(world_from_torso);
         let centre = Point2::new(-ground.tau.y / ground.f.z, ground.tau.x / ground.f.z);
         let feet = self.feet(sample, &ground, &centre);
         let mut outside = vec![Six::zero(); tree.bodies.len() + 1];
-        let soles = &self.references[sample].world_from_soles;
-        for ((foot, wrench), sole) in biped.feet.iter().zip(&feet).zip(soles) {
-            let Some(joint) = foot.body.checked_sub(1) else { continue };
-            let at = &sole.translation.vector;
-            let about_origin = Wrench { f: wrench.f, tau: wrench.tau + at.cross(&wrench.f) };
-            let own = about_origin.transform(&torso_from_world);
-            let stands = data.stands(tree, Some(joint), &Frame::identity());
-            outside[joint + 1] = stands.force_inward(&Six { linear: own.f.into(), angular: own.tau.into() });
+        for side in [0, 1] {
+            let about_origin = self.about_origin(sample, side, &feet[side]);
+            let own = about_origin.transform(&world_from_torso.inverse());
+            let (body, push) = pushed(tree, data, &biped.feet[side], &own);
+            outside[body] = push;
         }
-        data.inverse(tree, &motion, &outside, &mut torques);
+        data.inverse(tree, &moving.motion(), &outside, &mut torques);
         Forces { torques, ground, centre, feet }
+    }
+
+    /// A wrench about the origin of a foot's sole, about the world's.
+    pub(super) fn about_origin(&self, sample: usize, side: usize, wrench: &Wrench) -> Wrench {
+        let at = &self.references[sample].world_from_soles[side].translation.vector;
+        Wrench { f: wrench.f, tau: wrench.tau + at.cross(&wrench.f) }
     }
 
     /// What the floor gives to each foot, about its sole's origin.
@@ -134,9 +163,8 @@ impl Walk {
         trajectory.points.push(Track { name: "ground".to_owned(), at });
         for (joint, range) in biped.joints.iter().enumerate() {
             let values = forces.iter().map(|forces| forces.torques[joint]).collect();
-            let slides = biped.model.joints()[joint].screw.axis().is_none();
-            let unit = if slides { "N" } else { "N m" };
-            trajectory.figures.push(Figure { name: format!("tau:{}", range.name), unit: unit.to_owned(), values });
+            let unit = biped.torque_unit(joint).to_owned();
+            trajectory.figures.push(Figure { name: format!("tau:{}", range.name), unit, values });
         }
         for (which, name) in ["ground", "left", "right"].into_iter().enumerate() {
             let own = |forces: &Forces| if which == 0 { forces.ground } else { forces.feet[which - 1] };
@@ -148,4 +176,15 @@ impl Walk {
         }
         trajectory
     }
+}
+
+/// A wrench on a foot that is told in the torso's frame: the body that it acts on, and the wrench in that body's frame.
+pub(super) fn pushed(tree: &Tree<f64>, data: &Data<f64>, foot: &Foot, own: &Wrench) -> (usize, Six<f64>) {
+    let stands = data.stands(tree, foot.body.checked_sub(1), &Frame::identity());
+    (foot.body, stands.force_inward(&Six { linear: own.f.into(), angular: own.tau.into() }))
+}
+
+/// Six numbers as a wrench.
+pub(super) fn wrench(six: &Six<f64>) -> Wrench {
+    Wrench { f: six.linear.into(), tau: six.angular.into() }
 }

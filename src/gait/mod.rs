@@ -7,6 +7,7 @@
 
 mod balance;
 mod biped;
+mod chains;
 mod check;
 mod drawing;
 mod footprint;
@@ -32,6 +33,7 @@ mod zmp;
 
 pub use balance::{Balance, balance, support};
 pub use biped::{Biped, Foot, JointRange};
+pub use chains::{Chains, Difference};
 pub use check::{Demand, FEET_APART, Fault, Found, faults, feet_meet};
 pub use footprint::{Footprint, Footstep, MAX_STEPS, Regular, Route, Side};
 pub use forces::{Forces, Greatest};

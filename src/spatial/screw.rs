@@ -147,6 +147,15 @@ impl Screw {
         }
     }
 
+    /// The joint that moves back where this one moves ahead: `exp(-q)`.
+    #[must_use]
+    pub fn reversed(&self) -> Screw {
+        match self {
+            Screw::Revolute(axis) => Screw::Revolute(Axis { direction: -axis.direction, ..*axis }),
+            Screw::Prismatic(direction) => Screw::Prismatic(-*direction),
+        }
+    }
+
     /// The axis of a revolute joint.
     pub fn axis(&self) -> Option<&Axis> {
         match self {

@@ -1,5 +1,7 @@
 //! Wrenches, the dual of se(3): forces and torques on a rigid body, RH0 2.1.3.
 
+use std::ops::{Add, Neg, Sub};
+
 use nalgebra::{Vector3, Vector6};
 
 use super::{Axis, Pose, Twist, moment};
@@ -15,6 +17,11 @@ pub struct Wrench {
 }
 
 impl Wrench {
+    /// Neither force nor torque.
+    pub fn zero() -> Self {
+        Wrench { f: Vector3::zeros(), tau: Vector3::zeros() }
+    }
+
     /// The wrench with the coordinates (f, tau).
     pub fn from_vector(vector: &Vector6<f64>) -> Self {
         Wrench { f: vector.fixed_rows::<3>(0).into_owned(), tau: vector.fixed_rows::<3>(3).into_owned() }
@@ -56,5 +63,29 @@ impl Wrench {
     /// The length of `f` \[N\]; when `f` is zero the length of `tau` \[N m\], RH0 (2-19).
     pub fn magnitude(&self) -> f64 {
         moment::magnitude(&self.f, &self.tau)
+    }
+}
+
+impl Add for Wrench {
+    type Output = Wrench;
+
+    fn add(self, other: Wrench) -> Wrench {
+        Wrench { f: self.f + other.f, tau: self.tau + other.tau }
+    }
+}
+
+impl Sub for Wrench {
+    type Output = Wrench;
+
+    fn sub(self, other: Wrench) -> Wrench {
+        self + -other
+    }
+}
+
+impl Neg for Wrench {
+    type Output = Wrench;
+
+    fn neg(self) -> Wrench {
+        Wrench { f: -self.f, tau: -self.tau }
     }
 }

@@ -1,5 +1,7 @@
 //! Control laws: each error dies out as its law says, in work space too, and what cannot be done is refused.
 
+mod two_chains;
+
 use groebot::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
     Sample, Trajectory, WorkSpace,

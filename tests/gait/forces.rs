@@ -69,3 +69,32 @@ fn forces_stand_in_the_table_and_greatest_torques_are_told() {
     // Of 5 kg on a thigh and a shank of 0.1 m each, bent: some newton metres.
     assert!((0.3..5.0).contains(&own), "{own}");
 }
+
+/// RH0 (3-40), (3-41): with what goes through the trunk two chains are the whole, and without it they are not, once a foot swings.
+#[test]
+fn two_chains_are_the_whole_with_what_goes_through_the_trunk() {
+    let (biped, _) = robot();
+    let walk = walk(&request(&Regular { steps: 2, ..regular() })).unwrap();
+    let forces = walk.forces(biped);
+    let chains = walk.chains(biped, &forces);
+    let difference = walk.difference(biped, &forces, &chains);
+    assert!(difference.rounding < 1e-10, "{difference:?}");
+    // Of a foot that swings a half of the robot is asked for, and a hip that bears it alone feels it.
+    let half = 0.5 * biped.model.mass() * GRAVITY;
+    assert!((difference.swinging / half - 1.0).abs() < 0.1 && (difference.between[0] / half - 1.0).abs() < 0.1);
+    assert!(difference.torque > 1.0 && difference.joint.contains("Hip") || difference.joint.contains("Ankle"));
+    for ((forces, chains), reference) in forces.iter().zip(&chains).zip(&walk.references) {
+        let up = chains.alone.map(|alone| alone.f.z);
+        assert!((up[0] + up[1] - forces.ground.f.z).abs() < 1e-9);
+        // What goes through the trunk is what the floor does not give to the chain that it stands on.
+        let swings = reference.stands.iter().position(|stands| !stands);
+        if let Some(side) = swings {
+            let sign = if side == 0 { 1.0 } else { -1.0 };
+            assert!((chains.between.f.z - sign * up[side]).abs() < 1e-9);
+        }
+    }
+    let mut trajectory = walk.trajectory_with_forces(biped, &forces);
+    walk.add_chains(biped, &chains, &mut trajectory);
+    let again = groebot::motion::Trajectory::from_csv(&trajectory.to_csv()).unwrap();
+    assert!(["chain:LKneePitch", "trunk_mz"].iter().all(|name| again.figures.iter().any(|figure| figure.name == *name)));
+}

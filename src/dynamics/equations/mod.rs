@@ -17,7 +17,7 @@ use super::Model;
 use super::masses::check_masses;
 use super::recursions::{Frame, Tree};
 use crate::model::{Joint, Robot};
-use crate::spatial::Wrench;
+use crate::spatial::{Pose, Wrench};
 use crate::{Error, ErrorKind, Result};
 
 /// How far the length of a quaternion may be from one.
@@ -121,13 +121,16 @@ impl Equations {
         Equations::of(robot, &Model::new(robot)?, base)
     }
 
-    fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
+    /// The same of a model of the robot, which may have another root or weigh less: [`Model::rooted_at`], [`Model::halves`]. The root's frame is that of the model.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] where a joint follows one that does not move.
+    pub fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
         let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
         let laws: Vec<_> = moving.iter().map(|joint| robot.law(joint)).collect();
         let leads = |(joint, law): &(&&Joint, &crate::model::Mimic)| law.leader == joint.name;
         let leading = || moving.iter().zip(&laws).filter(leads).map(|(joint, _)| joint);
         let names: Vec<String> = leading().map(|joint| joint.name.clone()).collect();
-        let links = leading().map(|joint| joint.child.clone()).collect();
         let drive = |(joint, law): (&&Joint, &crate::model::Mimic)| {
             let [factor, offset] = law.law();
             let unknown =
@@ -146,18 +149,28 @@ impl Equations {
             let body_from_link = joint.map_or(base_from_link, |joint| base_from_body[joint].inv_mul(&base_from_link));
             (joint, Frame::of(&body_from_link))
         };
-        let behind = robot.moving().into_iter().map(|place| robot.ends(place).1);
-        let told_in: Vec<usize> = std::iter::once(robot.root_place()).chain(behind).collect();
+        // Of two links at a joint one belongs to the body behind it.
+        let behind = |(joint, place): (usize, usize)| {
+            let (parent, child) = robot.ends(place);
+            if model.link(child).0 == joint + 1 { child } else { parent }
+        };
+        let of_base = |link: &usize| model.link(*link) == (0, Pose::identity());
+        let root = Some(robot.root_place()).filter(of_base).or_else(|| (0..robot.links().len()).find(of_base));
+        let behind = robot.moving().into_iter().enumerate().map(behind);
+        let told_in: Vec<usize> = std::iter::once(root.unwrap_or(robot.root_place())).chain(behind).collect();
+        let told_names: Vec<String> = told_in.iter().map(|link| robot.links()[*link].name.clone()).collect();
+        let leads = |(joint, drive): &(usize, &Drive)| names[drive.freedom] == moving[*joint].name;
+        let leading = drives.iter().enumerate().filter(leads);
         Ok(Equations {
             tree,
             base,
             gravity: Vector3::new(0.0, 0.0, -9.81),
+            links: leading.map(|(joint, _)| told_names[joint + 1].clone()).collect(),
             names,
-            links,
             drives,
             is_plain,
             frames: (0..robot.links().len()).map(frame_of).collect(),
-            told_names: told_in.iter().map(|link| robot.links()[*link].name.clone()).collect(),
+            told_names,
             told_in,
         })
     }
@@ -180,6 +193,13 @@ impl Equations {
     #[must_use]
     pub fn without_friction(mut self) -> Self {
         self.drives.iter_mut().for_each(|drive| (drive.damping, drive.friction) = (0.0, 0.0));
+        self
+    }
+
+    /// The same without the inertia of rotors.
+    #[must_use]
+    pub fn without_rotors(mut self) -> Self {
+        self.drives.iter_mut().for_each(|drive| drive.armature = 0.0);
         self
     }
 

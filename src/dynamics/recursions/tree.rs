@@ -1,6 +1,6 @@
 //! A robot for recursions: bodies in frames of their own, whose z axes are the joints' axes. Main type: [`Tree`].
 
-use nalgebra::{Matrix3, UnitVector3, Vector3};
+use nalgebra::{Rotation3, UnitVector3, Vector3};
 
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Matrix, Three};
@@ -158,16 +158,16 @@ fn frame_of(screw: &Screw, base_from_parent: &Pose) -> (Freedom, Pose) {
         Screw::Revolute(axis) => (Freedom::Turn, axis.direction(), axis.point().coords),
     };
     let along = base_from_parent.inverse_transform_unit_vector(&direction);
-    let rotation = base_from_parent.rotation * nalgebra::UnitQuaternion::from_matrix(&upright(&along));
+    let rotation = base_from_parent.rotation * nalgebra::UnitQuaternion::from_rotation_matrix(&upright(&along));
     (freedom, Pose::from_parts(origin.into(), rotation))
 }
 
 /// A rotation whose last column is a direction: of the coordinate axes where it is one, so that most of its entries are zero.
-fn upright(direction: &UnitVector3<f64>) -> Matrix3<f64> {
+fn upright(direction: &UnitVector3<f64>) -> Rotation3<f64> {
     let farthest = direction.iamax();
     let across = Vector3::ith((farthest + 1) % 3, 1.0);
     let first = (across - direction.into_inner() * across.dot(direction)).normalize();
-    Matrix3::from_columns(&[first, direction.cross(&first), direction.into_inner()])
+    Rotation3::from_basis_unchecked(&[first, direction.cross(&first), direction.into_inner()])
 }
 
 impl Frame<f64> {
