@@ -12,10 +12,11 @@ mod masses;
 mod model;
 mod momentum;
 mod placed;
-mod recursions;
+pub(crate) mod recursions;
 
 pub use clearance::{Clearance, Touch};
 pub use equations::identify::{CONFIDENT, Consistency, Estimate, Identification, Logged};
+pub(crate) use equations::pull;
 pub use equations::{Base, Equations, Formal, FormalState, State, Value, Workspace};
 pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;

@@ -58,8 +58,9 @@ fn a_foot_as_root_is_a_floating_base_with_a_contact_force() {
                 let ground = held.base_wrench(&mut room, state, &acceleration).unwrap();
                 let torques = held.inverse(&mut room, state, &acceleration).unwrap().clone();
                 let [place, base_velocity, base_acceleration] = moving(&held, robot.root_place(), state, &acceleration);
-                let [all_q, all_v, all_a] = [(place, &q), (base_velocity, &velocity), (base_acceleration, &acceleration)]
-                    .map(|(base, joints)| [base, joints.clone()].concat());
+                let [all_q, all_v, all_a] =
+                    [(place, &q), (base_velocity, &velocity), (base_acceleration, &acceleration)]
+                        .map(|(base, joints)| [base, joints.clone()].concat());
                 let outside = [(link, ground)];
                 let state = State::new(&all_q, &all_v).pushed(&outside);
                 let found = free.inverse(&mut free.workspace(), state, &all_a).unwrap().clone();
@@ -89,7 +90,8 @@ fn coupled_chains_are_one_tree() {
             let expected = one.torques(&desired, state).unwrap().to_vec();
             let size = expected.iter().fold(1.0, |size: f64, torque| size.max(torque.abs()));
             // Friction counts in both.
-            let friction = |robot: &Robot| robot.joints().iter().any(|joint| joint.friction != 0.0 || joint.damping != 0.0);
+            let friction =
+                |robot: &Robot| robot.joints().iter().any(|joint| joint.friction != 0.0 || joint.damping != 0.0);
             assert!(!friction(&robot), "{name}");
             near(two.torques(&desired, state).unwrap(), &expected, 1e-11 * size, name);
             assert!(two.between().f.norm() > 1.0);
@@ -177,9 +179,8 @@ fn chains_that_are_not_coupled_do_not_hold_a_robot_on_one_foot() {
         assert!(worst < 2e-3, "{worst:e} at {}", two.time);
     }
     let alone = run(&mut || Box::new(TwoChains::new(&robot, SOLES, 1, gains(), false).unwrap()));
-    let worst = alone.map_or(f64::INFINITY, |samples| {
-        samples.iter().flat_map(super::errors).map(f64::abs).fold(0.0, f64::max)
-    });
+    let worst =
+        alone.map_or(f64::INFINITY, |samples| samples.iter().flat_map(super::errors).map(f64::abs).fold(0.0, f64::max));
     assert!(worst > 0.5, "{worst}");
 }
 

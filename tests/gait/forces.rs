@@ -96,5 +96,7 @@ fn two_chains_are_the_whole_with_what_goes_through_the_trunk() {
     let mut trajectory = walk.trajectory_with_forces(biped, &forces);
     walk.add_chains(biped, &chains, &mut trajectory);
     let again = groebot::motion::Trajectory::from_csv(&trajectory.to_csv()).unwrap();
-    assert!(["chain:LKneePitch", "trunk_mz"].iter().all(|name| again.figures.iter().any(|figure| figure.name == *name)));
+    assert!(
+        ["chain:LKneePitch", "trunk_mz"].iter().all(|name| again.figures.iter().any(|figure| figure.name == *name))
+    );
 }

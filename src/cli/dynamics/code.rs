@@ -7,7 +7,7 @@ use super::Arguments;
 use crate::cli::codegen::write_generated;
 use crate::cli::export::described;
 use crate::cli::{Outcome, console};
-use crate::codegen::dynamics::{Function, Printed};
+use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::{Base, Equations};
 use crate::{Error, ErrorKind};
 
@@ -18,6 +18,24 @@ pub enum Language {
     Rust,
     /// C99, on groebot_dynamics.h
     C,
+}
+
+/// How functions are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormName {
+    /// Straight-line code, which is fastest
+    Straight,
+    /// Loops over tables of the bodies
+    Recursive,
+}
+
+impl FormName {
+    fn form(self) -> Form {
+        match self {
+            FormName::Straight => Form::Straight,
+            FormName::Recursive => Form::Recursive,
+        }
+    }
 }
 
 /// Reads a function by its name.
@@ -44,7 +62,13 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     if meant != described {
         remarks.push("Rotations are taken for what their numbers mean: 1.5708 for a quarter turn.".to_owned());
     }
-    let printed = Printed { name: robot.name(), equations: &equations, remarks, functions };
+    let printed = Printed {
+        name: robot.name(),
+        equations: &equations,
+        remarks,
+        functions,
+        form: arguments.form.map_or(Form::Shorter, FormName::form),
+    };
     let fault = |error: Error| error.in_file(&arguments.robot);
     match (language, &arguments.out) {
         (Language::Rust, None) => console::print(&printed.rust().map_err(fault)?),

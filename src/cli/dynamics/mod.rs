@@ -54,6 +54,9 @@ pub struct Arguments {
     /// With --lang: which functions (default: all)
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang", value_parser = code::functions())]
     functions: Vec<Function>,
+    /// With --lang: how functions are printed [default: straight-line code, and loops where that would be over 100 KB]
+    #[arg(long, value_name = "FORM", requires = "lang")]
+    form: Option<code::FormName>,
     /// With --lang: the root moves freely
     #[arg(long, requires = "lang")]
     floating: bool,

@@ -1,15 +1,19 @@
-//! Printing equations of motion as straight-line code: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
+//! Printing equations of motion: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
 //!
-//! The recursions of [`crate::dynamics`] run over numbers that write down how they are computed; what is known beforehand is computed at once, and nothing twice.
+//! The recursions of [`crate::dynamics`] run over numbers that write down how they are computed; what is known beforehand is computed at once, and nothing twice. Where
+//! such straight-line code would be long, a step of the recursion is written down alone, in a loop over the bodies.
 
+mod loops;
+mod recursive;
 mod tape;
 
 use serde::Serialize;
 
+use self::recursive::{Recursive, Table};
 use self::tape::{Recorded, Tape};
 use super::language::{Expressions, number};
 use super::names::remark;
-use super::printer::{Printer, spread};
+use super::printer::{INDENT, Printer, spread};
 use crate::document::word;
 use crate::dynamics::{Equations, FormalState, Freedom, Place, Value};
 use crate::solver::{Demand, Instruction, Operand};
@@ -83,6 +87,21 @@ impl Function {
     }
 }
 
+/// How a function is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Form {
+    /// As straight-line code where that has at most so many operations as [`LONGEST`], otherwise recursive.
+    #[default]
+    Shorter,
+    /// As straight-line code, which is fastest.
+    Straight,
+    /// As loops over the bodies, whose figures stand in tables.
+    Recursive,
+}
+
+/// The most operations of straight-line code, unless it is asked for: some 100 KB.
+pub const LONGEST: usize = 3_500;
+
 /// What is printed of a robot.
 #[derive(Clone, Debug)]
 pub struct Printed<'a> {
@@ -94,6 +113,8 @@ pub struct Printed<'a> {
     pub remarks: Vec<String>,
     /// The functions, in order.
     pub functions: Vec<Function>,
+    /// How they are printed.
+    pub form: Form,
 }
 
 /// The code of one function.
@@ -131,7 +152,11 @@ impl Printed<'_> {
     fn outline(&self, language: &dyn Language, stem: &str) -> Result<Outline> {
         let values = self.equations.values();
         let angles = values.iter().filter(|value| value.freedom == Freedom::Turn);
-        let functions = self.functions.iter().map(|function| self.function(*function, language));
+        let recursive = Recursive::new(self.equations.formal(|x| x));
+        let functions = self.functions.iter().map(|function| self.function(*function, &recursive, language));
+        let functions: Vec<FunctionText> = functions.collect::<Result<_>>()?;
+        let loops = functions.iter().any(|function| function.is_recursive);
+        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
         let joints = self.equations.joints().iter().map(|name| format!("`{}`", remark(name)));
         let base = |coordinates: &str| -> Vec<String> {
             if self.equations.is_floating() { coordinates.split(' ').map(str::to_owned).collect() } else { Vec::new() }
@@ -147,12 +172,21 @@ impl Printed<'_> {
             freedoms: base("vx vy vz wx wy wz").into_iter().chain(joints).collect(),
             remarks: self.remarks.iter().map(|line| remark(line)).collect(),
             angles: angles.map(|value| joint_value(value, language)).collect(),
-            functions: functions.collect::<Result<_>>()?,
+            ways: ways.map(|value| joint_value(value, language)).collect(),
+            bodies: values.len() + 1,
+            tables: if loops { language.tables(&recursive.tables()) } else { Vec::new() },
+            functions,
         })
     }
 
-    fn function(&self, function: Function, language: &dyn Language) -> Result<FunctionText> {
+    fn function(&self, function: Function, recursive: &Recursive, language: &dyn Language) -> Result<FunctionText> {
         let Body { code, results } = self.record(function)?;
+        let is_recursive = self.form == Form::Recursive || self.form == Form::Shorter && code.len() > LONGEST;
+        if is_recursive {
+            let mut lines = language.start(function);
+            lines.extend(recursive.code(function, language));
+            return Ok(self.text(function, language, lines, language.finish(function), true));
+        }
         let names = self.names(function, language);
         let demand = Demand::of_code(&code, &results);
         let mut printer = Printer::of(language.expressions(), &names, demand);
@@ -160,7 +194,18 @@ impl Printed<'_> {
         let results: Vec<String> = results.into_iter().map(|result| printer.operand(result)).collect();
         let (more, answer) = language.answer(function, self.equations.freedoms(), results);
         lines.extend(more);
-        Ok(FunctionText {
+        Ok(self.text(function, language, lines, answer, false))
+    }
+
+    fn text(
+        &self,
+        function: Function,
+        language: &dyn Language,
+        code: Vec<String>,
+        answer: String,
+        is_recursive: bool,
+    ) -> FunctionText {
+        FunctionText {
             name: function.name(),
             about: function.about(),
             inputs: std::iter::once("q").chain(function.inputs().iter().copied()).collect(),
@@ -172,9 +217,11 @@ impl Printed<'_> {
             } else {
                 "Row"
             },
-            code: lines,
+            reads_ways: code.iter().any(|line| line.contains("way[")),
+            code,
             answer,
-        })
+            is_recursive,
+        }
     }
 
     /// The inputs of the recorded code, in order: cosines, sines, ways, the root's quaternion, and what else is read.
@@ -252,6 +299,9 @@ struct Outline {
     freedoms: Vec<String>,
     remarks: Vec<String>,
     angles: Vec<String>,
+    ways: Vec<String>,
+    bodies: usize,
+    tables: Vec<String>,
     functions: Vec<FunctionText>,
 }
 
@@ -264,6 +314,8 @@ struct FunctionText {
     result: &'static str,
     code: Vec<String>,
     answer: String,
+    reads_ways: bool,
+    is_recursive: bool,
 }
 
 /// What differs between the languages.
@@ -273,6 +325,49 @@ trait Language {
     fn answer(&self, function: Function, freedoms: usize, results: Vec<String>) -> (Vec<String>, String);
     /// The list of parameters.
     fn parameters(&self, function: Function, equations: &Equations) -> String;
+    /// The results of a recursive function, nought at first, and what is returned.
+    fn start(&self, function: Function) -> Vec<String>;
+    /// As told.
+    fn finish(&self, function: Function) -> String;
+    /// The entry of a matrix of results.
+    fn entry(&self, matrix: &str, row: &str, column: &str) -> String;
+    /// New numbers, nought at first: so many of each body.
+    fn zeros(&self, name: &str, count: usize) -> String;
+    /// So many alone.
+    fn zero_row(&self, name: &str, count: usize) -> String;
+    /// A place in a table that does not change.
+    fn index(&self, name: &str, value: &str) -> String;
+    /// The head of a loop through the bodies: `i`.
+    fn bodies(&self, inward: bool) -> &'static str;
+    /// What begins with a body and goes on while there is one: `j`.
+    fn climb(&self) -> [&'static str; 2];
+    /// The head of a block.
+    fn when(&self, condition: &str) -> String;
+    /// Tables of a file, and how many rows they have.
+    fn tables(&self, tables: &[Table]) -> Vec<String>;
+}
+
+/// The rows of a table as text.
+fn rows(table: &Table, brackets: [&str; 2], literal: impl Fn(f64) -> String) -> String {
+    match table {
+        Table::Places(_, places) => places.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+        Table::Numbers(_, rows) => {
+            let row = |row: &Vec<f64>| {
+                let numbers: Vec<String> = row.iter().map(|number| literal(*number)).collect();
+                format!("\n{INDENT}{}{}{}", brackets[0], numbers.join(", "), brackets[1])
+            };
+            rows.iter().map(row).collect::<Vec<_>>().join(",")
+        }
+    }
+}
+
+/// The results of a function by name, and whether they are matrices.
+fn results(function: Function) -> (&'static [&'static str], bool) {
+    match function {
+        Function::Derivatives => (&["by_q", "by_v"], true),
+        Function::Inertia | Function::Coriolis => (&["out"], true),
+        _ => (&["out"], false),
+    }
 }
 
 struct Rust;
@@ -301,6 +396,59 @@ impl Language for Rust {
 
     fn parameters(&self, _: Function, _: &Equations) -> String {
         String::new()
+    }
+
+    fn start(&self, function: Function) -> Vec<String> {
+        let (names, are_matrices) = results(function);
+        let zeros = if are_matrices { "[[0.0; FREEDOMS]; FREEDOMS]" } else { "[0.0; FREEDOMS]" };
+        names.iter().map(|name| format!("let mut {name} = {zeros};")).collect()
+    }
+
+    fn finish(&self, function: Function) -> String {
+        match results(function) {
+            ([one], _) => (*one).to_owned(),
+            (all, _) => format!("[{}]", all.join(", ")),
+        }
+    }
+
+    fn entry(&self, matrix: &str, row: &str, column: &str) -> String {
+        format!("{matrix}[{row}][{column}]")
+    }
+
+    fn zeros(&self, name: &str, count: usize) -> String {
+        format!("let mut {name} = [[0.0; {count}]; BODIES];")
+    }
+
+    fn zero_row(&self, name: &str, count: usize) -> String {
+        format!("let mut {name} = [0.0; {count}];")
+    }
+
+    fn index(&self, name: &str, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn bodies(&self, inward: bool) -> &'static str {
+        if inward { "for i in (1..BODIES).rev() {" } else { "for i in 1..BODIES {" }
+    }
+
+    fn climb(&self) -> [&'static str; 2] {
+        ["let mut j = i;", "while j != 0 {"]
+    }
+
+    fn when(&self, condition: &str) -> String {
+        format!("if {condition} {{")
+    }
+
+    fn tables(&self, tables: &[Table]) -> Vec<String> {
+        let table = |table: &Table| {
+            let rows = rows(table, ["[", "]"], number);
+            let (name, kind) = match table {
+                Table::Places(name, _) => (name, "usize".to_owned()),
+                Table::Numbers(name, all) => (name, format!("[f64; {}]", all[0].len())),
+            };
+            format!("static {name}: [{kind}; BODIES] = [{rows}];")
+        };
+        tables.iter().map(table).collect()
     }
 }
 
@@ -332,6 +480,61 @@ impl Language for C {
             _ => format!("gb_real out[{freedoms}]"),
         };
         reads.map(read).chain([written]).collect::<Vec<_>>().join(", ")
+    }
+
+    fn start(&self, function: Function) -> Vec<String> {
+        let (names, are_matrices) = results(function);
+        let count = if are_matrices { "FREEDOMS * FREEDOMS" } else { "FREEDOMS" };
+        let zero = |name: &&str| format!("{INDENT}{name}[k] = 0;");
+        let head = format!("for (int k = 0; k < {count}; ++k) {{");
+        std::iter::once(head).chain(names.iter().map(zero)).chain(["}".to_owned()]).collect()
+    }
+
+    fn finish(&self, _: Function) -> String {
+        String::new()
+    }
+
+    fn entry(&self, matrix: &str, row: &str, column: &str) -> String {
+        format!("{matrix}[{row} * FREEDOMS + {column}]")
+    }
+
+    fn zeros(&self, name: &str, count: usize) -> String {
+        format!("gb_real {name}[BODIES][{count}] = {{{{0}}}};")
+    }
+
+    fn zero_row(&self, name: &str, count: usize) -> String {
+        format!("gb_real {name}[{count}] = {{0}};")
+    }
+
+    fn index(&self, name: &str, value: &str) -> String {
+        format!("const int {name} = {value};")
+    }
+
+    fn bodies(&self, inward: bool) -> &'static str {
+        if inward { "for (int i = BODIES - 1; i > 0; --i) {" } else { "for (int i = 1; i < BODIES; ++i) {" }
+    }
+
+    fn climb(&self) -> [&'static str; 2] {
+        ["int j = i;", "while (j != 0) {"]
+    }
+
+    fn when(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
+    }
+
+    fn tables(&self, tables: &[Table]) -> Vec<String> {
+        let table = |table: &Table| {
+            // Whole numbers are numbers of either precision.
+            let literal = |value: f64| if value == value.trunc() { value.to_string() } else { self.literal(value) };
+            let rows = rows(table, ["{", "}"], literal);
+            match table {
+                Table::Places(name, _) => format!("static const int {name}[BODIES] = {{{rows}}};"),
+                Table::Numbers(name, all) => {
+                    format!("static const gb_real {name}[BODIES][{}] = {{{rows}}};", all[0].len())
+                }
+            }
+        };
+        tables.iter().map(table).collect()
     }
 }
 

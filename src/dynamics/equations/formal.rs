@@ -10,19 +10,20 @@ use crate::{Error, ErrorKind, Result};
 /// its way: [`Equations::values`] tells what makes them of a configuration.
 #[derive(Clone, Debug)]
 pub struct Formal<S> {
-    tree: Tree<S>,
+    pub(crate) tree: Tree<S>,
     /// The base's freedoms: six or none.
-    first: usize,
-    freedoms: usize,
-    gravity: [S; 3],
-    drives: Vec<FormalDrive<S>>,
+    pub(crate) first: usize,
+    pub(crate) freedoms: usize,
+    pub(crate) gravity: [S; 3],
+    pub(crate) drives: Vec<FormalDrive<S>>,
 }
 
+/// How a joint is moved, and the inertia of its rotor, seen from the freedom.
 #[derive(Clone, Debug)]
-struct FormalDrive<S> {
-    freedom: usize,
-    factor: S,
-    armature: S,
+pub(crate) struct FormalDrive<S> {
+    pub(crate) freedom: usize,
+    pub(crate) factor: S,
+    pub(crate) armature: S,
 }
 
 /// How the value of a joint follows from a configuration: `factor` times the number at a place, and `offset`.
@@ -101,34 +102,12 @@ impl<S: Scalar> Formal<S> {
         }
     }
 
-    /// Minus gravity in the frame of the base: for a quaternion `R' g`.
-    fn pull(&self, state: &FormalState<S>) -> Six<S> {
-        let [gx, gy, gz] = self.gravity.clone().map(|entry| -entry);
-        let linear = match &state.turn {
-            None => [gx, gy, gz],
-            Some([x, y, z, w]) => {
-                let twice = |a: &S, b: &S| {
-                    let product = a.clone() * b.clone();
-                    product.clone() + product
-                };
-                let diagonal = |a: &S, b: &S| S::one() - (twice(a, a) + twice(b, b));
-                let columns = [
-                    [diagonal(y, z), twice(x, y) + twice(z, w), twice(x, z) - twice(y, w)],
-                    [twice(x, y) - twice(z, w), diagonal(x, z), twice(y, z) + twice(x, w)],
-                    [twice(x, z) + twice(y, w), twice(y, z) - twice(x, w), diagonal(x, y)],
-                ];
-                columns.map(|[a, b, c]| a * gx.clone() + b * gy.clone() + c * gz.clone())
-            }
-        };
-        Six { linear, angular: Six::zero().angular }
-    }
-
     fn newton_euler(&self, state: &FormalState<S>, acceleration: &[S]) -> Vec<S> {
         let mut data = self.data(state);
         let (moving, change) = (self.moving(&state.velocity), self.moving(acceleration));
         let motion = Motion {
             base: moving.base,
-            base_acceleration: self.pull(state).add(&change.base),
+            base_acceleration: pull(&self.gravity, state.turn.as_ref()).add(&change.base),
             rates: &moving.rates,
             accelerations: &change.rates,
         };
@@ -181,7 +160,7 @@ impl<S: Scalar> Formal<S> {
     /// What inverse dynamics changes by with the configuration and with the velocity, each by rows.
     pub fn derivatives(&self, state: &FormalState<S>, acceleration: &[S]) -> [Vec<S>; 2] {
         let (moving, change) = (self.moving(&state.velocity), self.moving(acceleration));
-        let pull = self.pull(state);
+        let pull = pull(&self.gravity, state.turn.as_ref());
         let motion = Motion {
             base: moving.base,
             base_acceleration: pull.add(&change.base),
@@ -222,7 +201,7 @@ impl<S: Divisible + PartialEq> Formal<S> {
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let (mut data, moving) = (self.data(state), self.moving(&state.velocity));
-        let pull = self.pull(state);
+        let pull = pull(&self.gravity, state.turn.as_ref());
         let base_cause = match self.first {
             0 => Cause::Acceleration(pull.clone()),
             _ => Cause::Force(Six::of(torques)),
@@ -243,4 +222,26 @@ impl<S: Divisible + PartialEq> Formal<S> {
         let base = (0..self.first).map(|at| found.at(at).clone() - pull.at(at).clone());
         Ok(base.chain(changes).collect())
     }
+}
+
+/// Minus gravity in the frame of the base, which a quaternion x, y, z, w turns.
+pub(crate) fn pull<S: Scalar>(gravity: &[S; 3], turn: Option<&[S; 4]>) -> Six<S> {
+    let [gx, gy, gz] = gravity.clone().map(|entry| -entry);
+    let linear = match turn {
+        None => [gx, gy, gz],
+        Some([x, y, z, w]) => {
+            let twice = |a: &S, b: &S| {
+                let product = a.clone() * b.clone();
+                product.clone() + product
+            };
+            let diagonal = |a: &S, b: &S| S::one() - (twice(a, a) + twice(b, b));
+            let columns = [
+                [diagonal(y, z), twice(x, y) + twice(z, w), twice(x, z) - twice(y, w)],
+                [twice(x, y) - twice(z, w), diagonal(x, z), twice(y, z) + twice(x, w)],
+                [twice(x, z) + twice(y, w), twice(y, z) - twice(x, w), diagonal(x, y)],
+            ];
+            columns.map(|[a, b, c]| a * gx.clone() + b * gy.clone() + c * gz.clone())
+        }
+    };
+    Six { linear, angular: Six::zero().angular }
 }

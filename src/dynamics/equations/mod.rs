@@ -10,6 +10,7 @@ mod workspace;
 
 use nalgebra::Vector3;
 
+pub(crate) use formal::pull;
 pub use formal::{Formal, FormalState, Value};
 pub use workspace::Workspace;
 

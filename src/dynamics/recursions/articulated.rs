@@ -5,14 +5,25 @@
 use super::data::{Data, bias};
 use super::scalar::{Divisible, Scalar};
 use super::six::{Frame, Mass, Matrix, Six, Three, add, cross, dot, turned, turned_back};
-use super::tree::Tree;
+use super::tree::{Body, Tree};
 
 /// What a body with all that it carries sets against a force: the momentum is `L v + H w` and `H' v + A w`.
 #[derive(Clone, Debug)]
-struct Resistance<S> {
-    linear: Matrix<S>,
-    coupling: Matrix<S>,
-    angular: Matrix<S>,
+pub(crate) struct Resistance<S> {
+    pub(crate) linear: Matrix<S>,
+    pub(crate) coupling: Matrix<S>,
+    pub(crate) angular: Matrix<S>,
+}
+
+/// What a joint yields to a force on what it carries.
+#[derive(Clone, Debug)]
+pub(crate) struct Yielding<S> {
+    /// The force that a unit acceleration of the joint asks for.
+    pub(crate) push: Six<S>,
+    /// Its part along the joint, with the rotor's.
+    pub(crate) pivot: S,
+    /// What the torque exceeds the bias by.
+    pub(crate) excess: S,
 }
 
 /// Room for forward dynamics on one tree: it is made once, and calls allocate nothing.
@@ -29,10 +40,7 @@ struct Articulated<S> {
     bias: Six<S>,
     /// What the turning of the joint's axis adds to the acceleration.
     turning: Six<S>,
-    /// The force that a unit acceleration of the joint asks for, its part along the joint with the rotor's, and what the torque exceeds the bias by.
-    push: Six<S>,
-    pivot: S,
-    excess: S,
+    yielding: Yielding<S>,
     acceleration: Six<S>,
 }
 
@@ -67,7 +75,7 @@ pub enum Cause<S> {
 pub struct Massless(pub Option<usize>);
 
 impl<S: Scalar> Resistance<S> {
-    fn of(mass: &Mass<S>) -> Self {
+    pub(crate) fn of(mass: &Mass<S>) -> Self {
         let [x, y, z] = mass.moment.clone();
         let [xx, xy, yy, xz, yz, zz] = mass.tensor.clone();
         let diagonal = |i: usize| std::array::from_fn(|j| if i == j { mass.mass.clone() } else { S::zero() });
@@ -85,7 +93,7 @@ impl<S: Scalar> Resistance<S> {
         }
     }
 
-    fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         let sum = |a: &Matrix<S>, b: &Matrix<S>| std::array::from_fn(|i| add(&a[i], &b[i]));
         Resistance {
             linear: sum(&self.linear, &other.linear),
@@ -136,7 +144,7 @@ impl<S: Divisible> Resistance<S> {
     }
 
     /// The acceleration that a force gives, by elimination without pivoting: of what has mass the pivots are positive.
-    fn solve(&self, force: &Six<S>, is_positive: impl Fn(&S) -> bool) -> Option<Six<S>> {
+    pub(crate) fn solve(&self, force: &Six<S>, is_positive: impl Fn(&S) -> bool) -> Option<Six<S>> {
         let entry = |i: usize, j: usize| match (i / 3, j / 3) {
             (0, 0) => self.linear[i][j].clone(),
             (0, _) => self.coupling[i][j - 3].clone(),
@@ -167,6 +175,34 @@ impl<S: Divisible> Resistance<S> {
     }
 }
 
+impl<S: Divisible> Yielding<S> {
+    /// That of a joint with a rotor under a torque, whose bodies ask for a force without acceleration.
+    pub(crate) fn of(carried: &Resistance<S>, body: &Body<S>, bias: &Six<S>, torque: &S, rotor: &S) -> Self {
+        let push = carried.times(&body.axis());
+        let pivot = body.along(&push).clone() + rotor.clone();
+        Yielding { pivot, excess: torque.clone() - body.along(bias).clone(), push }
+    }
+
+    /// What is left of resistance and bias for the parent, in whose frame the body's stands so.
+    pub(crate) fn hand_on(
+        &self,
+        carried: &Resistance<S>,
+        bias: &Six<S>,
+        turning: &Six<S>,
+        frame: &Frame<S>,
+    ) -> (Resistance<S>, Six<S>) {
+        let left = carried.yielding(&self.push, &self.pivot);
+        let share = self.excess.clone() / self.pivot.clone();
+        let bias = bias.add(&left.times(turning)).add(&self.push.scaled(&share));
+        (left.outward(frame), frame.force_outward(&bias))
+    }
+
+    /// What the joint's rate changes by where it is carried so.
+    pub(crate) fn change(&self, carried: &Six<S>) -> S {
+        (self.excess.clone() - self.push.dot(carried)) / self.pivot.clone()
+    }
+}
+
 impl<S: Divisible> Articulation<S> {
     /// Room for forward dynamics on a tree.
     pub fn new(tree: &Tree<S>) -> Self {
@@ -174,9 +210,7 @@ impl<S: Divisible> Articulation<S> {
             resistance: Resistance::of(&Mass::zero()),
             bias: Six::zero(),
             turning: Six::zero(),
-            push: Six::zero(),
-            pivot: S::zero(),
-            excess: S::zero(),
+            yielding: Yielding { push: Six::zero(), pivot: S::zero(), excess: S::zero() },
             acceleration: Six::zero(),
         };
         Articulation { bodies: vec![body; tree.bodies.len()] }
@@ -205,17 +239,11 @@ impl<S: Divisible> Articulation<S> {
         let mut base_bias = bias(&tree.base, &drive.base, drive.outside.first());
         for &joint in tree.order.iter().rev() {
             let (body, own) = (&tree.bodies[joint], &mut self.bodies[joint]);
-            own.push = own.resistance.times(&body.axis());
-            own.pivot = body.along(&own.push).clone() + drive.rotors[joint].clone();
-            own.excess = drive.torques[joint].clone() - body.along(&own.bias).clone();
-            if !is_positive(&own.pivot) {
+            own.yielding = Yielding::of(&own.resistance, body, &own.bias, &drive.torques[joint], &drive.rotors[joint]);
+            if !is_positive(&own.yielding.pivot) {
                 return Err(Massless(Some(joint)));
             }
-            let yielding = own.resistance.yielding(&own.push, &own.pivot);
-            let share = own.excess.clone() / own.pivot.clone();
-            let bias = own.bias.add(&yielding.times(&own.turning)).add(&own.push.scaled(&share));
-            let frame = &data.frames[joint];
-            let (outward, bias) = (yielding.outward(frame), frame.force_outward(&bias));
+            let (outward, bias) = own.yielding.hand_on(&own.resistance, &own.bias, &own.turning, &data.frames[joint]);
             let (resistance, below) = match body.parent {
                 None => (&mut base, &mut base_bias),
                 Some(parent) => {
@@ -234,7 +262,7 @@ impl<S: Divisible> Articulation<S> {
             let carrier = body.parent.map_or(&base_acceleration, |parent| &self.bodies[parent].acceleration);
             let carried = data.frames[joint].motion_inward(carrier).add(&self.bodies[joint].turning);
             let own = &mut self.bodies[joint];
-            let change = (own.excess.clone() - own.push.dot(&carried)) / own.pivot.clone();
+            let change = own.yielding.change(&carried);
             own.acceleration = carried;
             body.quicken(&mut own.acceleration, change.clone());
             accelerations[joint] = change;

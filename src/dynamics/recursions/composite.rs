@@ -5,10 +5,10 @@ use super::six::{Frame, Mass, Six, cross, dot};
 
 /// Bodies as one, in a frame of one of them.
 #[derive(Clone, Debug)]
-pub(super) struct Composite<S> {
-    pub(super) mass: Mass<S>,
-    pub(super) rate: Mass<S>,
-    pub(super) momentum: Six<S>,
+pub(crate) struct Composite<S> {
+    pub(crate) mass: Mass<S>,
+    pub(crate) rate: Mass<S>,
+    pub(crate) momentum: Six<S>,
 }
 
 impl<S: Scalar> Composite<S> {
@@ -17,12 +17,12 @@ impl<S: Scalar> Composite<S> {
     }
 
     /// That of one body at a velocity, in its own frame.
-    pub(super) fn of(mass: &Mass<S>, velocity: &Six<S>) -> Self {
+    pub(crate) fn of(mass: &Mass<S>, velocity: &Six<S>) -> Self {
         let momentum = mass.times(velocity);
         Composite { mass: mass.clone(), rate: rate(mass, velocity, &momentum), momentum }
     }
 
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Composite {
             mass: self.mass.plus(&other.mass),
             rate: self.rate.plus(&other.rate),
@@ -30,7 +30,7 @@ impl<S: Scalar> Composite<S> {
         }
     }
 
-    pub(super) fn outward(&self, frame: &Frame<S>) -> Self {
+    pub(crate) fn outward(&self, frame: &Frame<S>) -> Self {
         Composite {
             mass: self.mass.outward(frame),
             rate: self.rate.outward(frame),

@@ -168,14 +168,14 @@ impl<S: Scalar> Data<S> {
 }
 
 /// The unit motion along one of the six coordinates.
-pub(super) fn unit<S: Scalar>(freedom: usize) -> Six<S> {
+pub(crate) fn unit<S: Scalar>(freedom: usize) -> Six<S> {
     let mut axis = Six::zero();
     *axis.at_mut(freedom) = S::one();
     axis
 }
 
 /// The force that moves a body so, less what acts on it from outside.
-pub(super) fn pushed<S: Scalar>(
+pub(crate) fn pushed<S: Scalar>(
     mass: &Mass<S>,
     velocity: &Six<S>,
     acceleration: &Six<S>,
@@ -185,7 +185,7 @@ pub(super) fn pushed<S: Scalar>(
 }
 
 /// The force that a body asks for without any acceleration.
-pub(super) fn bias<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, outside: Option<&Six<S>>) -> Six<S> {
+pub(crate) fn bias<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, outside: Option<&Six<S>>) -> Six<S> {
     let force = velocity.pushing(&mass.times(velocity));
     outside.map_or_else(|| force.clone(), |outside| force.add(&outside.negated()))
 }
@@ -197,23 +197,23 @@ impl<S: Scalar> Body<S> {
     }
 
     /// The unit motion of the joint, in the body's frame.
-    pub(super) fn axis(&self) -> Six<S> {
+    pub(crate) fn axis(&self) -> Six<S> {
         unit(self.coordinate())
     }
 
     /// Adds a motion of the joint.
-    pub(super) fn quicken(&self, motion: &mut Six<S>, rate: S) {
+    pub(crate) fn quicken(&self, motion: &mut Six<S>, rate: S) {
         let entry = motion.at_mut(self.coordinate());
         *entry = entry.clone() + rate;
     }
 
     /// The part of a force that the joint feels.
-    pub(super) fn along<'a>(&self, force: &'a Six<S>) -> &'a S {
+    pub(crate) fn along<'a>(&self, force: &'a Six<S>) -> &'a S {
         force.at(self.coordinate())
     }
 
     /// What turning the joint's axis adds to the acceleration: the velocity times the joint's motion.
-    pub(super) fn turning(&self, velocity: &Six<S>, rate: &S) -> Six<S> {
+    pub(crate) fn turning(&self, velocity: &Six<S>, rate: &S) -> Six<S> {
         let across = |v: &[S; 3]| [v[1].clone() * rate.clone(), -(v[0].clone() * rate.clone()), S::zero()];
         match self.freedom {
             Freedom::Turn => Six { linear: across(&velocity.linear), angular: across(&velocity.angular) },
@@ -222,7 +222,7 @@ impl<S: Scalar> Body<S> {
     }
 
     /// How a force that is fixed to the body changes as the joint moves at unit rate.
-    pub(super) fn swung(&self, force: &Six<S>) -> Six<S> {
+    pub(crate) fn swung(&self, force: &Six<S>) -> Six<S> {
         let across = |f: &[S; 3]| [-f[1].clone(), f[0].clone(), S::zero()];
         match self.freedom {
             Freedom::Turn => Six { linear: across(&force.linear), angular: across(&force.angular) },
@@ -231,7 +231,7 @@ impl<S: Scalar> Body<S> {
     }
 
     /// The momentum of a mass that the joint moves at unit rate.
-    pub(super) fn momentum(&self, mass: &Mass<S>) -> Six<S> {
+    pub(crate) fn momentum(&self, mass: &Mass<S>) -> Six<S> {
         let [x, y, _] = mass.moment.clone();
         match self.freedom {
             Freedom::Turn => {

@@ -6,8 +6,8 @@
 use super::composite::Composite;
 use super::data::{Data, Motion, unit};
 use super::scalar::Scalar;
-use super::six::Six;
-use super::tree::Tree;
+use super::six::{Frame, Six};
+use super::tree::{Body, Tree};
 
 /// What the torques of a motion change by: square matrices by rows, the base's six freedoms first where it moves, whose place changes along motions in its
 /// own frame.
@@ -37,19 +37,53 @@ impl<S: Scalar> Derivatives<S> {
 }
 
 /// What changes of the force on what a freedom carries as that freedom does, and what it feels of changes of others.
-struct Changes<S> {
-    by: [Six<S>; 3],
+pub(crate) struct Changes<S> {
+    pub(crate) by: [Six<S>; 3],
     /// What a motion of what carries it changes: by twice the Coriolis matrix, transposed.
-    felt: Six<S>,
+    pub(crate) felt: Six<S>,
 }
 
 impl<S: Scalar> Changes<S> {
     /// Of a freedom along `axis` that changes by `turning` and `bend`: `[B, turning]` is twice the Coriolis matrix and the sum of what turns the axis.
-    fn new(carried: &Composite<S>, axis: &Six<S>, turning: &Six<S>, bend: &Six<S>, sum: &Six<S>) -> Self {
+    pub(crate) fn new(carried: &Composite<S>, axis: &Six<S>, turning: &Six<S>, bend: &Six<S>, sum: &Six<S>) -> Self {
         let times = |motion: &Six<S>| carried.mass.times(motion);
         let by_q = carried.coriolis(turning).add(&times(bend));
         let by_velocity = carried.coriolis(axis).add(&times(sum));
         Changes { by: [by_q, by_velocity, times(axis)], felt: carried.coriolis_transposed(axis) }
+    }
+
+    /// The same in the parent's frame, in which the body's stands so.
+    pub(crate) fn outward(&self, frame: &Frame<S>) -> Self {
+        let by = self.by.each_ref().map(|change| frame.force_outward(change));
+        Changes { by, felt: frame.force_outward(&self.felt) }
+    }
+
+    /// What the force on a joint that carries the freedom changes by.
+    pub(crate) fn on_carrier(&self, carrier: &Body<S>) -> [S; 3] {
+        self.by.each_ref().map(|change| carrier.along(change).clone())
+    }
+
+    /// What the freedom feels of changes of a joint that carries it, whose axis changes by `turning` and `bend`.
+    pub(crate) fn of_carrier(&self, carrier: &Body<S>, turning: &Six<S>, bend: &Six<S>) -> [S; 3] {
+        let [.., inertia] = &self.by;
+        let by_q = self.felt.dot(turning) + inertia.dot(bend);
+        let by_velocity = carrier.along(&self.felt).clone() + inertia.dot(&turning.add(turning));
+        [by_q, by_velocity, carrier.along(inertia).clone()]
+    }
+
+    /// What the force on the base changes by along one of its freedoms, and what is felt of that: of a base that moves so and is pulled so.
+    pub(crate) fn with_base(&self, freedom: usize, velocity: &Six<S>, pull: &Six<S>) -> [[S; 3]; 2] {
+        let (axis, [.., inertia]) = (unit(freedom), &self.by);
+        let by_q = inertia.dot(&pull.moving(&axis));
+        let by_velocity = self.felt.at(freedom).clone() + inertia.dot(&velocity.moving(&axis));
+        let on = self.by.each_ref().map(|change| change.at(freedom).clone());
+        [on, [by_q, by_velocity, inertia.at(freedom).clone()]]
+    }
+
+    /// Of a freedom of the base itself.
+    pub(crate) fn of_base(base: &Composite<S>, freedom: usize, velocity: &Six<S>, pull: &Six<S>) -> Self {
+        let (axis, turning) = (unit(freedom), velocity.moving(&unit(freedom)));
+        Changes::new(base, &axis, &Six::zero(), &pull.moving(&axis), &turning)
     }
 }
 
@@ -80,27 +114,18 @@ impl<S: Scalar> Data<S> {
             while let Some(carrier) = at {
                 let above = &tree.bodies[carrier];
                 let [row, column] = [first + carrier, first + joint];
-                out.enter(row, column, changes.by.each_ref().map(|change| above.along(change).clone()));
+                out.enter(row, column, changes.on_carrier(above));
                 if carrier != joint {
-                    let (turning, bend) = (&self.turnings[carrier], &self.bends[carrier]);
-                    let [.., inertia] = &changes.by;
-                    let by_q = changes.felt.dot(turning) + inertia.dot(bend);
-                    let by_velocity = above.along(&changes.felt).clone() + inertia.dot(&turning.add(turning));
-                    out.enter(column, row, [by_q, by_velocity, above.along(inertia).clone()]);
+                    out.enter(column, row, changes.of_carrier(above, &self.turnings[carrier], &self.bends[carrier]));
                 }
-                let frame = &self.frames[carrier];
-                changes = Changes {
-                    by: changes.by.each_ref().map(|change| frame.force_outward(change)),
-                    felt: frame.force_outward(&changes.felt),
-                };
+                changes = changes.outward(&self.frames[carrier]);
                 at = above.parent;
             }
             out.enter_base(first, first + joint, &changes, &motion.base, pull);
             self.hand_on(tree, joint, &mut base);
         }
         for column in 0..first {
-            let (axis, turning) = (unit(column), motion.base.moving(&unit(column)));
-            let changes = Changes::new(&base, &axis, &Six::zero(), &pull.moving(&axis), &turning);
+            let changes = Changes::of_base(&base, column, &motion.base, pull);
             (0..first)
                 .for_each(|row| out.enter(row, column, changes.by.each_ref().map(|change| change.at(row).clone())));
         }
@@ -109,12 +134,19 @@ impl<S: Scalar> Data<S> {
     /// How what turns the joints' axes changes: by the acceleration and the velocity of the parent.
     fn bend(&mut self, tree: &Tree<S>, motion: &Motion<'_, S>) {
         for (joint, body) in tree.bodies.iter().enumerate() {
-            let (turning, rate) = (&self.turnings[joint], &motion.rates[joint]);
-            let acceleration = self.accelerations[joint].add(&turning.scaled(rate).negated());
-            let mut velocity = self.velocities[joint].clone();
-            body.quicken(&mut velocity, -rate.clone());
-            self.bends[joint] = body.turning(&acceleration, &S::one()).add(&velocity.moving(turning));
+            let moving = (&self.velocities[joint], &self.accelerations[joint]);
+            self.bends[joint] = body.bend(moving, &self.turnings[joint], &motion.rates[joint]);
         }
+    }
+}
+
+impl<S: Scalar> Body<S> {
+    /// How what turns the joint's axis changes: by the acceleration and the velocity of the parent.
+    pub(crate) fn bend(&self, (velocity, acceleration): (&Six<S>, &Six<S>), turning: &Six<S>, rate: &S) -> Six<S> {
+        let acceleration = acceleration.add(&turning.scaled(rate).negated());
+        let mut velocity = velocity.clone();
+        self.quicken(&mut velocity, -rate.clone());
+        self.turning(&acceleration, &S::one()).add(&velocity.moving(turning))
     }
 }
 
@@ -122,11 +154,9 @@ impl<S: Scalar> Derivatives<S> {
     /// Enters what the freedoms of the base have to do for a joint.
     fn enter_base(&mut self, count: usize, joint: usize, changes: &Changes<S>, velocity: &Six<S>, pull: &Six<S>) {
         for freedom in 0..count {
-            self.enter(freedom, joint, changes.by.each_ref().map(|change| change.at(freedom).clone()));
-            let (axis, [.., inertia]) = (unit(freedom), &changes.by);
-            let by_q = inertia.dot(&pull.moving(&axis));
-            let by_velocity = changes.felt.at(freedom).clone() + inertia.dot(&velocity.moving(&axis));
-            self.enter(joint, freedom, [by_q, by_velocity, inertia.at(freedom).clone()]);
+            let [on, felt] = changes.with_base(freedom, velocity, pull);
+            self.enter(freedom, joint, on);
+            self.enter(joint, freedom, felt);
         }
     }
 }

@@ -7,7 +7,7 @@ use super::composite::Composite;
 use super::data::{Data, unit};
 use super::scalar::Scalar;
 use super::six::{Frame, Six};
-use super::tree::Tree;
+use super::tree::{Body, Tree};
 
 /// Square matrices by rows, that of the base's six freedoms first where it moves.
 #[derive(Clone, Debug)]
@@ -33,22 +33,32 @@ impl<S: Scalar> Matrices<S> {
 }
 
 /// What a joint's unit rate asks of the bodies that it carries: by inertia, and by the Coriolis matrix and its transpose.
-struct Pushes<S> {
-    inertia: Six<S>,
-    coriolis: Six<S>,
-    transposed: Six<S>,
+pub(crate) struct Pushes<S> {
+    pub(crate) inertia: Six<S>,
+    pub(crate) coriolis: Six<S>,
+    pub(crate) transposed: Six<S>,
 }
 
 impl<S: Scalar> Pushes<S> {
-    fn new(carried: &Composite<S>, inertia: Six<S>, axis: &Six<S>, turning: &Six<S>) -> Self {
+    pub(crate) fn new(carried: &Composite<S>, inertia: Six<S>, axis: &Six<S>, turning: &Six<S>) -> Self {
         let coriolis = carried.mass.times(turning).add(&carried.coriolis(axis).half());
         Pushes { inertia, coriolis, transposed: carried.coriolis_transposed(axis).half() }
     }
 
-    fn outward(&self, frame: &Frame<S>) -> Self {
+    pub(crate) fn outward(&self, frame: &Frame<S>) -> Self {
         let [inertia, coriolis, transposed] =
             [&self.inertia, &self.coriolis, &self.transposed].map(|push| frame.force_outward(push));
         Pushes { inertia, coriolis, transposed }
+    }
+
+    /// What the freedom feels of a joint that carries it, whose axis changes by `turning`.
+    pub(crate) fn of_carrier(&self, carrier: &Body<S>, turning: &Six<S>) -> S {
+        turning.dot(&self.inertia) + carrier.along(&self.transposed).clone()
+    }
+
+    /// The same of one of the base's freedoms.
+    pub(crate) fn of_base(&self, freedom: usize, velocity: &Six<S>) -> S {
+        velocity.moving(&unit(freedom)).dot(&self.inertia) + self.transposed.at(freedom).clone()
     }
 }
 
@@ -105,8 +115,7 @@ impl<S: Scalar> Data<S> {
                 let [row, column] = [first + carrier, first + joint];
                 out.enter_inertia(row, column, &along(&pushes.inertia));
                 if carrier != joint {
-                    let turned = self.turnings[carrier].dot(&pushes.inertia);
-                    out.coriolis[column * out.size + row] = turned + along(&pushes.transposed);
+                    out.coriolis[column * out.size + row] = pushes.of_carrier(body, &self.turnings[carrier]);
                 }
                 out.coriolis[row * out.size + column] = along(&pushes.coriolis);
                 pushes = pushes.outward(&self.frames[carrier]);
@@ -129,8 +138,7 @@ impl<S: Scalar> Matrices<S> {
         for row in 0..count {
             self.enter_inertia(row, carried, pushes.inertia.at(row));
             if row != carried {
-                let turned = velocity.moving(&unit(row)).dot(&pushes.inertia);
-                self.coriolis[carried * self.size + row] = turned + pushes.transposed.at(row).clone();
+                self.coriolis[carried * self.size + row] = pushes.of_base(row, velocity);
             }
             self.coriolis[row * self.size + carried] = pushes.coriolis.at(row).clone();
         }

@@ -12,9 +12,14 @@ mod six;
 mod tree;
 
 pub use articulated::{Articulation, Cause, Drive, Massless};
+pub(crate) use articulated::{Resistance, Yielding};
+pub(crate) use composite::Composite;
 pub use data::{Data, Energy, Motion};
+pub(crate) use data::{bias, pushed, unit};
+pub(crate) use derivatives::Changes;
 pub use derivatives::Derivatives;
 pub use matrices::Matrices;
+pub(crate) use matrices::Pushes;
 pub use scalar::{Divisible, Dual, Scalar};
 pub use six::{Frame, Mass, Matrix, Six};
 pub use tree::{Body, Freedom, Place, Tree};

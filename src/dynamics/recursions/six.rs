@@ -9,19 +9,19 @@ pub type Three<S> = [S; 3];
 /// A matrix by rows.
 pub type Matrix<S> = [Three<S>; 3];
 
-pub(in crate::dynamics) fn add<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
+pub(crate) fn add<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| a[i].clone() + b[i].clone())
 }
 
-pub(in crate::dynamics) fn dot<S: Scalar>(a: &Three<S>, b: &Three<S>) -> S {
+pub(crate) fn dot<S: Scalar>(a: &Three<S>, b: &Three<S>) -> S {
     a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
 }
 
-pub(in crate::dynamics) fn scaled<S: Scalar>(a: &Three<S>, factor: &S) -> Three<S> {
+pub(crate) fn scaled<S: Scalar>(a: &Three<S>, factor: &S) -> Three<S> {
     std::array::from_fn(|i| a[i].clone() * factor.clone())
 }
 
-pub(in crate::dynamics) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
+pub(crate) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         a[j].clone() * b[k].clone() - a[k].clone() * b[j].clone()
@@ -29,18 +29,18 @@ pub(in crate::dynamics) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three
 }
 
 /// `R v`.
-pub(in crate::dynamics) fn turned<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
+pub(crate) fn turned<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| dot(&r[i], v))
 }
 
 /// `R' v`.
-pub(in crate::dynamics) fn turned_back<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
+pub(crate) fn turned_back<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| {
         r[0][i].clone() * v[0].clone() + r[1][i].clone() * v[1].clone() + r[2][i].clone() * v[2].clone()
     })
 }
 
-pub(in crate::dynamics) fn zeros<S: Scalar>() -> Three<S> {
+pub(crate) fn zeros<S: Scalar>() -> Three<S> {
     std::array::from_fn(|_| S::zero())
 }
 
@@ -60,35 +60,35 @@ impl<S: Scalar> Six<S> {
     }
 
     /// The six numbers at the front of a list.
-    pub(in crate::dynamics) fn of(list: &[S]) -> Self {
+    pub(crate) fn of(list: &[S]) -> Self {
         Six { linear: std::array::from_fn(|i| list[i].clone()), angular: std::array::from_fn(|i| list[3 + i].clone()) }
     }
 
-    pub(in crate::dynamics) fn add(&self, other: &Self) -> Self {
+    pub(crate) fn add(&self, other: &Self) -> Self {
         Six { linear: add(&self.linear, &other.linear), angular: add(&self.angular, &other.angular) }
     }
 
-    pub(in crate::dynamics) fn scaled(&self, factor: &S) -> Self {
+    pub(crate) fn scaled(&self, factor: &S) -> Self {
         Six { linear: scaled(&self.linear, factor), angular: scaled(&self.angular, factor) }
     }
 
-    pub(in crate::dynamics) fn half(&self) -> Self {
+    pub(crate) fn half(&self) -> Self {
         let halved = |a: &Three<S>| std::array::from_fn(|i| a[i].half());
         Six { linear: halved(&self.linear), angular: halved(&self.angular) }
     }
 
-    pub(in crate::dynamics) fn negated(&self) -> Self {
+    pub(crate) fn negated(&self) -> Self {
         let turned = |a: &Three<S>| std::array::from_fn(|i| -a[i].clone());
         Six { linear: turned(&self.linear), angular: turned(&self.angular) }
     }
 
     /// The power of a force along a motion.
-    pub(in crate::dynamics) fn dot(&self, other: &Self) -> S {
+    pub(crate) fn dot(&self, other: &Self) -> S {
         dot(&self.linear, &other.linear) + dot(&self.angular, &other.angular)
     }
 
     /// How a motion that is fixed to what moves so changes.
-    pub(in crate::dynamics) fn moving(&self, motion: &Self) -> Self {
+    pub(crate) fn moving(&self, motion: &Self) -> Self {
         Six {
             linear: add(&cross(&self.angular, &motion.linear), &cross(&self.linear, &motion.angular)),
             angular: cross(&self.angular, &motion.angular),
@@ -96,7 +96,7 @@ impl<S: Scalar> Six<S> {
     }
 
     /// How a force that is fixed to what moves so changes.
-    pub(in crate::dynamics) fn pushing(&self, force: &Self) -> Self {
+    pub(crate) fn pushing(&self, force: &Self) -> Self {
         Six {
             linear: cross(&self.angular, &force.linear),
             angular: add(&cross(&self.angular, &force.angular), &cross(&self.linear, &force.linear)),
@@ -108,7 +108,7 @@ impl<S: Scalar> Six<S> {
         if index < 3 { &self.linear[index] } else { &self.angular[index - 3] }
     }
 
-    pub(in crate::dynamics) fn at_mut(&mut self, index: usize) -> &mut S {
+    pub(crate) fn at_mut(&mut self, index: usize) -> &mut S {
         if index < 3 { &mut self.linear[index] } else { &mut self.angular[index - 3] }
     }
 }
@@ -124,7 +124,7 @@ pub struct Frame<S> {
 
 impl<S: Scalar> Frame<S> {
     /// A motion in the parent's frame as seen in the body's.
-    pub(in crate::dynamics) fn motion_inward(&self, motion: &Six<S>) -> Six<S> {
+    pub(crate) fn motion_inward(&self, motion: &Six<S>) -> Six<S> {
         let linear = add(&motion.linear, &cross(&motion.angular, &self.position));
         Six { linear: turned_back(&self.rotation, &linear), angular: turned_back(&self.rotation, &motion.angular) }
     }
@@ -138,7 +138,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// Where the parent's frame stands in the body's.
-    pub(in crate::dynamics) fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         let back = turned_back(&self.rotation, &self.position);
         Frame {
             rotation: std::array::from_fn(|i| std::array::from_fn(|j| self.rotation[j][i].clone())),
@@ -147,7 +147,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// Where a frame in the body stands in the parent.
-    pub(in crate::dynamics) fn then(&self, inner: &Frame<S>) -> Self {
+    pub(crate) fn then(&self, inner: &Frame<S>) -> Self {
         let column = |j: usize| turned(&self.rotation, &std::array::from_fn(|k| inner.rotation[k][j].clone()));
         let columns: Matrix<S> = std::array::from_fn(column);
         Frame {
@@ -168,7 +168,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// A force in the body's frame as seen in the parent's.
-    pub(in crate::dynamics) fn force_outward(&self, force: &Six<S>) -> Six<S> {
+    pub(crate) fn force_outward(&self, force: &Six<S>) -> Six<S> {
         let (linear, angular) = (turned(&self.rotation, &force.linear), turned(&self.rotation, &force.angular));
         Six { angular: add(&angular, &cross(&self.position, &linear)), linear }
     }
@@ -192,7 +192,7 @@ impl<S: Scalar> Mass<S> {
         Mass { mass, moment: [x, y, z], tensor }
     }
 
-    pub(in crate::dynamics) fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Mass { mass: S::zero(), moment: zeros(), tensor: std::array::from_fn(|_| S::zero()) }
     }
 
@@ -202,7 +202,7 @@ impl<S: Scalar> Mass<S> {
     }
 
     /// The momentum at a velocity.
-    pub(in crate::dynamics) fn times(&self, motion: &Six<S>) -> Six<S> {
+    pub(crate) fn times(&self, motion: &Six<S>) -> Six<S> {
         let turned: Three<S> = std::array::from_fn(|i| dot(&self.row(i), &motion.angular));
         Six {
             linear: add(&scaled(&motion.linear, &self.mass), &cross(&motion.angular, &self.moment)),
@@ -226,7 +226,7 @@ impl<S: Scalar> Mass<S> {
         [self.mass.clone(), x, y, z, xx, xy, yy, xz, yz, zz]
     }
 
-    pub(in crate::dynamics) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Mass {
             mass: self.mass.clone() + other.mass.clone(),
             moment: add(&self.moment, &other.moment),
@@ -235,12 +235,12 @@ impl<S: Scalar> Mass<S> {
     }
 
     /// The same in a frame that stands so in the body's.
-    pub(in crate::dynamics) fn inward(&self, frame: &Frame<S>) -> Self {
+    pub(crate) fn inward(&self, frame: &Frame<S>) -> Self {
         self.outward(&frame.inverse())
     }
 
     /// The same about the origin of the parent's frame, in which the body's frame stands so.
-    pub(in crate::dynamics) fn outward(&self, frame: &Frame<S>) -> Self {
+    pub(crate) fn outward(&self, frame: &Frame<S>) -> Self {
         let (r, p) = (&frame.rotation, &frame.position);
         let moment = turned(r, &self.moment);
         let rows: Matrix<S> = std::array::from_fn(|i| {

@@ -61,7 +61,7 @@ impl Place<f64> {
 
 impl<S: Scalar> Body<S> {
     /// Where the body's frame stands in its parent's when the joint is at a place.
-    pub(super) fn placed(&self, place: &Place<S>) -> Frame<S> {
+    pub(crate) fn placed(&self, place: &Place<S>) -> Frame<S> {
         let (rotation, position) = (&self.frame.rotation, &self.frame.position);
         match place {
             Place::Turn([cosine, sine]) => {
@@ -100,7 +100,7 @@ impl Tree<f64> {
     }
 
     /// The same, and by joint where its body's frame stands in the base frame at the zero configuration.
-    pub(in crate::dynamics) fn with_poses(model: &Model) -> (Self, Vec<Pose>) {
+    pub(crate) fn with_poses(model: &Model) -> (Self, Vec<Pose>) {
         let mut frames = vec![Pose::identity(); model.joints().len()];
         let mut bodies: Vec<Option<Body<f64>>> = vec![None; model.joints().len()];
         for &joint in &model.order {
@@ -172,7 +172,7 @@ fn upright(direction: &UnitVector3<f64>) -> Rotation3<f64> {
 
 impl Frame<f64> {
     /// That of a pose.
-    pub(in crate::dynamics) fn of(pose: &Pose) -> Self {
+    pub(crate) fn of(pose: &Pose) -> Self {
         let rotation = pose.rotation.to_rotation_matrix();
         let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
         let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
