@@ -1,14 +1,18 @@
-//! Prints the equations of motion of the arms as Rust and C, compiles the C, and Pinocchio's calls where `PINOCCHIO` names the folder of its pip package.
+//! Prints the equations of motion of robots as Rust and C, compiles the C, and Pinocchio's calls where `PINOCCHIO` names the folder of its pip package.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use groebot::codegen::dynamics::{Function, Printed};
+use groebot::codegen::dynamics::{Form, Function, Printed};
 use groebot::dynamics::{Base, Equations};
 use groebot::model::{JointType, Robot};
 
-/// Arms, and joints that are held at zero.
-const ARMS: [(&str, &[&str]); 2] = [("ur5", &[]), ("panda", &["panda_finger_joint1", "panda_finger_joint2"])];
+/// Robots, joints that are held at zero, and whether the root moves freely.
+const ROBOTS: [(&str, &[&str], Base); 3] = [
+    ("ur5", &[], Base::Fixed),
+    ("panda", &["panda_finger_joint1", "panda_finger_joint2"], Base::Fixed),
+    ("humanoid", &[], Base::Floating),
+];
 
 fn main() {
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap());
@@ -17,14 +21,15 @@ fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=PINOCCHIO");
     println!("cargo:rustc-check-cfg=cfg(pinocchio)");
-    for (name, held) in ARMS {
+    for (name, held, base) in ROBOTS {
         let text = fs::read_to_string(corpus.join(format!("{name}.urdf"))).unwrap();
         let mut parts = Robot::from_urdf(&text).unwrap().as_meant().unwrap().parts().clone();
         for joint in parts.joints.iter_mut().filter(|joint| held.contains(&joint.name.as_str())) {
             (joint.kind, joint.limits) = (JointType::Fixed, None);
         }
-        let equations = Equations::new(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
-        let printed = Printed { name, equations: &equations, remarks: Vec::new(), functions: Function::ALL.to_vec() };
+        let equations = Equations::as_told(&Robot::new(parts).unwrap(), base).unwrap();
+        let (remarks, functions) = (Vec::new(), Function::ALL.to_vec());
+        let printed = Printed { name, equations: &equations, remarks, functions, form: Form::Shorter };
         let rust: String = printed
             .rust()
             .unwrap()
@@ -38,7 +43,7 @@ fn main() {
         fs::write(out.join(format!("{name}.c")), source).unwrap();
     }
     cc::Build::new()
-        .files(ARMS.map(|(name, _)| out.join(format!("{name}.c"))))
+        .files(ROBOTS.map(|(name, ..)| out.join(format!("{name}.c"))))
         .include(&out)
         .include("../../runtime/c")
         .flag("-std=c99")

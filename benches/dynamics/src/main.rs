@@ -17,6 +17,10 @@ mod ur5 {
 mod panda {
     include!(concat!(env!("OUT_DIR"), "/panda.rs"));
 }
+#[allow(dead_code, unused_variables, clippy::all)]
+mod humanoid {
+    include!(concat!(env!("OUT_DIR"), "/humanoid.rs"));
+}
 
 /// States that all contenders go through.
 const STATES: usize = 256;
@@ -137,13 +141,15 @@ fn library<'a>(equations: &'a Equations, states: &'a States) -> Vec<Contender<'a
 
 macro_rules! printed {
     ($module:ident, $count:literal, $states:expr, $c:ident) => {{
-        let fixed = |lists: &Vec<Vec<f64>>| -> Vec<[f64; $count]> {
+        fn fixed<const N: usize>(lists: &[Vec<f64>]) -> Vec<[f64; N]> {
             lists.iter().map(|list| list.as_slice().try_into().unwrap()).collect()
-        };
-        let all = [fixed(&$states.q), fixed(&$states.v), fixed(&$states.a)];
+        }
+        let (places, rates) = (fixed::<{ $module::COORDINATES }>(&$states.q), [&$states.v, &$states.a]);
+        let rates = rates.map(|lists| fixed::<$count>(lists));
+        let all = || (places.clone(), rates.clone());
         let mut contenders = Vec::new();
         for function in 0..6 {
-            let [q, v, a] = all.clone();
+            let (q, [v, a]) = all();
             let run = move || {
                 for i in 0..STATES {
                     let (q, v, a) = (black_box(&q[i]), &v[i], &a[i]);
@@ -158,7 +164,7 @@ macro_rules! printed {
                 }
             };
             contenders.push(Contender { who: "printed Rust", function, run: Box::new(run) });
-            let [q, v, a] = all.clone();
+            let (q, [v, a]) = all();
             let mut out = [[0.0; $count * $count]; 2];
             let run = move || {
                 for i in 0..STATES {
@@ -214,6 +220,15 @@ c_functions!(
     "panda_coriolis",
     "panda_forward",
     "panda_derivatives"
+);
+c_functions!(
+    c_humanoid,
+    "humanoid_inverse",
+    "humanoid_gravity",
+    "humanoid_inertia",
+    "humanoid_coriolis",
+    "humanoid_forward",
+    "humanoid_derivatives"
 );
 
 #[cfg(pinocchio)]
@@ -291,6 +306,7 @@ fn main() {
         match case.name {
             "ur5" => contenders.extend(printed!(ur5, 6, states, c_ur5)),
             "panda" => contenders.extend(printed!(panda, 7, states, c_panda)),
+            "humanoid" => contenders.extend(printed!(humanoid, 35, states, c_humanoid)),
             _ => {}
         }
         let mut times = vec![Vec::with_capacity(ROUNDS); contenders.len()];

@@ -3,8 +3,10 @@
 //! Bodies count from 1, each behind those that carry it; 0 is the base. What is computed of each stands in arrays, in cells such as `force[i][2]`; `i` is a body, `p` its parent,
 //! `j` what carries it, from itself down to the base. A [`Step`] is straight-line code that reads cells and writes others.
 
+use super::language::Language;
 use super::tape::{Recorded, Tape};
-use super::{Language, Printer};
+use crate::codegen::printer::{INDENT, Printer};
+
 use crate::dynamics::Freedom;
 use crate::dynamics::recursions::Six;
 use crate::solver::Demand;
@@ -36,7 +38,7 @@ impl<'a> Loops<'a> {
     }
 
     fn line(&mut self, text: &str) {
-        self.lines.push(format!("{}{text}", super::INDENT.repeat(self.depth)));
+        self.lines.push(format!("{}{text}", INDENT.repeat(self.depth)));
     }
 
     fn block(&mut self, head: &str, inner: impl FnOnce(&mut Self)) {
@@ -75,7 +77,7 @@ impl<'a> Loops<'a> {
             let first = loops.lines.len();
             inner(loops);
             if loops.lines[first..].iter().any(|line| line.contains("[p]")) {
-                let parent = format!("{}{}", super::INDENT.repeat(loops.depth), loops.language.index("p", "PARENT[i]"));
+                let parent = format!("{}{}", INDENT.repeat(loops.depth), loops.language.index("p", "PARENT[i]"));
                 loops.lines.insert(first, parent);
             }
         });
