@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::dynamics::states::Table;
 use super::export::described;
 use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};
 use crate::files::write_atomically;
+use crate::motion::StateTable;
 use crate::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "Examples:
@@ -87,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn read(arguments: &Arguments) -> Result<Vec<Logged>> {
-    let table = Table::read(&arguments.log)?;
+    let table = StateTable::read_csv(&arguments.log)?;
     let whole = table.rows.into_iter().map(|row| {
         Some(Logged { q: row.q, velocity: row.velocity?, acceleration: row.acceleration?, torques: row.torques? })
     });

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::dynamics::states::Table;
 use super::export::described;
 use super::part::PartArguments;
 use super::{Outcome, console};
@@ -15,6 +14,7 @@ use crate::control::{
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;
 use crate::model::Robot;
+use crate::motion::StateTable;
 use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -189,7 +189,7 @@ fn law(arguments: &Arguments, robot: &Robot, known: &Equations) -> Result<Box<dy
 }
 
 fn read(arguments: &Arguments, joints: usize) -> Result<Trajectory> {
-    let table = Table::read(&arguments.trajectory)?;
+    let table = StateTable::read_csv(&arguments.trajectory)?;
     let fault = |error: Error| error.in_file(&arguments.trajectory);
     let missing = |text: String| fault(Error::new(ErrorKind::BadValue, text));
     let times = table.rows.iter().map(|row| row.time).collect::<Option<Vec<f64>>>();

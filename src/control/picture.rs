@@ -8,6 +8,8 @@ const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 70.0;
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 20.0;
+/// Errors below this are drawn there.
+const LEAST: f64 = 1e-8;
 /// Lines are told apart by their colours, as many as there are here.
 const COLOURS: [&str; 8] = ["#1f5f9e", "#b05a00", "#2f8f4e", "#b0126f", "#6b4fa0", "#7a6a1f", "#3aa0a0", "#444444"];
 
@@ -19,6 +21,34 @@ pub fn errors_and_torques(samples: &[Sample], names: &[String]) -> String {
     let end = panel(&mut svg, GAP, "errors: what is less what should be", "mrad, mm", samples, names, errors);
     let end = panel(&mut svg, end + GAP, "torques and forces", "N m, N", samples, names, torques);
     svg.finish(WIDTH, end + GAP)
+}
+
+/// The greatest error of each run in time, by powers of ten, as SVG: runs have a name each.
+pub fn greatest_errors(runs: &[(&str, &[Sample])]) -> String {
+    let mut svg = Svg::default();
+    let greatest = |sample: &Sample| {
+        let errors = sample.q.iter().zip(&sample.desired).map(|(q, desired)| (q - desired).abs());
+        errors.fold(LEAST, f64::max).log10()
+    };
+    let lines: Vec<Vec<(f64, f64)>> =
+        runs.iter().map(|(_, run)| run.iter().map(|sample| (sample.time, greatest(sample))).collect()).collect();
+    let all = || lines.iter().flatten();
+    let (low, high) = all().fold((0.0, LEAST.log10()), |(low, high), (_, y)| (f64::min(low, *y), f64::max(high, *y)));
+    let end = all().fold(1e-9, |end, (x, _)| f64::max(end, *x));
+    svg.text("title", (LEFT, GAP + 12.0), "the greatest error of all joints");
+    let frame = Frame {
+        corner: (LEFT, GAP + 42.0),
+        size: (WIDTH - LEFT - GAP, 1.5 * HEIGHT),
+        low: (0.0, low.floor()),
+        high: (end, high.ceil()),
+    };
+    frame.draw(("s", "log rad"), &mut svg);
+    for (number, ((name, _), line)) in runs.iter().zip(lines).enumerate() {
+        let class = format!("joint\" style=\"stroke: {}", COLOURS[number % COLOURS.len()]);
+        svg.line(&class, line.into_iter().map(|point| frame.at(point)));
+        svg.legend((LEFT + 180.0 * number as f64, GAP + 26.0), &[(Swatch::Line, &class, name)]);
+    }
+    svg.finish(WIDTH, frame.end() + GAP)
 }
 
 /// One panel below `top`; where it ends \[px\].

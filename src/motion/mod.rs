@@ -6,9 +6,11 @@
 mod check;
 mod follow;
 mod json;
+mod states;
 pub mod table;
 mod trajectory;
 
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
 pub use follow::{Followed, Jump, Pace, follow};
+pub use states::{StateRow, StateTable};
 pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};

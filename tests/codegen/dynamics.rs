@@ -9,7 +9,7 @@ use groebot::model::{Mimic, Robot};
 use groebot::number::BigRational;
 
 use super::harness::{compile_c, feed, rustc};
-use crate::dynamics::equations::{Random, floating};
+use crate::dynamics::samples::{Random, floating};
 
 /// Reads the number of states and, of each, configuration, velocity, acceleration; prints what all functions say of it, as bits.
 const RUST_DRIVER: &str = r#"

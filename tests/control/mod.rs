@@ -11,7 +11,7 @@ use groebot::model::Robot;
 use groebot::{ErrorKind, Watch};
 use nalgebra::{DMatrix, DVector};
 
-use crate::dynamics::equations::{Random, moved, near};
+use crate::dynamics::samples::{Random, moved, near};
 
 fn equations(text: &str) -> Equations {
     Equations::new(&Robot::from_urdf(text).unwrap(), Base::Fixed).unwrap().without_friction()

@@ -8,7 +8,7 @@ use groebot::{ErrorKind, Watch, robots};
 use nalgebra::{DVector, Vector3};
 
 use super::FREQUENCY;
-use crate::dynamics::equations::{Random, near};
+use crate::dynamics::samples::{Random, near};
 
 const SOLES: [&str; 2] = ["l_sole", "r_sole"];
 

@@ -13,7 +13,7 @@ use groebot::robots;
 use groebot::spatial::exact::ExactVector;
 use nalgebra::DMatrix;
 
-use super::equations::{Random, assert_near, ur5};
+use super::samples::{Random, assert_near, ur5};
 
 fn down() -> ExactVector {
     [0, 0, -1].map(|x: i32| BigRational::from_integer(x.into()))

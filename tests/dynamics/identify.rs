@@ -4,7 +4,7 @@ use groebot::dynamics::{Base, CONFIDENT, Consistency, Equations, Logged, State};
 use groebot::model::Robot;
 use nalgebra::DVector;
 
-use super::equations::{Random, ur5};
+use super::samples::{Random, ur5};
 
 fn rrp() -> Robot {
     Robot::from_urdf(include_str!("../corpus/dynamics/rrp.urdf")).unwrap()

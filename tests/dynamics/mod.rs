@@ -2,12 +2,13 @@
 
 mod clearance;
 mod coriolis;
-pub mod equations;
+mod equations;
 mod exact;
 mod identify;
 mod lagrange;
 mod pinocchio;
 mod placed;
+pub mod samples;
 
 use groebot::dynamics::Model;
 use groebot::kinematics::{ExactRotation, Placement};

@@ -4,7 +4,7 @@ use groebot::dynamics::{Base, Equations, Model, State};
 use groebot::model::Robot;
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Random, floating};
+use super::samples::{Random, floating};
 
 /// The place in the list is the seed of a table's states.
 const TABLES: [(&str, &str, Base, &str); 6] = [

@@ -1,6 +1,7 @@
 //! Trajectories: their table and JSON, what they must keep, and paths along poses.
 
 mod follow;
+mod states;
 mod table;
 mod trajectory;
 

@@ -314,8 +314,9 @@ fn main() {
             for (contender, times) in contenders.iter_mut().zip(&mut times) {
                 let (start, before) = (now(), ALLOCATIONS.load(Ordering::Relaxed));
                 (contender.run)();
-                times.push((now() - start) / STATES as f64);
+                let taken = (now() - start) / STATES as f64;
                 let allocated = ALLOCATIONS.load(Ordering::Relaxed) - before;
+                times.push(taken);
                 assert!(contender.who != "library" || allocated == 0, "{} allocates", FUNCTIONS[contender.function]);
             }
         }

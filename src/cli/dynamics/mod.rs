@@ -1,7 +1,7 @@
 //! `groebot dynamics`: the equations of motion of a robot, at states of a table or as polynomials.
 
 mod code;
-pub mod states;
+mod states;
 mod symbolic;
 
 use std::path::PathBuf;

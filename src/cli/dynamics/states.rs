@@ -1,7 +1,6 @@
 //! The equations of motion of a robot at states of a table.
 
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
@@ -12,6 +11,7 @@ use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;
 use crate::model::Robot;
+use crate::motion::{StateRow, StateTable};
 use crate::{Error, ErrorKind, Result};
 
 /// What is told of all states.
@@ -40,8 +40,8 @@ struct Answer {
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
-    let table = Table::read(states)?;
-    let report = report(&robot, gravity, arguments, &table)?;
+    let table = StateTable::read_csv(states)?;
+    let report = report(&robot, gravity, arguments, (states, &table))?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
     match &arguments.out {
         Some(file) => Ok(write_atomically(file, text.as_bytes())?),
@@ -49,8 +49,13 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     }
 }
 
-fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &Table) -> Result<Report> {
-    let (count, moving) = (table.q, robot.moving().len());
+fn report(
+    robot: &Robot,
+    gravity: Vector3<f64>,
+    arguments: &Arguments,
+    (file, table): (&Path, &StateTable),
+) -> Result<Report> {
+    let (count, moving) = (table.coordinates, robot.moving().len());
     let new = |robot: &Robot| {
         let new = if arguments.as_told { Equations::as_told } else { Equations::new };
         new(robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))
@@ -72,12 +77,12 @@ fn report(robot: &Robot, gravity: Vector3<f64>, arguments: &Arguments, table: &T
             "{count} columns q0.. are given; the robot has {} independent joints ({names}), and 7 more where its root moves freely",
             joints.len()
         );
-        return Err(Error::new(ErrorKind::BadValue, text).in_file(&table.file));
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     }
     let mut room = equations.workspace();
-    let answer = |(index, row): (usize, &Row)| {
+    let answer = |(index, row): (usize, &StateRow)| {
         answer(&equations, &mut room, row)
-            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(&table.file))
+            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(file))
     };
     let states = table.rows.iter().enumerate().map(answer).collect::<Result<_>>()?;
     Ok(Report { format: 1, joints, floating: base == Base::Floating, states })
@@ -90,7 +95,7 @@ fn without_followers(robot: &Robot) -> Result<Robot> {
     Robot::new(parts)
 }
 
-fn answer(equations: &Equations, room: &mut Workspace, row: &Row) -> Result<Answer> {
+fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result<Answer> {
     let still = vec![0.0; equations.freedoms()];
     let or_still = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| still.clone());
     let (velocity, acceleration) = (or_still(&row.velocity), or_still(&row.acceleration));
@@ -124,66 +129,4 @@ fn csv(report: &Report) -> Result<String> {
         text += &(words.join(",") + "\n");
     }
     Ok(text)
-}
-
-/// The states that are read.
-pub(in crate::cli) struct Table {
-    file: PathBuf,
-    /// How many columns begin with q.
-    q: usize,
-    pub rows: Vec<Row>,
-}
-
-/// A state, and what else the table tells of it.
-pub(in crate::cli) struct Row {
-    pub time: Option<f64>,
-    pub q: Vec<f64>,
-    pub velocity: Option<Vec<f64>>,
-    pub acceleration: Option<Vec<f64>>,
-    pub torques: Option<Vec<f64>>,
-}
-
-impl Table {
-    pub fn read(file: &Path) -> Result<Self> {
-        let fault = |error: csv::Error| Error::new(ErrorKind::Syntax, error.to_string()).in_file(file);
-        let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(opened);
-        let names: Vec<String> = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
-        let columns = ["q", "v", "a", "tau"].map(|head| columns(&names, head));
-        let time = names.iter().position(|name| name == "t");
-        let known = columns.iter().map(Vec::len).sum::<usize>() + usize::from(time.is_some());
-        if known != names.len() || columns[0].is_empty() {
-            let text = format!(
-                "the first row is `{}`; give the names q0, q1, ..., v0, ..., a0, ... and tau0, ..., each list whole, and t for a time",
-                names.join(",")
-            );
-            return Err(Error::new(ErrorKind::Syntax, text).in_file(file).at_line(1));
-        }
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(fault)?;
-            let line = record.position().map_or(0, |position| position.line() as usize);
-            let number = |&column: &usize| {
-                let word = &record[column];
-                let text = || format!("column `{}`: `{word}` is no number", names[column]);
-                word.parse::<f64>().map_err(|_| Error::new(ErrorKind::Syntax, text()).in_file(file).at_line(line))
-            };
-            let list = |columns: &Vec<usize>| columns.iter().map(number).collect::<Result<Vec<f64>>>();
-            let optional = |columns: &Vec<usize>| (!columns.is_empty()).then(|| list(columns)).transpose();
-            rows.push(Row {
-                time: time.as_ref().map(number).transpose()?,
-                q: list(&columns[0])?,
-                velocity: optional(&columns[1])?,
-                acceleration: optional(&columns[2])?,
-                torques: optional(&columns[3])?,
-            });
-        }
-        Ok(Table { file: file.to_owned(), q: columns[0].len(), rows })
-    }
-}
-
-/// The columns of the names that begin so and count from zero.
-fn columns(names: &[String], head: &str) -> Vec<usize> {
-    let column = |index: usize| names.iter().position(|name| *name == format!("{head}{index}"));
-    (0..).map_while(column).collect()
 }

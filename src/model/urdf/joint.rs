@@ -47,8 +47,9 @@ fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Jo
         origin,
         axis,
         limits: read_limits(element, kind, is_recent)?,
-        speed: limit("velocity")?,
-        effort: limit("effort")?,
+        // Where they are not known many descriptions write nought, for the attributes must be there.
+        speed: limit("velocity")?.filter(|speed| *speed != 0.0),
+        effort: limit("effort")?.filter(|effort| *effort != 0.0),
         damping: dynamics("damping")?,
         friction: dynamics("friction")?,
         armature: dynamics("armature")? + reflected_rotor(element)?,

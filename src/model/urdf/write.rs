@@ -93,19 +93,11 @@ fn write_joint(out: &mut String, joint: &Joint) -> fmt::Result {
     if joint.kind.has_axis() {
         writeln!(out, "    <axis xyz=\"{}\"/>", decimals(&joint.axis))?;
     }
-    let mut limit = String::new();
-    for (key, value) in [
-        ("lower", joint.limits.map(|limits| limits.0)),
-        ("upper", joint.limits.map(|limits| limits.1)),
-        ("effort", joint.effort),
-        ("velocity", joint.speed),
-    ] {
-        if let Some(value) = value {
-            write!(limit, " {key}=\"{value}\"")?;
-        }
-    }
-    if !limit.is_empty() {
-        writeln!(out, "    <limit{limit}/>")?;
+    if joint.limits.is_some() || joint.effort.is_some() || joint.speed.is_some() {
+        let range = joint.limits.map(|(lower, upper)| format!(" lower=\"{lower}\" upper=\"{upper}\""));
+        // Other readers refuse a limit without these; nought is not known.
+        let [effort, velocity] = [joint.effort, joint.speed].map(Option::unwrap_or_default);
+        writeln!(out, "    <limit{} effort=\"{effort}\" velocity=\"{velocity}\"/>", range.unwrap_or_default())?;
     }
     let told = [("damping", joint.damping), ("friction", joint.friction), ("armature", joint.armature)];
     let told: Vec<String> =
