@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use groebot::control::{ClosedLoop, ComputedTorque, Disturbance, Gains, greatest_errors};
+use groebot::control::{ClosedLoop, ComputedTorque, Disturbance, Gains, Sample, greatest_errors};
 use groebot::dynamics::{Base, Equations};
 use groebot::model::Robot;
 use groebot::number::BigRational;
@@ -32,10 +32,12 @@ fn main() -> Result<()> {
     };
     let [q, velocity, _] = wave(0.0);
     let start: Vec<f64> = q.iter().map(|q| q + 0.02).collect();
-    let run = |real: &Equations, integral: f64, disturbance: Disturbance| {
+    let run = |real: &Equations, integral: f64, disturbance: Disturbance| -> Result<Vec<Sample>> {
         let gains = Gains { integral: vec![integral; 6], ..Gains::critical(6, FREQUENCY) };
         let law = ComputedTorque::new(&known, gains)?;
-        ClosedLoop::new(real, law, 1e-3, disturbance)?.run([&start, &velocity], 5.0, wave, &Watch::none())
+        let samples =
+            ClosedLoop::new(real, law, 1e-3, disturbance)?.run([&start, &velocity], 5.0, wave, &Watch::none())?;
+        Ok(samples.into_iter().step_by(10).collect())
     };
     let calm = Disturbance::default();
     let runs = [

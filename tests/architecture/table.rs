@@ -19,7 +19,7 @@ const TABLE: [(&str, Uses); 23] = [
     ("model", Uses::Only(&["number", "spatial"])),
     ("kinematics", Uses::Only(&["number", "roots", "spatial", "model"])),
     ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
-    ("control", Uses::Only(&["drawing", "dynamics"])),
+    ("control", Uses::Only(&["drawing", "spatial", "model", "dynamics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (

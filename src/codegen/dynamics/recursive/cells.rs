@@ -43,11 +43,9 @@ pub(super) fn body(freedom: Freedom) -> Body<Recorded> {
 pub(super) const COMPOSITE: usize = 25;
 
 pub(super) fn composite(step: &mut Step, row: &str) -> Composite<Recorded> {
-    let [rate @ ..] = step.list::<9>(row, 10);
-    let mut all = vec![Recorded::zero()];
-    all.extend(rate);
-    let rate: [Recorded; 10] = all.try_into().unwrap_or_else(|_| unreachable!("one and nine are ten"));
-    Composite { mass: mass(step, row, 0), rate: Mass::of(rate), momentum: step.six(row, 19) }
+    let changes = step.list::<9>(row, 10);
+    let rate = Mass::of(std::array::from_fn(|at| at.checked_sub(1).map_or(Recorded::zero(), |at| changes[at].clone())));
+    Composite { mass: mass(step, row, 0), rate, momentum: step.six(row, 19) }
 }
 
 pub(super) fn composite_numbers(composite: &Composite<Recorded>) -> Vec<Recorded> {
