@@ -65,6 +65,8 @@ pub mod motion;
 
 pub mod gait;
 
+pub mod nav;
+
 pub mod robots;
 
 pub mod derive;

@@ -16,6 +16,7 @@ mod groebner;
 mod kinematics;
 mod model;
 mod motion;
+mod nav;
 mod number;
 mod poly;
 mod real;

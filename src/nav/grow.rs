@@ -1,0 +1,104 @@
+//! How far it is to the nearest obstacle, and obstacles grown by that.
+//!
+//! P. Felzenszwalb and D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012), here to the nearest point of a cell rather than to its middle.
+
+use super::map::{Cell, Map};
+use crate::{Error, ErrorKind, Result};
+
+impl Map {
+    /// By cell, how far its middle is from the nearest cell that is occupied \[m\]: from the nearest point of that, nought inside, infinite where there is none.
+    pub fn clearances(&self) -> Vec<f64> {
+        let (columns, rows) = (self.columns(), self.rows());
+        let mut squares = vec![f64::INFINITY; columns * rows];
+        for (cells, squares) in self.cells().chunks_exact(columns).zip(squares.chunks_exact_mut(columns)) {
+            along_row(cells, squares);
+        }
+        let mut envelope = Envelope::default();
+        let mut column = vec![0.0; rows];
+        for x in 0..columns {
+            (0..rows).for_each(|y| column[y] = squares[y * columns + x]);
+            envelope.build(&column);
+            (0..rows).for_each(|y| squares[y * columns + x] = column[y].min(envelope.at(y as f64)));
+            envelope.clear();
+        }
+        squares.iter().map(|square| square.sqrt() * self.resolution()).collect()
+    }
+
+    /// The same map, where whatever is nearer to an obstacle than so far is occupied, too \[m\]: where the middle of a round robot may be.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a radius that is not finite or below zero.
+    pub fn grown(&self, radius: f64) -> Result<Self> {
+        if !(radius.is_finite() && radius >= 0.0) {
+            let text = format!("a radius of {radius} m: give a finite number, not below zero");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let clearances = self.clearances();
+        let mut map = self.clone();
+        for (cell, clearance) in map.cells_mut().iter_mut().zip(clearances) {
+            if clearance < radius {
+                *cell = Cell::Occupied;
+            }
+        }
+        Ok(map)
+    }
+}
+
+/// The square of the distance from each cell's middle to the nearest side of one that is occupied in its row, in cells.
+fn along_row(cells: &[Cell], squares: &mut [f64]) {
+    let mut pass = |places: &mut dyn Iterator<Item = usize>| {
+        let mut away = f64::INFINITY;
+        for place in places {
+            away = if cells[place] == Cell::Occupied { 0.0 } else { away + if away == 0.0 { 0.5 } else { 1.0 } };
+            squares[place] = squares[place].min(away * away);
+        }
+    };
+    pass(&mut (0..cells.len()));
+    pass(&mut (0..cells.len()).rev());
+}
+
+/// The lower envelope of parabolas of one width.
+#[derive(Default)]
+struct Envelope {
+    /// By parabola its apex and height, and from where on it is lowest.
+    parabolas: Vec<(f64, f64, f64)>,
+    reached: usize,
+}
+
+impl Envelope {
+    /// Of a column of squares: a cell that is so far from an obstacle in its row is near to it by its upper and its lower side.
+    fn build(&mut self, column: &[f64]) {
+        let above = |side: usize| column.get(side).copied().unwrap_or(f64::INFINITY);
+        for side in 0..=column.len() {
+            let height = above(side).min(side.checked_sub(1).map_or(f64::INFINITY, above));
+            if height.is_finite() {
+                self.add(side as f64 - 0.5, height);
+            }
+        }
+        self.reached = 0;
+    }
+
+    fn add(&mut self, apex: f64, height: f64) {
+        while let Some(&(other, below, from)) = self.parabolas.last() {
+            // Where both are as high.
+            let meets = ((height + apex * apex) - (below + other * other)) / (2.0 * (apex - other));
+            if meets > from {
+                return self.parabolas.push((apex, height, meets));
+            }
+            self.parabolas.pop();
+        }
+        self.parabolas.push((apex, height, f64::NEG_INFINITY));
+    }
+
+    /// The height at a place; places come in order.
+    fn at(&mut self, place: f64) -> f64 {
+        while self.parabolas.get(self.reached + 1).is_some_and(|(_, _, from)| *from <= place) {
+            self.reached += 1;
+        }
+        self.parabolas.get(self.reached).map_or(f64::INFINITY, |(apex, height, _)| height + (place - apex).powi(2))
+    }
+
+    fn clear(&mut self) {
+        self.parabolas.clear();
+    }
+}

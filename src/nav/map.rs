@@ -1,0 +1,217 @@
+//! Maps of the floor: what of it is free, and how fast one gets on there. Main type: [`Map`].
+
+use nalgebra::{Point2, Vector2};
+
+use super::shape::Shape;
+use crate::{Error, ErrorKind, Result};
+
+/// The most cells of a map.
+const MOST: usize = 1 << 28;
+
+/// What is known of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Cell {
+    /// Nothing stands there.
+    Free,
+    /// Something does.
+    Occupied,
+    /// It has not been seen: nobody goes there.
+    Unknown,
+}
+
+/// A grid of square cells over the floor. Cells count by rows from the lower left corner, `x` along rows and `y` across them; the corner stands somewhere in the world. It
+/// never changes but by what returns another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    columns: usize,
+    rows: usize,
+    resolution: f64,
+    corner: Point2<f64>,
+    yaw: f64,
+    cells: Vec<Cell>,
+    /// F of RH0 (4-7) by cell; one everywhere where none is told.
+    speeds: Option<Vec<f32>>,
+}
+
+impl Map {
+    /// A free floor of so many columns and rows of cells, with the side of a cell \[m\].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for no cells, more than 2^28, and a side that is not positive.
+    pub fn new(columns: usize, rows: usize, resolution: f64) -> Result<Self> {
+        Map::of_cells(columns, rows, resolution, vec![Cell::Free; columns.saturating_mul(rows).min(MOST)])
+    }
+
+    /// The same of these cells, by rows from the lowest one.
+    ///
+    /// # Errors
+    /// As [`Map::new`], and for another count of cells.
+    pub fn of_cells(columns: usize, rows: usize, resolution: f64, cells: Vec<Cell>) -> Result<Self> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+        let count = columns.checked_mul(rows).filter(|count| (1..=MOST).contains(count));
+        if count.is_none() {
+            return bad(format!("a map of {columns} x {rows} cells: give between one and {MOST}"));
+        }
+        if count != Some(cells.len()) {
+            return bad(format!("{} cells are given; {columns} x {rows} are {}", cells.len(), columns * rows));
+        }
+        if !(resolution.is_finite() && resolution > 0.0) {
+            return bad(format!("a resolution of {resolution} m: give the side of a cell, a positive number"));
+        }
+        Ok(Map { columns, rows, resolution, corner: Point2::origin(), yaw: 0.0, cells, speeds: None })
+    }
+
+    /// The same with its lower left corner there in the world \[m\], and its rows turned anticlockwise \[rad\].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a number that is not finite.
+    pub fn placed(mut self, corner: Point2<f64>, yaw: f64) -> Result<Self> {
+        if !corner.iter().chain([&yaw]).all(|x| x.is_finite()) {
+            let text = format!("origin [{}, {}, {yaw}]: give finite numbers", corner.x, corner.y);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        (self.corner, self.yaw) = (corner, yaw);
+        Ok(self)
+    }
+
+    /// The same, where one gets on with a speed inside of a shape, RH0 (4-7): one elsewhere, or as it was told before. Of two shapes the later one counts.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a speed that is not finite and positive: what stands in the way is [`Map::with`]; and as [`Shape::check`].
+    pub fn with_speed(mut self, shape: &Shape, speed: f64) -> Result<Self> {
+        shape.check()?;
+        if !(speed.is_finite() && speed > 0.0) {
+            let text = format!("a speed of {speed}: give a positive number; where nobody goes there is an obstacle");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let inside: Vec<usize> = (0..self.cells.len()).filter(|cell| shape.holds(&self.centre(*cell))).collect();
+        let speeds = self.speeds.get_or_insert_with(|| vec![1.0; self.cells.len()]);
+        inside.into_iter().for_each(|cell| speeds[cell] = speed as f32);
+        Ok(self)
+    }
+
+    /// The same with obstacles: a cell that one of them touches is occupied. What moves is put on the map that it was not on.
+    ///
+    /// # Errors
+    /// As [`Shape::check`].
+    pub fn with(&self, obstacles: &[Shape]) -> Result<Self> {
+        let mut map = self.clone();
+        for shape in obstacles {
+            shape.check()?;
+            let placed = shape.moved(&|point| self.in_map(point), 1.0 / self.resolution);
+            let (low, high) = placed.bounds();
+            let range = |low: f64, high: f64, most: usize| {
+                (low.floor().max(0.0) as usize).min(most)..(high.floor() + 1.0).clamp(0.0, most as f64) as usize
+            };
+            for row in range(low.y, high.y, self.rows) {
+                for column in range(low.x, high.x, self.columns) {
+                    if placed.touches(&Point2::new(column as f64, row as f64)) {
+                        map.cells[row * self.columns + column] = Cell::Occupied;
+                    }
+                }
+            }
+        }
+        Ok(map)
+    }
+
+    /// The same, cells that have not been seen taken to be free.
+    #[must_use]
+    pub fn with_unknown_free(mut self) -> Self {
+        self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Free);
+        self
+    }
+
+    /// How many cells a row has.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The side of a cell \[m\].
+    pub fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// The cells, by rows from the lowest one.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// F by cell where it is told.
+    pub fn speeds(&self) -> Option<&[f32]> {
+        self.speeds.as_deref()
+    }
+
+    /// Whether one may go there.
+    pub fn is_free(&self, cell: usize) -> bool {
+        self.cells[cell] == Cell::Free
+    }
+
+    pub(super) fn cells_mut(&mut self) -> &mut [Cell] {
+        &mut self.cells
+    }
+
+    /// Where the middle of a cell is in the world.
+    pub fn centre(&self, cell: usize) -> Point2<f64> {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        self.in_world(&Point2::new(column as f64 + 0.5, row as f64 + 0.5))
+    }
+
+    /// The cell that a place in the world belongs to.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for one that is not on the map.
+    pub fn cell_at(&self, place: &Point2<f64>) -> Result<usize> {
+        let own = self.in_map(place);
+        let is_on = own.x >= 0.0 && own.y >= 0.0 && own.x <= self.columns as f64 && own.y <= self.rows as f64;
+        if !is_on {
+            let [low, high] = [Point2::origin(), Point2::new(self.columns as f64, self.rows as f64)]
+                .map(|corner| self.in_world(&corner));
+            let text = format!(
+                "({}, {}) is not on the map, whose corners are ({}, {}) and ({}, {})",
+                place.x, place.y, low.x, low.y, high.x, high.y
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let whole = |value: f64, most: usize| (value.floor() as usize).min(most - 1);
+        Ok(whole(own.y, self.rows) * self.columns + whole(own.x, self.columns))
+    }
+
+    /// The free cell that a place belongs to.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for one that is not on the map, or not free; then with the nearest place that is.
+    pub fn free_cell_at(&self, place: &Point2<f64>) -> Result<usize> {
+        let cell = self.cell_at(place)?;
+        if self.is_free(cell) {
+            return Ok(cell);
+        }
+        let free = (0..self.cells.len()).filter(|cell| self.is_free(*cell)).map(|cell| self.centre(cell));
+        let nearest = free.min_by(|a, b| (a - place).norm_squared().total_cmp(&(b - place).norm_squared()));
+        let kind = if self.cells[cell] == Cell::Unknown { "unknown" } else { "occupied" };
+        let hint = nearest.map_or_else(
+            || "no place is free".to_owned(),
+            |free| format!("the nearest free place is ({:.3}, {:.3})", free.x, free.y),
+        );
+        Err(Error::new(ErrorKind::BadValue, format!("({}, {}) is {kind}; {hint}", place.x, place.y)))
+    }
+
+    /// A place of the world, counted in cells from the lower left corner.
+    pub fn in_map(&self, place: &Point2<f64>) -> Point2<f64> {
+        let (sine, cosine) = self.yaw.sin_cos();
+        let away = (place - self.corner) / self.resolution;
+        Point2::new(cosine * away.x + sine * away.y, cosine * away.y - sine * away.x)
+    }
+
+    /// The other way round.
+    pub fn in_world(&self, place: &Point2<f64>) -> Point2<f64> {
+        let (sine, cosine) = self.yaw.sin_cos();
+        let turned = Vector2::new(cosine * place.x - sine * place.y, sine * place.x + cosine * place.y);
+        self.corner + turned * self.resolution
+    }
+}

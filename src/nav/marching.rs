@@ -1,0 +1,91 @@
+//! Fast marching, RH0 (4-15): the eikonal equation `|grad T| F = 1` by upwind differences.
+//!
+//! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). No bisection is needed: each update is the root of a quadratic equation.
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use super::grid::Grid;
+use crate::{Result, Watch};
+
+/// A trial value.
+#[derive(Clone, Copy, PartialEq)]
+struct Trial {
+    time: f64,
+    place: u32,
+}
+
+impl Eq for Trial {}
+
+impl PartialOrd for Trial {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Trial {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.time.total_cmp(&other.time).then(self.place.cmp(&other.place))
+    }
+}
+
+/// T by cell of the grid, by differences of the first or the second order.
+pub(super) fn arrivals(grid: &Grid, goals: &[usize], is_second: bool, watch: &Watch) -> Result<Vec<f64>> {
+    let mut times = grid.untouched.clone();
+    let mut accepted = vec![false; times.len()];
+    let mut band = BinaryHeap::new();
+    for place in goals.iter().map(|goal| grid.place(*goal)) {
+        times[place] = 0.0;
+        band.push(Reverse(Trial { time: 0.0, place: place as u32 }));
+    }
+    let mut count = 0u32;
+    while let Some(Reverse(Trial { place, .. })) = band.pop() {
+        let place = place as usize;
+        if std::mem::replace(&mut accepted[place], true) {
+            continue;
+        }
+        count = count.wrapping_add(1);
+        if count.is_multiple_of(4096) {
+            watch.check()?;
+        }
+        for beside in [place - 1, place + 1, place - grid.stride, place + grid.stride] {
+            // Not a number compares with nothing.
+            if accepted[beside] || times[beside].is_nan() {
+                continue;
+            }
+            let time = solve(grid, &times, &accepted, beside, is_second);
+            if time < times[beside] {
+                times[beside] = time;
+                band.push(Reverse(Trial { time, place: beside as u32 }));
+            }
+        }
+    }
+    Ok(times)
+}
+
+/// The root of (4-15) from the accepted neighbours.
+fn solve(grid: &Grid, times: &[f64], accepted: &[bool], place: usize, is_second: bool) -> f64 {
+    let cost = grid.costs.of(place);
+    // Along each axis `a T - b` is the difference, of the nearer neighbour: (T - T1), or (3 T - 4 T1 + T2) / 2.
+    let axis = |step: usize| {
+        let known = |at: usize| if accepted[at] { times[at] } else { f64::INFINITY };
+        let (before, behind) = (known(place - step), known(place + step));
+        let (first, farther) =
+            if before <= behind { (before, place.checked_sub(2 * step)) } else { (behind, Some(place + 2 * step)) };
+        let second = farther.filter(|at| is_second && *at < times.len()).map_or(f64::INFINITY, known);
+        if second <= first { (first, 1.5, 2.0 * first - 0.5 * second) } else { (first, 1.0, first) }
+    };
+    let mut axes = [axis(1), axis(grid.stride)];
+    if axes[1].0 < axes[0].0 {
+        axes.swap(0, 1);
+    }
+    let [(_, a, b), (farther, c, d)] = axes;
+    let alone = (b + cost) / a;
+    if alone <= farther {
+        return alone;
+    }
+    // (a T - b)^2 + (c T - d)^2 = cost^2.
+    let (square, half, rest) = (a * a + c * c, a * b + c * d, b * b + d * d - cost * cost);
+    let discriminant = half * half - square * rest;
+    if discriminant < 0.0 { alone } else { (half + discriminant.sqrt()) / square }
+}

@@ -1,0 +1,19 @@
+//! Navigation: maps of the floor, and how long it takes from each place to a goal. Main types: [`Map`], [`Field`].
+//!
+//! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
+
+mod field;
+mod grid;
+mod grow;
+mod map;
+mod marching;
+mod read;
+mod shape;
+mod waves;
+mod way;
+
+pub use field::{Field, Method};
+pub use map::{Cell, Map};
+pub use read::Meaning;
+pub use shape::Shape;
+pub use way::{Enclosure, Way};

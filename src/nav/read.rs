@@ -1,0 +1,225 @@
+//! Maps from files: ROS' `map_server` pairs of YAML and PGM, and rows of characters.
+
+use std::path::Path;
+
+use nalgebra::Point2;
+
+use super::map::{Cell, Map};
+use crate::document::{read_text, shown};
+use crate::{Error, ErrorKind, Result};
+
+/// The longest description of an image, in bytes.
+const DESCRIPTION_LIMIT: u64 = 100_000;
+/// The longest text, in bytes.
+const IMAGE_LIMIT: u64 = 1 << 30;
+
+/// What an image's values mean, as `map_server` has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meaning {
+    /// The side of a pixel \[m\].
+    pub resolution: f64,
+    /// The lower left corner in the world: x, y \[m\] and yaw \[rad\].
+    pub origin: [f64; 3],
+    /// Whether white is occupied.
+    pub negate: bool,
+    /// From which share of black a pixel is occupied, and below which it is free.
+    pub thresholds: [f64; 2],
+}
+
+impl Meaning {
+    /// That of a side of a pixel \[m\], all else as `map_server` has it: black is occupied, white is free, and grey has not been seen.
+    pub fn new(resolution: f64) -> Self {
+        Meaning { resolution, origin: [0.0; 3], negate: false, thresholds: [0.65, 0.196] }
+    }
+
+    fn cell(&self, value: u32, most: u32) -> Cell {
+        let share = f64::from(value) / f64::from(most);
+        let black = if self.negate { share } else { 1.0 - share };
+        match black {
+            black if black > self.thresholds[0] => Cell::Occupied,
+            black if black < self.thresholds[1] => Cell::Free,
+            _ => Cell::Unknown,
+        }
+    }
+}
+
+impl Map {
+    /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` with pixels of this side \[m\], or text (`.txt`, `.map`) with such cells.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`], [`ErrorKind::Unsupported`] for another ending, and those of [`Map::from_pgm`], [`Map::from_text`]; all with the file.
+    pub fn read(path: &Path, resolution: f64) -> Result<Self> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
+        let map = match ending.as_str() {
+            "yaml" | "yml" => {
+                let (image, meaning) =
+                    description(&read_text(path, DESCRIPTION_LIMIT)?).map_err(|e| e.in_file(path))?;
+                let image = path.parent().unwrap_or(Path::new("")).join(image);
+                return Map::from_pgm(&bytes(&image)?, &meaning).map_err(|e| e.in_file(&image));
+            }
+            "pgm" => Map::from_pgm(&bytes(path)?, &Meaning::new(resolution)),
+            "txt" | "map" => Map::from_text(&read_text(path, IMAGE_LIMIT)?, resolution),
+            _ => Err(Error::new(ErrorKind::Unsupported, "a map is a .yaml, .pgm, .txt or .map")),
+        };
+        map.map_err(|error| error.in_file(path))
+    }
+
+    /// The map that a PGM image holds, plain (P2) or not (P5).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for what is no such image, and those of [`Map::of_cells`] and [`Map::placed`].
+    pub fn from_pgm(bytes: &[u8], meaning: &Meaning) -> Result<Self> {
+        let mut words = Words { bytes, at: 0 };
+        let bad = |text: String| Error::new(ErrorKind::Syntax, text);
+        let magic = words.word().unwrap_or_default();
+        let is_plain = match magic {
+            b"P2" => true,
+            b"P5" => false,
+            _ => return Err(bad(format!("the image begins with `{}`; a PGM begins with P2 or P5", text(magic)))),
+        };
+        let mut head = |name: &str, most: u32| words.number(name, most).map_err(bad);
+        let (columns, rows) = (head("width", 1 << 28)? as usize, head("height", 1 << 28)? as usize);
+        let most = head("greatest value", 65_535)?.max(1);
+        let count = columns.saturating_mul(rows);
+        let mut cells = Vec::new();
+        if is_plain {
+            for pixel in 0..count {
+                let value = words.number("value", most).map_err(|text| bad(format!("pixel {pixel}: {text}")))?;
+                cells.push(meaning.cell(value, most));
+            }
+        } else {
+            let wide = if most > 255 { 2 } else { 1 };
+            let pixels = bytes.get(words.at + 1..).unwrap_or_default();
+            if pixels.len() < count.saturating_mul(wide) {
+                let text =
+                    format!("{} bytes of pixels; {columns} x {rows} take {}", pixels.len(), count.saturating_mul(wide));
+                return Err(bad(text));
+            }
+            let value = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| value << 8 | u32::from(*byte));
+            cells.extend(pixels.chunks_exact(wide).take(count).map(|pixel| meaning.cell(value(pixel), most)));
+        }
+        // The first row of an image is the uppermost one.
+        let cells = cells.chunks(columns.max(1)).rev().flatten().copied().collect();
+        let [x, y, yaw] = meaning.origin;
+        Map::of_cells(columns, rows, meaning.resolution, cells)?.placed(Point2::new(x, y), yaw)
+    }
+
+    /// The map that rows of characters draw, the uppermost one first: `.`, `G`, `S` and blanks are free, `?` is unknown, `#`, `@`, `O`, `T` and `W` are occupied. The head of a `.map` of
+    /// the Moving AI lab may stand before them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for another character and rows of different lengths, with the line; those of [`Map::of_cells`].
+    pub fn from_text(text: &str, resolution: f64) -> Result<Self> {
+        let mut lines: Vec<(usize, &str)> = text.lines().enumerate().map(|(place, line)| (place + 1, line)).collect();
+        if lines.first().is_some_and(|(_, line)| line.starts_with("type ")) {
+            lines.drain(..lines.len().min(4));
+        }
+        while lines.last().is_some_and(|(_, line)| line.is_empty()) {
+            lines.pop();
+        }
+        let columns = lines.first().map_or(0, |(_, line)| line.chars().count());
+        let mut cells = Vec::new();
+        for (place, line) in lines.iter().rev() {
+            let bad = |text: String| Error::new(ErrorKind::Syntax, text).at_line(*place);
+            let before = cells.len();
+            for character in line.chars() {
+                cells.push(match character {
+                    '.' | ' ' | 'G' | 'S' => Cell::Free,
+                    '?' => Cell::Unknown,
+                    '#' | '@' | 'O' | 'T' | 'W' => Cell::Occupied,
+                    _ => {
+                        let text = format!(
+                            "`{}` is no cell; give . or G or S, ?, or # or @ or O or T or W",
+                            shown(&character.to_string())
+                        );
+                        return Err(bad(text));
+                    }
+                });
+            }
+            if cells.len() - before != columns {
+                return Err(bad(format!("{} cells in a row; the first one has {columns}", cells.len() - before)));
+            }
+        }
+        Map::of_cells(columns, lines.len(), resolution, cells)
+    }
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| Error::io(path, &error))
+}
+
+/// Words of an image's head, and remarks between them.
+struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Words<'a> {
+    fn word(&mut self) -> Option<&'a [u8]> {
+        loop {
+            match self.bytes.get(self.at)? {
+                b'#' => {
+                    let rest = &self.bytes[self.at..];
+                    self.at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+                }
+                byte if byte.is_ascii_whitespace() => self.at += 1,
+                _ => break,
+            }
+        }
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.at += length;
+        Some(&rest[..length])
+    }
+
+    fn number(&mut self, name: &str, most: u32) -> std::result::Result<u32, String> {
+        let word = self.word().unwrap_or_default();
+        let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+        number
+            .filter(|number| *number <= most)
+            .ok_or_else(|| format!("the {name} is `{}`; give a number up to {most}", text(word)))
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    shown(&String::from_utf8_lossy(&bytes[..bytes.len().min(40)])).to_string()
+}
+
+/// The image's name and what it means, of the flat YAML that `map_server` writes.
+fn description(text: &str) -> Result<(String, Meaning)> {
+    let (mut image, mut meaning, mut resolution) = (None, Meaning::new(1.0), None);
+    for (place, line) in text.lines().enumerate() {
+        let line = line.split(" #").next().unwrap_or_default().trim();
+        let Some((key, value)) = line.split_once(':').filter(|_| !line.starts_with('#')) else { continue };
+        let value = value.trim().trim_matches(['"', '\'']);
+        let bad = |allowed: &str| {
+            let text = format!("`{}` is `{}`; give {allowed}", shown(key), shown(value));
+            Error::new(ErrorKind::BadValue, text).at_line(place + 1)
+        };
+        let number = || value.parse::<f64>().ok().filter(|number| number.is_finite());
+        match key.trim() {
+            "image" => image = Some(value.to_owned()),
+            "resolution" => resolution = Some(number().ok_or_else(|| bad("a number of metres"))?),
+            "occupied_thresh" => meaning.thresholds[0] = number().ok_or_else(|| bad("a share"))?,
+            "free_thresh" => meaning.thresholds[1] = number().ok_or_else(|| bad("a share"))?,
+            "negate" => {
+                meaning.negate = match value {
+                    "0" | "false" => false,
+                    "1" | "true" => true,
+                    _ => return Err(bad("0 or 1")),
+                }
+            }
+            "origin" => {
+                let list = value.trim_start_matches('[').trim_end_matches(']').split(',');
+                let numbers: Option<Vec<f64>> = list.map(|word| word.trim().parse().ok()).collect();
+                let three = numbers.and_then(|numbers| numbers.try_into().ok());
+                meaning.origin = three.ok_or_else(|| bad("[x, y, yaw]"))?;
+            }
+            "mode" if value == "raw" => return Err(bad("trinary or scale")),
+            _ => {}
+        }
+    }
+    let missing = |key: &str| Error::new(ErrorKind::MissingKey, format!("there is no `{key}`; it is required"));
+    meaning.resolution = resolution.ok_or_else(|| missing("resolution"))?;
+    Ok((image.ok_or_else(|| missing("image"))?, meaning))
+}
