@@ -1,7 +1,7 @@
 //! A walk's forces by two chains, each on a foot of its own, RH0 (3-40) and (3-41). Main type: [`Chains`].
 
 use super::biped::Biped;
-use super::forces::{Forces, pushed, wrench};
+use super::forces::{Forces, pushed};
 use super::plan::Walk;
 use crate::dynamics::{Data, Six, Tree};
 use crate::motion::{Figure, Trajectory};
@@ -68,22 +68,18 @@ impl Walk {
         for (side, (tree, data)) in halves.iter().zip(rooms).enumerate() {
             data.place(tree, moving.places.iter().copied());
             let alone = data.inverse(tree, &moving.motion(), &[], &mut own);
-            found.alone[side] = wrench(&alone).transform(world_from_torso);
+            found.alone[side] = Wrench::from(alone).transform(world_from_torso);
             let given = self.about_origin(sample, side, &forces.feet[side]);
             let rest = found.alone[side] - given;
             if side == 0 {
                 found.between = rest;
             }
             // Alone its foot takes it all; otherwise what the floor gives, and the trunk the rest.
-            let through = |wrench: Wrench| {
-                let own = wrench.transform(&torso_from_world);
-                Six { linear: own.f.into(), angular: own.tau.into() }
-            };
             for (at_foot, at_trunk, torques) in
                 [(found.alone[side], none, &mut found.torques), (given, rest, &mut found.coupled)]
             {
                 let mut outside = vec![Six::zero(); count + 1];
-                outside[0] = through(at_trunk);
+                outside[0] = at_trunk.transform(&torso_from_world).into();
                 let (body, push) = pushed(tree, data, &biped.feet[side], &at_foot.transform(&torso_from_world));
                 outside[body] = push;
                 data.inverse(tree, &moving.motion(), &outside, &mut own);

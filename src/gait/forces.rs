@@ -106,7 +106,7 @@ impl Walk {
         data.place(tree, moving.places.iter().copied());
         let mut torques = vec![0.0; tree.bodies.len()];
         let base = data.inverse(tree, &moving.motion(), &[], &mut torques);
-        let ground = wrench(&base).transform(world_from_torso);
+        let ground = Wrench::from(base).transform(world_from_torso);
         let centre = Point2::new(-ground.tau.y / ground.f.z, ground.tau.x / ground.f.z);
         let feet = self.feet(sample, &ground, &centre);
         let mut outside = vec![Six::zero(); tree.bodies.len() + 1];
@@ -181,10 +181,5 @@ impl Walk {
 /// A wrench on a foot that is told in the torso's frame: the body that it acts on, and the wrench in that body's frame.
 pub(super) fn pushed(tree: &Tree<f64>, data: &Data<f64>, foot: &Foot, own: &Wrench) -> (usize, Six<f64>) {
     let stands = data.stands(tree, foot.body.checked_sub(1), &Frame::identity());
-    (foot.body, stands.force_inward(&Six { linear: own.f.into(), angular: own.tau.into() }))
-}
-
-/// Six numbers as a wrench.
-pub(super) fn wrench(six: &Six<f64>) -> Wrench {
-    Wrench { f: six.linear.into(), tau: six.angular.into() }
+    (foot.body, stands.force_inward(&Six::from(*own)))
 }

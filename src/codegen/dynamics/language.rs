@@ -38,7 +38,7 @@ pub(super) trait Language {
     fn climb(&self) -> [&'static str; 2];
     /// The head of a block.
     fn when(&self, condition: &str) -> String;
-    /// Tables of a file, and how many rows they have.
+    /// Tables of a file.
     fn tables(&self, tables: &[Table]) -> Vec<String>;
 }
 

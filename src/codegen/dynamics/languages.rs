@@ -111,13 +111,10 @@ impl Language for C {
         let (coordinates, freedoms) = (equations.coordinates(), equations.freedoms());
         let read = |(name, count): (&str, usize)| format!("const gb_real {name}[{count}]");
         let reads = std::iter::once(("q", coordinates)).chain(function.inputs().iter().map(|name| (*name, freedoms)));
-        let size = freedoms * freedoms;
-        let written = match function {
-            Function::Derivatives => format!("gb_real by_q[{size}], gb_real by_v[{size}]"),
-            Function::Inertia | Function::Coriolis => format!("gb_real out[{size}]"),
-            _ => format!("gb_real out[{freedoms}]"),
-        };
-        reads.map(read).chain([written]).collect::<Vec<_>>().join(", ")
+        let (names, are_matrices) = results(function);
+        let size = if are_matrices { freedoms * freedoms } else { freedoms };
+        let writes = names.iter().map(|name| format!("gb_real {name}[{size}]"));
+        reads.map(read).chain(writes).collect::<Vec<_>>().join(", ")
     }
 
     fn start(&self, function: Function) -> Vec<String> {

@@ -13,7 +13,7 @@ mod tape;
 use serde::Serialize;
 
 pub use self::function::Function;
-use self::language::Language;
+use self::language::{Language, results};
 use self::languages::{C, Rust};
 use self::recursive::Recursive;
 use self::tape::{Recorded, Tape};
@@ -158,12 +158,10 @@ impl Printed<'_> {
             about: function.about(),
             inputs: std::iter::once("q").chain(function.inputs().iter().copied()).collect(),
             parameters: language.parameters(function, self.equations),
-            result: if function == Function::Derivatives {
-                "[Matrix; 2]"
-            } else if matches!(function, Function::Inertia | Function::Coriolis) {
-                "Matrix"
-            } else {
-                "Row"
+            result: match results(function) {
+                (_, false) => "Row",
+                ([_], true) => "Matrix",
+                (_, true) => "[Matrix; 2]",
             },
             reads_ways: code.iter().any(|line| line.contains("way[")),
             code,

@@ -61,7 +61,7 @@ impl Equations {
         let Workspace { data, rates, accelerations, torques, base, outside, .. } = room;
         let motion = Motion { base: base[0], base_acceleration: base[1], rates, accelerations };
         let force = data.inverse(&self.tree, &motion, outside, torques);
-        Ok(Wrench { f: force.linear.into(), tau: force.angular.into() })
+        Ok(force.into())
     }
 
     /// The regressor `Y`: without rotors, friction and what acts from outside the torques are `Y` times what the bodies weigh. Rows are freedoms; each body, that of

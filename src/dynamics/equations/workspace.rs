@@ -88,9 +88,8 @@ impl Equations {
         room.outside.resize(self.drives.len() + 1, Six::zero());
         for (link, wrench) in state.outside {
             let (joint, frame) = &self.frames[*link];
-            let force = Six { linear: wrench.f.into(), angular: wrench.tau.into() };
             let own = &mut room.outside[joint.map_or(0, |joint| joint + 1)];
-            *own = own.add(&frame.force_outward(&force));
+            *own = own.add(&frame.force_outward(&Six::from(*wrench)));
         }
     }
 

@@ -3,25 +3,26 @@
 //! Motions and forces stand in the frame of a body, linear part first, as in RH0 (2-5).
 
 use super::scalar::Scalar;
+use crate::spatial::Wrench;
 
 /// Three coordinates.
 pub type Three<S> = [S; 3];
 /// A matrix by rows.
 pub type Matrix<S> = [Three<S>; 3];
 
-pub(crate) fn add<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
+pub(in crate::dynamics) fn add<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| a[i].clone() + b[i].clone())
 }
 
-pub(crate) fn dot<S: Scalar>(a: &Three<S>, b: &Three<S>) -> S {
+pub(in crate::dynamics) fn dot<S: Scalar>(a: &Three<S>, b: &Three<S>) -> S {
     a[0].clone() * b[0].clone() + a[1].clone() * b[1].clone() + a[2].clone() * b[2].clone()
 }
 
-pub(crate) fn scaled<S: Scalar>(a: &Three<S>, factor: &S) -> Three<S> {
+pub(in crate::dynamics) fn scaled<S: Scalar>(a: &Three<S>, factor: &S) -> Three<S> {
     std::array::from_fn(|i| a[i].clone() * factor.clone())
 }
 
-pub(crate) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
+pub(in crate::dynamics) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         a[j].clone() * b[k].clone() - a[k].clone() * b[j].clone()
@@ -29,18 +30,18 @@ pub(crate) fn cross<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
 }
 
 /// `R v`.
-pub(crate) fn turned<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
+pub(in crate::dynamics) fn turned<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| dot(&r[i], v))
 }
 
 /// `R' v`.
-pub(crate) fn turned_back<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
+pub(in crate::dynamics) fn turned_back<S: Scalar>(r: &Matrix<S>, v: &Three<S>) -> Three<S> {
     std::array::from_fn(|i| {
         r[0][i].clone() * v[0].clone() + r[1][i].clone() * v[1].clone() + r[2][i].clone() * v[2].clone()
     })
 }
 
-pub(crate) fn zeros<S: Scalar>() -> Three<S> {
+pub(in crate::dynamics) fn zeros<S: Scalar>() -> Three<S> {
     std::array::from_fn(|_| S::zero())
 }
 
@@ -72,7 +73,7 @@ impl<S: Scalar> Six<S> {
         Six { linear: scaled(&self.linear, factor), angular: scaled(&self.angular, factor) }
     }
 
-    pub(crate) fn half(&self) -> Self {
+    pub(in crate::dynamics) fn half(&self) -> Self {
         let halved = |a: &Three<S>| std::array::from_fn(|i| a[i].half());
         Six { linear: halved(&self.linear), angular: halved(&self.angular) }
     }
@@ -113,6 +114,18 @@ impl<S: Scalar> Six<S> {
     }
 }
 
+impl From<Wrench> for Six<f64> {
+    fn from(wrench: Wrench) -> Self {
+        Six { linear: wrench.f.into(), angular: wrench.tau.into() }
+    }
+}
+
+impl From<Six<f64>> for Wrench {
+    fn from(six: Six<f64>) -> Self {
+        Wrench { f: six.linear.into(), tau: six.angular.into() }
+    }
+}
+
 /// Where a body's frame stands in its parent's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<S> {
@@ -147,7 +160,7 @@ impl<S: Scalar> Frame<S> {
     }
 
     /// Where a frame in the body stands in the parent.
-    pub(crate) fn then(&self, inner: &Frame<S>) -> Self {
+    pub(in crate::dynamics) fn then(&self, inner: &Frame<S>) -> Self {
         let column = |j: usize| turned(&self.rotation, &std::array::from_fn(|k| inner.rotation[k][j].clone()));
         let columns: Matrix<S> = std::array::from_fn(column);
         Frame {
@@ -235,7 +248,7 @@ impl<S: Scalar> Mass<S> {
     }
 
     /// The same in a frame that stands so in the body's.
-    pub(crate) fn inward(&self, frame: &Frame<S>) -> Self {
+    pub(in crate::dynamics) fn inward(&self, frame: &Frame<S>) -> Self {
         self.outward(&frame.inverse())
     }
 
