@@ -67,6 +67,8 @@ pub mod gait;
 
 pub mod nav;
 
+pub mod task;
+
 pub mod robots;
 
 pub mod derive;

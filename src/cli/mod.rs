@@ -1,7 +1,7 @@
 //! The command-line tool: one file a subcommand.
 //!
 //! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no way, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
 
 mod algebra;
 mod answers;
@@ -27,6 +27,7 @@ mod identify;
 mod ik;
 mod info;
 mod json;
+mod navigate;
 mod page;
 mod part;
 mod plan;
@@ -37,6 +38,7 @@ mod strata;
 mod targets;
 mod track;
 mod walk;
+mod walker;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -59,10 +61,11 @@ const EXAMPLES: &str = "Examples:
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
   groebot basis cyclic5.txt --order lex
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
+  groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no way, 130 interrupted.";
 
 /// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
 #[derive(Parser)]
@@ -85,6 +88,7 @@ enum Command {
     Fk(fk::Arguments),
     Basis(basis::Arguments),
     Walk(walk::Arguments),
+    Navigate(navigate::Arguments),
     Dynamics(dynamics::Arguments),
     Track(track::Arguments),
     Identify(identify::Arguments),
@@ -98,12 +102,16 @@ enum Halt {
     Error(Error),
     /// Nobody reads standard output any more.
     PipeClosed,
+    /// There is no way; that has been told.
+    NoWay,
     /// A solver was derived and written, and misses answers at some singular targets; that has been told.
     WeakSpots,
 }
 
 /// The exit status of [`Halt::WeakSpots`].
 const WEAK: u8 = 3;
+/// The exit status of [`Halt::NoWay`].
+const NO_WAY: u8 = 4;
 
 impl From<Error> for Halt {
     fn from(error: Error) -> Self {
@@ -135,6 +143,7 @@ pub fn run() -> ExitCode {
         Command::Fk(arguments) => fk::run(arguments),
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
+        Command::Navigate(arguments) => navigate::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Track(arguments) => track::run(arguments),
         Command::Identify(arguments) => identify::run(arguments),
@@ -144,6 +153,7 @@ pub fn run() -> ExitCode {
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,
         Err(Halt::WeakSpots) => ExitCode::from(WEAK),
+        Err(Halt::NoWay) => ExitCode::from(NO_WAY),
         Err(Halt::Error(error)) => {
             tell(&error);
             ExitCode::from(if error.kind() == ErrorKind::Cancelled { 130 } else { 1 })

@@ -1,12 +1,11 @@
 //! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
 
-mod described;
-
 use std::path::{Path, PathBuf};
 
 use nalgebra::Point2;
 
 use super::progress::{Limits, Session};
+use super::walker::{self, SoleArguments};
 use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
@@ -14,7 +13,7 @@ use crate::gait::{
     Biped, Chains, Difference, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk,
     Walker, plan_at, words,
 };
-use crate::robots::{self, Outline};
+use crate::robots::Outline;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file of footsteps, in bytes.
@@ -84,7 +83,7 @@ pub struct Arguments {
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: String,
     #[command(flatten)]
-    soles: described::SoleArguments,
+    soles: SoleArguments,
     /// The number of steps; the last one closes the feet
     #[arg(long, default_value_t = 8, conflicts_with = "way")]
     steps: usize,
@@ -190,10 +189,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Seed => Outline::Seed,
     };
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let walker = match robots::walker(&arguments.robot, outline) {
-        Some(known) => known?,
-        None => described::walker(Path::new(&arguments.robot), &arguments.soles, &session.watch)?,
-    };
+    let walker = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?.walker;
     let usual = arguments.usual(&walker)?;
     let biped = &walker.biped;
     let request = |height, ease| arguments.request(&usual.clone().eased(ease), biped, height);

@@ -93,6 +93,12 @@ impl Footprint {
         self.towards(other, 0.5)
     }
 
+    /// Feet side by side, left and right, with this in their middle and so far from it \[m\].
+    pub fn feet(&self, half_width: f64) -> [Footprint; 2] {
+        [Side::Left, Side::Right]
+            .map(|side| self.then(&Footprint { y: side.sign() * half_width, ..Default::default() }))
+    }
+
     /// The pose of SE(3) at height `z` \[m\] with a vertical z axis.
     pub fn at_height(&self, z: f64) -> Pose {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw);
@@ -216,6 +222,17 @@ impl Route {
         let mut route = Route { start, steps, rests: Vec::new() }.checked()?;
         route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
         Ok(route)
+    }
+
+    /// Feet that stand where they are.
+    pub fn standing(feet: [Footprint; 2]) -> Self {
+        Route { start: feet, steps: Vec::new(), rests: vec![feet[0].middle(&feet[1])] }
+    }
+
+    /// Where the feet stand behind the last step.
+    pub fn end(&self) -> [Footprint; 2] {
+        let last = |side: Side| self.steps.iter().rev().find(|step| step.side == side).map(|step| step.print);
+        [Side::Left, Side::Right].map(|side| last(side).unwrap_or(self.start[side as usize]))
     }
 
     fn checked(self) -> Result<Self> {

@@ -11,7 +11,7 @@ use super::preview;
 use super::reference::{Reference, seed_centre, soles};
 use super::refusal;
 use super::request::{Gait, Request};
-use super::schedule::Schedule;
+use super::schedule::{Action, Schedule};
 use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -55,11 +55,18 @@ impl Walk {
 /// mass too near to the border, a margin that no slower phase keeps, a figure of the gait that is not finite or not positive;
 /// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
 pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
+    plan_actions(biped, legs, request, &request.gait.actions(request.route.steps.len()), watch)
+}
+
+/// The same with phases of one's own: `actions` in turn, which are about steps of the route.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Action], watch: &Watch) -> Result<Walk> {
     refusal::check(request)?;
-    let actions = request.gait.actions(request.route.steps.len());
     let mut slowed = vec![1.0; actions.len()];
     loop {
-        let schedule = Schedule::new(request.route.clone(), &actions, &request.durations, &slowed, request.tick);
+        let schedule = Schedule::new(request.route.clone(), actions, &request.durations, &slowed, request.tick);
         if schedule.samples() > MOST_SAMPLES {
             let text = format!(
                 "the walk would last {:.0} s, {:.0} s are the most; walk fewer steps (--steps, --goal) or faster (--period)",

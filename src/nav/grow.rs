@@ -24,20 +24,37 @@ impl Map {
         squares.iter().map(|square| square.sqrt() * self.resolution()).collect()
     }
 
-    /// The same map, where whatever is nearer to an obstacle than so far is occupied, too \[m\]: where the middle of a round robot may be.
+    /// The same map, where whatever is nearer to an obstacle than so far is occupied, too \[m\]: where the middle of a round robot may be. What is off the map counts as an obstacle.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a radius that is not finite or below zero.
     pub fn grown(&self, radius: f64) -> Result<Self> {
+        self.keeping(&self.clearances(), radius)
+    }
+
+    /// The same with clearances that are known.
+    ///
+    /// # Errors
+    /// As [`Map::grown`], and for another count of clearances than of cells.
+    pub fn keeping(&self, clearances: &[f64], radius: f64) -> Result<Self> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if !(radius.is_finite() && radius >= 0.0) {
-            let text = format!("a radius of {radius} m: give a finite number, not below zero");
-            return Err(Error::new(ErrorKind::BadValue, text));
+            return bad(format!("a radius of {radius} m: give a finite number, not below zero"));
         }
-        let clearances = self.clearances();
+        if clearances.len() != self.cells().len() {
+            return bad(format!("{} clearances for {} cells: give one each", clearances.len(), self.cells().len()));
+        }
         let mut map = self.clone();
-        for (cell, clearance) in map.cells_mut().iter_mut().zip(clearances) {
-            if clearance < radius {
-                *cell = Cell::Occupied;
+        let (columns, rows, least) = (self.columns(), self.rows(), radius / self.resolution());
+        let inside = |place: usize, count: usize| (place.min(count - 1 - place) as f64 + 0.5) >= least;
+        for (row, (cells, clearances)) in
+            map.cells_mut().chunks_exact_mut(columns).zip(clearances.chunks_exact(columns)).enumerate()
+        {
+            let is_inside = inside(row, rows);
+            for (column, (cell, clearance)) in cells.iter_mut().zip(clearances).enumerate() {
+                if *clearance < radius || !(is_inside && inside(column, columns)) {
+                    *cell = Cell::Occupied;
+                }
             }
         }
         Ok(map)

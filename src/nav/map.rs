@@ -99,26 +99,52 @@ impl Map {
         let mut map = self.clone();
         for shape in obstacles {
             shape.check()?;
-            let placed = shape.moved(&|point| self.in_map(point), 1.0 / self.resolution);
-            let (low, high) = placed.bounds();
-            let range = |low: f64, high: f64, most: usize| {
-                (low.floor().max(0.0) as usize).min(most)..(high.floor() + 1.0).clamp(0.0, most as f64) as usize
-            };
-            for row in range(low.y, high.y, self.rows) {
-                for column in range(low.x, high.x, self.columns) {
-                    if placed.touches(&Point2::new(column as f64, row as f64)) {
-                        map.cells[row * self.columns + column] = Cell::Occupied;
-                    }
-                }
+            for cell in self.touched(&self.placed_in_map(shape)) {
+                map.cells[cell] = Cell::Occupied;
             }
         }
         Ok(map)
+    }
+
+    /// A place where a shape touches what is not free, if there is one: the middle of that cell, or a point of the shape that is not on the map.
+    pub fn obstacle_under(&self, shape: &Shape) -> Option<Point2<f64>> {
+        let placed = self.placed_in_map(shape);
+        let (low, high) = placed.bounds();
+        let beyond = [low, high].into_iter().find(|corner| !self.is_on(corner));
+        beyond
+            .map(|corner| self.in_world(&corner))
+            .or_else(|| self.touched(&placed).find(|cell| !self.is_free(*cell)).map(|cell| self.centre(cell)))
+    }
+
+    /// A shape of the world, counted in cells.
+    fn placed_in_map(&self, shape: &Shape) -> Shape {
+        shape.moved(&|point| self.in_map(point), 1.0 / self.resolution)
+    }
+
+    /// The cells that a shape touches, which is counted in cells.
+    fn touched<'a>(&self, placed: &'a Shape) -> impl Iterator<Item = usize> + use<'a> {
+        let (low, high) = placed.bounds();
+        let range = |low: f64, high: f64, most: usize| {
+            (low.floor().max(0.0) as usize).min(most)..(high.floor() + 1.0).clamp(0.0, most as f64) as usize
+        };
+        let (rows, columns) = (range(low.y, high.y, self.rows), range(low.x, high.x, self.columns));
+        let width = self.columns;
+        let all = rows.flat_map(move |row| columns.clone().map(move |column| (row, column)));
+        let touches = |(row, column): &(usize, usize)| placed.touches(&Point2::new(*column as f64, *row as f64));
+        all.filter(touches).map(move |(row, column)| row * width + column)
     }
 
     /// The same, cells that have not been seen taken to be free.
     #[must_use]
     pub fn with_unknown_free(mut self) -> Self {
         self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Free);
+        self
+    }
+
+    /// The same, cells that have not been seen taken to be occupied.
+    #[must_use]
+    pub fn with_unknown_occupied(mut self) -> Self {
+        self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Occupied);
         self
     }
 
@@ -168,8 +194,7 @@ impl Map {
     /// [`ErrorKind::BadValue`] for one that is not on the map.
     pub fn cell_at(&self, place: &Point2<f64>) -> Result<usize> {
         let own = self.in_map(place);
-        let is_on = own.x >= 0.0 && own.y >= 0.0 && own.x <= self.columns as f64 && own.y <= self.rows as f64;
-        if !is_on {
+        if !self.is_on(&own) {
             let [low, high] = [Point2::origin(), Point2::new(self.columns as f64, self.rows as f64)]
                 .map(|corner| self.in_world(&corner));
             let text = format!(
@@ -180,6 +205,11 @@ impl Map {
         }
         let whole = |value: f64, most: usize| (value.floor() as usize).min(most - 1);
         Ok(whole(own.y, self.rows) * self.columns + whole(own.x, self.columns))
+    }
+
+    /// Whether a place is on the map, which is counted in cells.
+    fn is_on(&self, own: &Point2<f64>) -> bool {
+        own.x >= 0.0 && own.y >= 0.0 && own.x <= self.columns as f64 && own.y <= self.rows as f64
     }
 
     /// The free cell that a place belongs to.

@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 23] = [
+const TABLE: [(&str, Uses); 24] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -31,6 +31,7 @@ const TABLE: [(&str, Uses); 23] = [
     ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
     ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
+    ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
     ("serve", Uses::Only(&["sim"])),
     ("cli", Uses::AllAbove),

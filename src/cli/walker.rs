@@ -1,4 +1,4 @@
-//! A walker from a description: its legs derived on the spot.
+//! Walkers by their names, and from a description: its legs derived on the spot.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use crate::derive::{Description, InputFile, Proved};
 use crate::document::shown;
 use crate::gait::{Biped, LegSolver, Walker};
 use crate::model::{Meshes, Robot};
+use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The soles of a robot that is described in a file.
@@ -26,12 +27,33 @@ pub struct SoleArguments {
     outline: Option<Vec<f64>>,
 }
 
-/// The walker of the robot that `file` describes.
+/// A robot that walks, as a command names it.
+pub struct Named {
+    /// Its description.
+    pub robot: Robot,
+    /// Where its meshes are.
+    pub meshes: Meshes,
+    /// How it walks.
+    pub walker: Walker,
+}
+
+/// The robot of that name, or the one that a file describes.
 ///
 /// # Errors
 /// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
 /// the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
-pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walker> {
+pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
+    let robot = match name {
+        "nao" => Some(robots::nao_v5()),
+        name => robots::robot(name),
+    };
+    match (robots::walker(name, outline), robot) {
+        (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
+        _ => described(Path::new(name), soles, watch),
+    }
+}
+
+fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     let name = file.to_string_lossy();
     if !file.exists() {
         let text =
@@ -46,12 +68,13 @@ pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walke
     };
     let at_file = |error: Error| error.in_file(file);
     let names = soles.links(&robot).map_err(at_file)?;
+    let meshes = Meshes::beside(file);
     let biped = match &soles.outline {
         Some(outline) => {
             let (height, outlines) = outlines(outline)?;
             Biped::on_outlines(&robot, names, height, outlines)
         }
-        None => Biped::new(&robot, names, &Meshes::beside(file)),
+        None => Biped::new(&robot, names, &meshes),
     };
     let biped = biped.map_err(at_file)?;
     let leg = |name: &str| -> Result<LegSolver> {
@@ -59,7 +82,8 @@ pub fn walker(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Walke
         Ok(Arc::new(Proved::of_chain(&chain, watch)?.program().solver()))
     };
     let solvers = [leg(names[0])?, leg(names[1])?];
-    Walker::new(&robot, biped, solvers).map_err(at_file)
+    let walker = Walker::new(&robot, biped, solvers).map_err(at_file)?;
+    Ok(Named { robot, meshes, walker })
 }
 
 impl SoleArguments {

@@ -1,0 +1,112 @@
+//! The way that a walker is to follow. Main type: [`Course`].
+
+use std::fmt;
+
+use nalgebra::Point2;
+
+use super::floor::Floor;
+use super::pilot::Pilot;
+use crate::gait::Footprint;
+use crate::nav::{self, Enclosure, Field, Map, Way};
+use crate::{ErrorKind, Result, Watch};
+
+/// How the way is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// The shortest way.
+    #[default]
+    Exact,
+    /// Down a field of fast marching, RH0 (4-15), pulled taut.
+    FastMarching,
+    /// Down a field of the thesis' M3R, RH0 (4-17), pulled taut.
+    M3r,
+}
+
+/// Where a walker is to get.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// Where the middle of its feet is to be \[m\].
+    pub place: Point2<f64>,
+    /// Where it is to look \[rad\]; as it comes where there is none.
+    pub heading: Option<f64>,
+}
+
+/// A way for the middle of a walker's feet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// Where it leads.
+    pub goal: Goal,
+    /// The way.
+    pub way: Way,
+    /// Whether there is room for the walker on it however it is turned; else only for its body's core, and steps are to be searched.
+    pub is_wide: bool,
+}
+
+impl Course {
+    /// The way from a place to a goal: with room for the walker however it is turned, or where there is none with room for its core. Where there is no way for that, either, what encloses start or goal,
+    /// which is proof that the walker gets nowhere.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a start or goal off the map or too near to an obstacle, with the nearest place that is not; [`Watch::check`].
+    pub fn find(
+        pilot: &Pilot,
+        floor: &Floor,
+        start: &Footprint,
+        goal: Goal,
+        method: Method,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Self, Blocked>> {
+        let half_cell = floor.map().resolution() * std::f64::consts::FRAC_1_SQRT_2;
+        let wide = floor.of_disc(pilot.radius() + half_cell)?;
+        match way(&wide, &start.point(), &goal.place, method, watch) {
+            Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),
+            Ok(Err(_)) => {}
+            Err(error) if error.kind() == ErrorKind::BadValue => {}
+            Err(error) => return Err(error),
+        }
+        let narrow = floor.of_disc((pilot.core() - half_cell).max(0.0))?;
+        let found = way(&narrow, &start.point(), &goal.place, method, watch)?;
+        Ok(found
+            .map(|way| Course { goal, way, is_wide: false })
+            .map_err(|enclosure| Blocked { enclosure, map: narrow }))
+    }
+}
+
+/// Why there is no way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blocked {
+    /// The cells that no way leaves.
+    pub enclosure: Enclosure,
+    /// The map whose cells they are: obstacles grown by the walker's core.
+    pub map: Map,
+}
+
+impl fmt::Display for Blocked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let area = self.enclosure.cells.len() as f64 * self.map.resolution().powi(2);
+        write!(
+            f,
+            "there is no way: {} cells ({area:.2} m^2) that nothing as wide as the body's core leaves enclose start or goal",
+            self.enclosure.cells.len()
+        )
+    }
+}
+
+/// The way on a map by a method.
+fn way(
+    map: &Map,
+    start: &Point2<f64>,
+    goal: &Point2<f64>,
+    method: Method,
+    watch: &Watch,
+) -> Result<std::result::Result<Way, Enclosure>> {
+    let down = |method: nav::Method| -> Result<std::result::Result<Way, Enclosure>> {
+        Field::new(map, &[*goal], method, watch)?.descend(map, start)
+    };
+    match method {
+        Method::Exact => down(nav::Method::FastMarching(2)),
+        Method::FastMarching => down(nav::Method::FastMarching(1)),
+        Method::M3r => down(nav::Method::M3r),
+    }
+}

@@ -1,0 +1,317 @@
+//! A walk that grows step by step along a course. Main type: [`Journey`].
+
+use std::fmt;
+
+use nalgebra::{Point2, Point3};
+
+use super::course::Course;
+use super::floor::Floor;
+use super::follow::{Next, next};
+use super::pilot::Pilot;
+use super::search::{Key, Search, fits, key};
+use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Polygon, Side, Walk};
+use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How often steps are searched anew on one journey.
+const MOST_SEARCHES: usize = 40;
+
+/// What meets an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The sole of that side.
+    Sole(Side),
+    /// The body.
+    Body,
+}
+
+/// Why a step is not taken.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// It cannot be walked: a joint's limit or speed, a sole out of reach, the balance.
+    Gait(String),
+    /// It would meet an obstacle, at a place of the floor \[m\].
+    Obstacle(Obstacle, Point2<f64>),
+}
+
+/// A step that was planned and is not taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// The number of the step that it would have been, from 1.
+    pub step: usize,
+    /// The foot and where it would have landed.
+    pub footstep: Footstep,
+    /// Why it is not taken.
+    pub reason: Reason,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Footstep { side, print } = &self.footstep;
+        write!(f, "step {}, {} foot to ({:.3}, {:.3}): ", self.step, side.name(), print.x, print.y)?;
+        match &self.reason {
+            Reason::Gait(text) => write!(f, "{text}"),
+            Reason::Obstacle(Obstacle::Body, at) => {
+                write!(f, "the body meets an obstacle at ({:.3}, {:.3})", at.x, at.y)
+            }
+            Reason::Obstacle(Obstacle::Sole(side), at) => {
+                write!(f, "the {} sole meets an obstacle at ({:.3}, {:.3})", side.name(), at.x, at.y)
+            }
+        }
+    }
+}
+
+/// A walk that grows step by step. Between two steps the robot rests on both feet: floor and course may change there.
+#[derive(Clone, Debug)]
+pub struct Journey<'p> {
+    pilot: &'p Pilot,
+    walk: Walk,
+    /// Where the middle of the feet would be if the one behind came to the side of the other.
+    lead: Footprint,
+    /// The foot that steps next.
+    side: Option<Side>,
+    /// The corner of the course that it goes to.
+    corner: usize,
+    /// Steps that were searched and are still to be taken.
+    searched: Vec<Footstep>,
+    searches: usize,
+    forbidden: Vec<(Key, Key)>,
+    refusals: Vec<Refusal>,
+}
+
+impl<'p> Journey<'p> {
+    /// From feet that stand, left and right; a walker that is upright lowers its trunk first.
+    ///
+    /// # Errors
+    /// As [`crate::gait::plan`]; [`ErrorKind::BadValue`] for feet or a body on an obstacle.
+    pub fn new(pilot: &'p Pilot, floor: &Floor, feet: [Footprint; 2], watch: &Watch) -> Result<Self> {
+        let action = if pilot.is_upright() { Action::Lower } else { Action::Rest };
+        let walk = pilot.stand(feet, action, watch)?;
+        if let Some((obstacle, at)) = met(pilot, floor, &walk)? {
+            let what = if obstacle == Obstacle::Body { "body" } else { "foot" };
+            let text = format!("the {what} would start on an obstacle at ({:.3}, {:.3})", at.x, at.y);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(Journey {
+            pilot,
+            walk,
+            lead: feet[0].middle(&feet[1]),
+            side: None,
+            corner: 0,
+            searched: Vec::new(),
+            searches: 0,
+            forbidden: Vec::new(),
+            refusals: Vec::new(),
+        })
+    }
+
+    /// The walk up to now.
+    pub fn walk(&self) -> &Walk {
+        &self.walk
+    }
+
+    /// The steps that were planned and not taken, with their reasons.
+    pub fn refusals(&self) -> &[Refusal] {
+        &self.refusals
+    }
+
+    /// Where the feet stand, left and right.
+    pub fn feet(&self) -> [Footprint; 2] {
+        self.walk.schedule.route.end()
+    }
+
+    /// The middle of the feet.
+    pub fn middle(&self) -> Footprint {
+        let [left, right] = self.feet();
+        left.middle(&right)
+    }
+
+    /// To be said when the course or the floor has become another one: what was searched counts no longer.
+    pub fn turn_to_new_course(&mut self) {
+        self.corner = 0;
+        self.searched.clear();
+        self.forbidden.clear();
+    }
+
+    /// Takes the next step along a course; false where it has arrived, with its feet side by side.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] where no step leads on, with the last reason; [`ErrorKind::Budget`] for a way that takes too many steps or too long a search; [`Watch::check`].
+    pub fn step(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<bool> {
+        if self.walk.schedule.route.steps.len() >= MAX_STEPS {
+            return Err(Error::new(ErrorKind::Budget, format!("the walk takes more than {MAX_STEPS} steps")));
+        }
+        loop {
+            if !self.searched.is_empty() {
+                let step = self.searched.remove(0);
+                if self.take(floor, step, watch)? {
+                    self.lead = beside(self.pilot, &step);
+                    return Ok(true);
+                }
+                self.searched.clear();
+            } else {
+                let leads = match next(self.pilot, &self.lead, course, &mut self.corner) {
+                    Next::Lead(leads) => leads,
+                    Next::Close => match self.open() {
+                        Some(side) => {
+                            self.side = Some(side);
+                            vec![self.lead]
+                        }
+                        None => return Ok(false),
+                    },
+                };
+                if self.take_one(floor, &leads, watch)? {
+                    return Ok(true);
+                }
+            }
+            self.search(floor, course, watch)?;
+        }
+    }
+
+    /// Stands where it is; a walker that is upright rises.
+    ///
+    /// # Errors
+    /// As [`crate::gait::plan`].
+    pub fn finish(mut self, watch: &Watch) -> Result<Walk> {
+        if self.pilot.is_upright() {
+            let rise = self.pilot.stand(self.feet(), Action::Rise, watch)?;
+            self.walk.append(rise)?;
+        }
+        Ok(self.walk)
+    }
+
+    /// The foot that is not at its side of the lead.
+    fn open(&self) -> Option<Side> {
+        let (own, wanted) = (self.feet(), self.lead.feet(self.pilot.half_width()));
+        let is_open = |side: &Side| {
+            let (own, wanted) = (&own[*side as usize], &wanted[*side as usize]);
+            (own.point() - wanted.point()).norm() > 1e-9 || (own.yaw - wanted.yaw).abs() > 1e-9
+        };
+        [Side::Left, Side::Right].into_iter().find(is_open)
+    }
+
+    /// Takes the first of some steps that can be taken.
+    fn take_one(&mut self, floor: &Floor, leads: &[Footprint], watch: &Watch) -> Result<bool> {
+        // Who turns starts with the foot on that side.
+        let turns = leads.first().map_or(0.0, |lead| lead.yaw - self.lead.yaw);
+        let side = self.side.unwrap_or(if turns < 0.0 { Side::Right } else { Side::Left });
+        for lead in leads {
+            let step = Footstep { side, print: lead.feet(self.pilot.half_width())[side as usize] };
+            let mut feet = self.feet();
+            feet[side as usize] = step.print;
+            if fits(self.pilot, floor, &feet, side) && self.take(floor, step, watch)? {
+                self.lead = *lead;
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Takes a step, or notes why not.
+    fn take(&mut self, floor: &Floor, footstep: Footstep, watch: &Watch) -> Result<bool> {
+        let reason = match self.pilot.step(self.feet(), footstep, watch) {
+            Ok(walk) => match met(self.pilot, floor, &walk)? {
+                None => {
+                    self.walk.append(walk)?;
+                    self.side = Some(footstep.side.other());
+                    return Ok(true);
+                }
+                Some((obstacle, at)) => Reason::Obstacle(obstacle, at),
+            },
+            Err(error) if error.kind() == ErrorKind::BadValue => Reason::Gait(error.message().to_owned()),
+            Err(error) => return Err(error),
+        };
+        let stance = footstep.side.other();
+        let from = key(self.pilot, stance, &self.feet()[stance as usize]);
+        self.forbidden.push((from, key(self.pilot, footstep.side, &footstep.print)));
+        self.refusals.push(Refusal { step: self.walk.schedule.route.steps.len() + 1, footstep, reason });
+        Ok(false)
+    }
+
+    /// Searches for steps around what is in the way.
+    fn search(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<()> {
+        if self.searches >= MOST_SEARCHES {
+            return self.stuck("steps were searched too often; none leads on");
+        }
+        let half_cell = floor.map().resolution() * std::f64::consts::FRAC_1_SQRT_2;
+        let map = floor.of_disc((self.pilot.core() - half_cell).max(0.0))?;
+        let search = Search::new((self.pilot, floor), &map, &course.goal.place, &self.forbidden, watch)?;
+        let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
+        for first in sides {
+            if let Some(steps) = search.steps(self.feet(), first, watch)? {
+                self.searches += 1;
+                self.searched = steps;
+                self.corner = course.way.points.len().saturating_sub(1);
+                if self.searched.is_empty() {
+                    return self.stuck("near the goal no step leads on");
+                }
+                return Ok(());
+            }
+        }
+        self.stuck("no steps of this robot lead to the goal")
+    }
+
+    /// That there is no next step, with the last reason.
+    fn stuck(&self, text: &str) -> Result<()> {
+        let (at, turned) = (self.middle(), self.lead.yaw.to_degrees());
+        let reason = self.refusals.last().map_or_else(String::new, |refusal| format!("; {refusal}"));
+        let text = format!("{text} from ({:.3}, {:.3}), looking {turned:.0} deg{reason}", at.x, at.y);
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+}
+
+/// The middle of the feet if the other one came to the side of a step.
+fn beside(pilot: &Pilot, step: &Footstep) -> Footprint {
+    step.print.then(&Footprint { y: -step.side.sign() * pilot.half_width(), ..Footprint::default() })
+}
+
+/// What of a walk meets an obstacle first, and where: soles and body as they are swept from sample to sample.
+///
+/// # Errors
+/// As [`crate::dynamics::Model::place`].
+fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Point2<f64>)>> {
+    let mut bodies = Swept::default();
+    let mut soles = [Swept::default(), Swept::default()];
+    for (sample, reference) in walk.references.iter().enumerate() {
+        for side in [Side::Left, Side::Right] {
+            let moves = sample == 0 || !reference.stands[side as usize];
+            let sole = sole(pilot, side, &reference.world_from_soles[side as usize]);
+            let swept = soles[side as usize].to(sole);
+            if let Some(at) = floor.under_sole(&swept).filter(|_| moves) {
+                return Ok(Some((Obstacle::Sole(side), at)));
+            }
+        }
+        let (biped, posture) = (&pilot.walker().biped, &walk.motion.postures[sample]);
+        let placed = biped.model.place(&posture.world_from_torso, &posture.q)?;
+        let middle: Point2<f64> = posture.world_from_torso.translation.vector.xy().into();
+        if floor.is_far(&middle, pilot.body().reach(&placed, &middle)) {
+            bodies = Swept::default();
+            continue;
+        }
+        if let Some(at) = floor.beside_body(&bodies.to(pilot.body().outline(biped, posture)?)) {
+            return Ok(Some((Obstacle::Body, at)));
+        }
+    }
+    Ok(None)
+}
+
+/// What an outline covers from one sample to the next.
+#[derive(Default)]
+struct Swept(Vec<Point2<f64>>);
+
+impl Swept {
+    fn to(&mut self, outline: Polygon) -> Polygon {
+        let corners = outline.corners().to_vec();
+        let both: Vec<Point2<f64>> = self.0.iter().chain(&corners).copied().collect();
+        self.0 = corners;
+        Polygon::hull(&both)
+    }
+}
+
+/// A sole from above.
+fn sole(pilot: &Pilot, side: Side, world_from_sole: &Pose) -> Polygon {
+    let corners = &pilot.walker().biped.feet[side as usize].corners;
+    let at = |corner: &Point2<f64>| (world_from_sole * Point3::new(corner.x, corner.y, 0.0)).xy();
+    Polygon::hull(&corners.iter().map(at).collect::<Vec<_>>())
+}

@@ -1,0 +1,23 @@
+//! The whole task: from a map to a way, to footsteps, to joint angles, every sample checked. RH0 4.4, 5.4, 5.5 and 6.3.
+//!
+//! A [`Pilot`] is a walker with its [`Body`] and how far it steps, [`Reach`]. On a [`Floor`] it gets a [`Course`] to its [`Goal`], and makes a [`Journey`] of it step by step: each step is
+//! a walk of its own by one step goal (OSG; UPA in the thesis), so that goal and obstacles may change between two of them. The world has z up and the floor at 0; metres, seconds, radians.
+
+mod body;
+mod course;
+mod drawing;
+mod floor;
+mod follow;
+mod journey;
+mod pilot;
+mod plan;
+mod reach;
+mod search;
+
+pub use body::Body;
+pub use course::{Blocked, Course, Goal, Method};
+pub use floor::Floor;
+pub use journey::{Journey, Obstacle, Reason, Refusal};
+pub use pilot::Pilot;
+pub use plan::Plan;
+pub use reach::Reach;

@@ -1,0 +1,120 @@
+//! A walker that finds its way. Main type: [`Pilot`].
+
+use nalgebra::{Point2, Vector2};
+
+use super::body::Body;
+use super::reach::Reach;
+use crate::gait::{
+    Action, Footprint, Footstep, Gait, Polygon, Request, Route, Side, Usual, Walk, Walker, plan_actions,
+};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// A walker with its body, how far it steps, and what it covers of the floor.
+#[derive(Clone, Debug)]
+pub struct Pilot {
+    walker: Walker,
+    usual: Usual,
+    body: Body,
+    reach: Reach,
+    /// What the body covers while it steps, seen from the middle of the feet.
+    outline: Polygon,
+    /// How far the body always reaches, whichever way it looks \[m\].
+    core: f64,
+}
+
+impl Pilot {
+    /// That of a walker that goes by one step goal with these figures. It walks from its crouch, and stands upright before the first and behind the last
+    /// step where `is_upright`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for another gait; as [`Reach::of`].
+    pub fn new(walker: Walker, usual: Usual, body: Body, is_upright: bool, watch: &Watch) -> Result<Self> {
+        if !usual.gait.is_one_step() {
+            let text = "steps are planned one by one, so that goal and obstacles may change between them: that takes a gait by one step goal";
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let mut crouched = usual.clone();
+        if let Gait::OneStep(one_step) = &mut crouched.gait {
+            one_step.upright = None;
+        }
+        let reach = Reach::of(&walker, &crouched, watch)?;
+        let usual = if is_upright { usual.from_upright(&walker.biped) } else { crouched };
+        let mut pilot = Pilot { walker, usual, body, reach, outline: Polygon::hull(&[Point2::origin()]), core: 0.0 };
+        let stand = pilot.stand(Footprint::default().feet(pilot.half_width()), Action::Rest, watch)?;
+        let posture = &stand.motion.postures[0];
+        let outline = pilot.body.outline(&pilot.walker.biped, posture)?;
+        pilot.core = outline.signed_distance(&Point2::origin()).max(0.0);
+        let sway = pilot.usual.amplitude;
+        let aside = |y: f64| outline.corners().iter().map(move |corner| corner + Vector2::new(0.0, y));
+        pilot.outline = Polygon::hull(&aside(sway).chain(aside(-sway)).collect::<Vec<_>>());
+        Ok(pilot)
+    }
+
+    /// The walker.
+    pub fn walker(&self) -> &Walker {
+        &self.walker
+    }
+
+    /// Its body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// How far it steps.
+    pub fn reach(&self) -> &Reach {
+        &self.reach
+    }
+
+    /// Half of the way from foot to foot, sideways \[m\].
+    pub fn half_width(&self) -> f64 {
+        self.usual.half_width(&self.walker.biped)
+    }
+
+    /// Whether it stands upright before the first and behind the last step.
+    pub fn is_upright(&self) -> bool {
+        matches!(self.usual.gait, Gait::OneStep(one_step) if one_step.upright.is_some())
+    }
+
+    /// What the body covers while it steps with the middle of its feet there.
+    pub fn outline_at(&self, middle: &Footprint) -> Polygon {
+        Polygon::hull(&self.outline.corners().iter().map(|corner| middle.carry(corner)).collect::<Vec<_>>())
+    }
+
+    /// How far from the middle of its feet it reaches at most, with its body and the soles side by side \[m\].
+    pub fn radius(&self) -> f64 {
+        let feet = Footprint::default().feet(self.half_width());
+        let soles = [Side::Left, Side::Right].map(|side| self.walker.biped.sole_at(side, &feet[side as usize]));
+        let corners = soles.iter().chain([&self.outline]).flat_map(|polygon| polygon.corners());
+        corners.map(|corner| corner.coords.norm()).fold(0.0, f64::max)
+    }
+
+    /// How far from the middle of its feet its body reaches on every side while it rests: no way that is narrower lets it through \[m\].
+    pub fn core(&self) -> f64 {
+        self.core
+    }
+
+    /// One step of its own, from feet that rest to feet that rest.
+    ///
+    /// # Errors
+    /// As [`crate::gait::plan`].
+    pub fn step(&self, feet: [Footprint; 2], step: Footstep, watch: &Watch) -> Result<Walk> {
+        let route = Route::new(feet, vec![step])?;
+        self.walk(route, &[Action::Shift(0), Action::Swing(0), Action::Balance(0)], watch)
+    }
+
+    /// What it does on both feet.
+    ///
+    /// # Errors
+    /// As [`crate::gait::plan`].
+    pub fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
+        self.walk(Route::standing(feet), &[action], watch)
+    }
+
+    fn walk(&self, route: Route, actions: &[Action], watch: &Watch) -> Result<Walk> {
+        plan_actions(&self.walker.biped, &self.walker.legs, &self.request(route), actions, watch)
+    }
+
+    pub(super) fn request(&self, route: Route) -> Request {
+        self.usual.request(&self.walker.biped, route, self.reach.hip_height)
+    }
+}

@@ -1,0 +1,58 @@
+//! A whole journey over one floor to one goal. Main type: [`Plan`].
+
+use std::fmt;
+
+use super::course::{Blocked, Course, Goal, Method};
+use super::floor::Floor;
+use super::journey::{Journey, Refusal};
+use super::pilot::Pilot;
+use crate::gait::{Footprint, Walk};
+use crate::{Result, Watch};
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The way.
+    pub course: Course,
+    /// The floor.
+    pub floor: Floor,
+    /// The walk.
+    pub walk: Walk,
+    /// The steps that were planned and not taken.
+    pub refusals: Vec<Refusal>,
+}
+
+impl Plan {
+    /// From feet that stand, left and right, to a goal; where there is no way, why.
+    ///
+    /// # Errors
+    /// As [`Course::find`], [`Journey::new`] and [`Journey::step`].
+    pub fn find(
+        pilot: &Pilot,
+        floor: &Floor,
+        feet: [Footprint; 2],
+        goal: Goal,
+        method: Method,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Self, Blocked>> {
+        let course = match Course::find(pilot, floor, &feet[0].middle(&feet[1]), goal, method, watch)? {
+            Ok(course) => course,
+            Err(blocked) => return Ok(Err(blocked)),
+        };
+        let mut journey = Journey::new(pilot, floor, feet, watch)?;
+        while journey.step(floor, &course, watch)? {}
+        let refusals = journey.refusals().to_vec();
+        Ok(Ok(Plan { course, floor: floor.clone(), walk: journey.finish(watch)?, refusals }))
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let room = if self.course.is_wide { "room to turn everywhere" } else { "room for the body's core alone" };
+        writeln!(f, "  course          {:.3} m, {room}", self.course.way.length())?;
+        match self.refusals.as_slice() {
+            [] => writeln!(f, "  steps refused   none"),
+            [first, ..] => writeln!(f, "  steps refused   {}, the first: {first}", self.refusals.len()),
+        }
+    }
+}

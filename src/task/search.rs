@@ -1,0 +1,193 @@
+//! Steps where following a way fails: a search over footprints.
+//!
+//! A* over the steps of a walker with a field's time of arrival as heuristic (A. Hornung, A. Dornbush, M. Likhachev and M. Bennewitz, Anytime search-based footstep planning with suboptimality bounds, Humanoids 2012).
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+
+use nalgebra::Point2;
+
+use super::floor::Floor;
+use super::pilot::Pilot;
+use crate::gait::{Footprint, Footstep, Side};
+use crate::nav::{Field, Map, Method};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The most footprints that are looked at.
+const MOST: usize = 400_000;
+/// Into how many parts a step and a turn are cut to tell two footprints apart.
+const PARTS: f64 = 6.0;
+/// What a turn by the whole reach costs beside a step ahead.
+const TURNING: f64 = 0.2;
+
+/// A footprint that tells others apart from itself: the foot and its place in parts of a step.
+pub(super) type Key = (usize, i64, i64, i64);
+
+/// Steps from feet to a place near a goal.
+pub(super) struct Search<'a> {
+    pilot: &'a Pilot,
+    floor: &'a Floor,
+    goal: Point2<f64>,
+    map: &'a Map,
+    field: Field,
+    /// Pairs of footprints between which no step could be walked.
+    forbidden: &'a [(Key, Key)],
+}
+
+/// A foot that has landed: where it and the other one stand, how it got there, and how many steps it took and will take.
+struct Node {
+    feet: [Footprint; 2],
+    landed: Side,
+    from: Option<usize>,
+    steps: f64,
+}
+
+/// A node that waits, the one with the fewest steps first.
+struct Waiting {
+    total: f64,
+    node: usize,
+}
+
+impl<'a> Search<'a> {
+    /// A search on a map that holds the places of the body's middle.
+    ///
+    /// # Errors
+    /// As [`Field::new`].
+    pub(super) fn new(
+        (pilot, floor): (&'a Pilot, &'a Floor),
+        map: &'a Map,
+        goal: &Point2<f64>,
+        forbidden: &'a [(Key, Key)],
+        watch: &Watch,
+    ) -> Result<Self> {
+        let field = Field::new(map, &[*goal], Method::FastMarching(1), watch)?;
+        Ok(Search { pilot, floor, goal: *goal, map, field, forbidden })
+    }
+
+    /// The steps; `None` where all that can be stepped to does not lead there.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Budget`] beyond so many footprints; [`Watch::check`].
+    pub(super) fn steps(&self, feet: [Footprint; 2], first: Side, watch: &Watch) -> Result<Option<Vec<Footstep>>> {
+        let mut nodes = vec![Node { feet, landed: first.other(), from: None, steps: 0.0 }];
+        let mut best: HashMap<Key, f64> = HashMap::new();
+        let mut waiting = BinaryHeap::from([Waiting { total: 0.0, node: 0 }]);
+        while let Some(Waiting { node, .. }) = waiting.pop() {
+            let own = key(self.pilot, nodes[node].landed, &nodes[node].feet[nodes[node].landed as usize]);
+            if node > 0 && best.get(&own).is_some_and(|steps| *steps < nodes[node].steps) {
+                continue;
+            }
+            if (middle(&nodes[node].feet).point() - self.goal).norm() < self.pilot.reach().ahead / 2.0 {
+                return Ok(Some(way_to(&nodes, node)));
+            }
+            if node.is_multiple_of(64) {
+                watch.check()?;
+            }
+            if nodes.len() > MOST {
+                let text = format!("{MOST} footprints were looked at and none is near the goal");
+                return Err(Error::new(ErrorKind::Budget, text));
+            }
+            for (next, cost) in self.beside(&nodes[node], own) {
+                let key = key(self.pilot, next.landed, &next.feet[next.landed as usize]);
+                let Some(left) = self.left(&next.feet) else { continue };
+                let steps = nodes[node].steps + cost;
+                if best.get(&key).is_some_and(|known| *known <= steps) {
+                    continue;
+                }
+                best.insert(key, steps);
+                waiting.push(Waiting { total: steps + left, node: nodes.len() });
+                nodes.push(Node { from: Some(node), steps, ..next });
+            }
+        }
+        Ok(None)
+    }
+
+    /// How many steps are left at least, nearly.
+    fn left(&self, feet: &[Footprint; 2]) -> Option<f64> {
+        let cell = self.map.cell_at(&middle(feet).point()).ok()?;
+        Some(self.field.times()[cell] / self.pilot.reach().ahead).filter(|steps| steps.is_finite())
+    }
+
+    /// The steps of the other foot that the floor has room for, with their costs.
+    fn beside(&self, node: &Node, own: Key) -> impl Iterator<Item = (Node, f64)> + '_ {
+        let (feet, side) = (node.feet, node.landed.other());
+        let stance = feet[node.landed as usize];
+        moves(self.pilot).filter_map(move |(step, cost)| {
+            let half = self.pilot.half_width();
+            let aside = Footprint { y: side.sign() * half, ..Footprint::default() };
+            let lead = stance.then(&aside).then(&Footprint { y: step.y * side.sign(), ..step });
+            let mut feet = feet;
+            feet[side as usize] = lead.then(&aside);
+            let is_allowed = !self.forbidden.contains(&(own, key(self.pilot, side, &feet[side as usize])));
+            let node = Node { feet, landed: side, from: None, steps: 0.0 };
+            (is_allowed && fits(self.pilot, self.floor, &feet, side)).then_some((node, cost))
+        })
+    }
+}
+
+/// Whether the floor has room for a foot where it has landed, and for the body between both.
+pub(super) fn fits(pilot: &Pilot, floor: &Floor, feet: &[Footprint; 2], landed: Side) -> bool {
+    let middle = middle(feet);
+    let body =
+        || floor.is_far(&middle.point(), pilot.radius()) || floor.beside_body(&pilot.outline_at(&middle)).is_none();
+    floor.under_sole(&pilot.walker().biped.sole_at(landed, &feet[landed as usize])).is_none() && body()
+}
+
+/// Steps of the lead seen from where it is, outwards for y, with their costs in steps.
+fn moves(pilot: &Pilot) -> impl Iterator<Item = (Footprint, f64)> {
+    let reach = *pilot.reach();
+    let turns = [0.0, 0.5, -0.5, 1.0, -1.0];
+    let ahead = [1.0, 0.6, 0.25, 0.0].map(|share| share * reach.ahead);
+    let along = ahead.into_iter().chain([-0.6 * reach.back]);
+    let turning = along.flat_map(move |x| turns.map(|turn| (x, 0.0, turn)));
+    let sideways = [0.5, 1.0].map(|share| (0.0, share * reach.aside, 0.0));
+    turning.chain(sideways).filter_map(move |(x, y, turn)| {
+        let share: f64 = if x < 0.0 { x / reach.back } else { x / reach.ahead };
+        let is_within = share * share + turn * turn <= 1.0 + 1e-9;
+        let step = Footprint { x, y, yaw: turn * reach.turn };
+        is_within.then_some((step, 1.0 + TURNING * f64::abs(turn)))
+    })
+}
+
+/// The parts of a step that a footprint is in.
+pub(super) fn key(pilot: &Pilot, side: Side, print: &Footprint) -> Key {
+    let (part, turn) = (pilot.reach().ahead / PARTS, pilot.reach().turn / PARTS);
+    let whole = |value: f64, part: f64| (value / part).round() as i64;
+    (side as usize, whole(print.x, part), whole(print.y, part), whole(print.yaw, turn))
+}
+
+fn middle(feet: &[Footprint; 2]) -> Footprint {
+    feet[0].middle(&feet[1])
+}
+
+fn way_to(nodes: &[Node], last: usize) -> Vec<Footstep> {
+    let mut steps = Vec::new();
+    let mut at = last;
+    while let Some(from) = nodes[at].from {
+        let side = nodes[at].landed;
+        steps.push(Footstep { side, print: nodes[at].feet[side as usize] });
+        at = from;
+    }
+    steps.reverse();
+    steps
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.total.total_cmp(&self.total).then(other.node.cmp(&self.node))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Waiting {}
