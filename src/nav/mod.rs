@@ -2,6 +2,7 @@
 //!
 //! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
 
+mod exact;
 mod field;
 mod grid;
 mod grow;
@@ -12,6 +13,7 @@ mod shape;
 mod waves;
 mod way;
 
+pub use exact::{Guide, Shortest};
 pub use field::{Field, Method};
 pub use map::{Cell, Map};
 pub use read::Meaning;
