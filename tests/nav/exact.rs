@@ -184,3 +184,120 @@ fn ways_are_those_of_all_corners_that_see_one_another() {
     }
     assert!(reached > 500 && enclosed > 100, "{reached} {enclosed}");
 }
+
+/// A field shows a way sooner, and an effort that does not last leaves a bound; neither is ever on the wrong side.
+#[test]
+fn a_field_and_a_bounded_effort_leave_what_is_true() {
+    let mut numbers = Numbers(8);
+    let (mut proved, mut open) = (0, 0);
+    for seed in 0..24 {
+        let map = random_map(40, 37, [0.1, 0.2, 0.3, 0.4][seed as usize % 4], 2000 + seed);
+        let ends = [(); 2].map(|()| place(&map, &mut numbers));
+        let goal = point(&map, ends[1]);
+        let field = Field::new(&map, &[goal], Method::FastMarching(1), &Watch::none()).unwrap();
+        if !agrees(&map, ends, &Guide { field: Some(&field), effort: None }) {
+            continue;
+        }
+        let floor = Floor { map: &map };
+        let (expected, pinches) = (floor.shortest(ends[0], ends[1]) * map.resolution(), floor.pinches());
+        for (effort, field) in [0, 10, 40].into_iter().flat_map(|effort| [(effort, None), (effort, Some(&field))]) {
+            let found = shortest(&map, ends, &Guide { field, effort: Some(effort) }).unwrap();
+            assert!(found.bound <= expected + 1e-12 && expected <= found.way.length() + 1e-12);
+            if found.is_proved() { proved += 1 } else { open += 1 }
+            let spots: Vec<Spot> = found.way.points.iter().map(|point| spot(&map, point)).collect();
+            assert!(spots.windows(2).all(|pair| floor.sees(pair[0], pair[1], &pinches)));
+        }
+    }
+    assert!(proved > 20 && open > 20, "{proved} {open}");
+}
+
+fn spot(map: &Map, point: &Point2<f64>) -> Spot {
+    let own = map.in_map(point);
+    ((own.x * PARTS as f64).round() as i64, (own.y * PARTS as f64).round() as i64)
+}
+
+/// Where a map stands in the world changes its ways as little as anything else that it has.
+#[test]
+fn a_turned_map_has_the_same_ways() {
+    let map = random_map(30, 20, 0.25, 5);
+    let turned = map.clone().placed(Point2::new(3.7, -1.2), 0.6).unwrap();
+    let free: Vec<usize> = (0..600).filter(|cell| map.is_free(*cell)).collect();
+    let mut reached = 0;
+    for pair in free.windows(90).step_by(7) {
+        let (start, goal) = (pair[0], pair[89]);
+        let way = |map: &Map| {
+            map.shortest_way(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none()).unwrap()
+        };
+        let (Ok(one), Ok(other)) = (way(&map), way(&turned)) else { continue };
+        assert!((one.way.length() - other.way.length()).abs() < 1e-9);
+        reached += 1;
+    }
+    assert!(reached > 10);
+}
+
+#[test]
+fn a_small_enclosure_is_found_from_either_side() {
+    let mut map = Map::new(700, 500, 0.1).unwrap();
+    let room = [(20.0, 20.0, 3.0, 0.1), (20.0, 23.0, 3.0, 0.1), (18.5, 21.5, 0.1, 3.2), (21.5, 21.5, 0.1, 3.2)];
+    for (x, y, length, width) in room {
+        map = map.with(&[groebot::nav::Shape::rectangle(Point2::new(x, y), length, width, 0.0)]).unwrap();
+    }
+    let (inside, outside) = (Point2::new(20.0, 21.0), Point2::new(60.0, 40.0));
+    for (start, goal) in [(inside, outside), (outside, inside)] {
+        // One that looked at the floor outside would ask its watch more than once.
+        let patience = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(1));
+        let watch = Watch::none().with_patience(patience);
+        let enclosure = map.shortest_way(&start, &goal, &Guide::default(), &watch).unwrap().unwrap_err();
+        assert!(enclosure.cells.len() < 1000);
+        assert!(enclosure.parts(&map, map.cell_at(&inside).unwrap(), map.cell_at(&outside).unwrap()));
+    }
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let map = Map::from_text("..#\n...\n", 1.0).unwrap();
+    let (start, goal) = (Point2::new(0.5, 0.5), Point2::new(1.5, 1.5));
+    let ask = |start: &Point2<f64>, guide: &Guide| map.shortest_way(start, &goal, guide, &Watch::none());
+    let error = ask(&Point2::new(2.5, 1.5), &Guide::default()).unwrap_err();
+    assert!(error.kind() == ErrorKind::BadValue && error.message().contains("occupied"), "{error}");
+    assert!(ask(&Point2::new(-1.0, 0.5), &Guide::default()).is_err());
+    let field = Field::new(&map, &[start], Method::M3r, &Watch::none()).unwrap();
+    let error = ask(&start, &Guide { field: Some(&field), effort: None }).unwrap_err();
+    assert!(error.message().contains("the field that guides"), "{error}");
+    let still = ask(&goal, &Guide::default()).unwrap().unwrap();
+    assert_eq!((still.way.length(), still.bound), (0.0, 0.0));
+    let stopped = Watch::none().with_cancel(std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true)));
+    let large = random_map(300, 300, 0.3, 1);
+    let free: Vec<usize> = (0..90_000).filter(|cell| large.is_free(*cell)).collect();
+    let (first, last) = (large.centre(free[5000]), large.centre(free[free.len() - 5000]));
+    let error = large.shortest_way(&first, &last, &Guide::default(), &stopped).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Cancelled);
+}
+
+/// What `scripts/navigation/visibility.py` checks by a geometry of its own.
+const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/nav/shortest_ways.csv");
+
+#[test]
+fn the_record_that_python_checks_is_up_to_date() {
+    let mut numbers = Numbers(9);
+    let mut table = String::from("rows,start_x,start_y,goal_x,goal_y,length\n");
+    for seed in 0..120 {
+        let [columns, rows] = [(); 2].map(|()| 4 + (numbers.next() * 12.0) as usize);
+        let map = random_map(columns, rows, [0.1, 0.25, 0.4][seed as usize % 3], 3000 + seed);
+        let ends = [(); 2].map(|()| {
+            let (x, y) = place(&map, &mut numbers);
+            // In parts of 64, which text holds.
+            (x / 16_384 * 16_384, y / 16_384 * 16_384)
+        });
+        let length = shortest(&map, ends, &Guide::default()).map(|found| found.way.length() / map.resolution());
+        let line = |y: usize| (0..columns).map(move |x| y * columns + x);
+        let row = |y| line(y).map(|cell| if map.is_free(cell) { '.' } else { '#' }).collect::<String>();
+        table += &(0..rows).map(row).collect::<Vec<_>>().join("/");
+        ends.iter().flat_map(|(x, y)| [x, y]).for_each(|x| table += &format!(",{}", *x as f64 / PARTS as f64));
+        table += &length.map_or_else(|| ",none\n".to_owned(), |length| format!(",{length:.10}\n"));
+    }
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(RECORD, &table).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(RECORD).unwrap(), table, "UPDATE_GOLDEN=1 rewrites it");
+}

@@ -8,19 +8,11 @@ use super::search::{Goal, Search, Window};
 pub(super) enum Aim<'a> {
     /// The straight line to the goal: no way is shorter.
     Straight,
-    /// The times of a field by cell, and by how much to multiply them to have cells: about as far as it is.
+    /// The times of a field by cell, and by how much to multiply them to have cells, about as far as it is; the straight line where that is longer.
     Field(&'a [f64], f64),
 }
 
 impl Aim<'_> {
-    /// What is worth a step, beside the best length.
-    pub fn limit(&self, best: f64) -> f64 {
-        match self {
-            Aim::Straight => best,
-            Aim::Field(..) => f64::INFINITY,
-        }
-    }
-
     /// The length of a way by a window.
     pub fn through(&self, search: &Search, window: &Window) -> f64 {
         let root = &search.roots[window.view.root as usize];
@@ -28,11 +20,12 @@ impl Aim<'_> {
         let at = |ray: Spot| root.real.x + ray.x as f64 / ray.y as f64 * (line - root.real.y);
         let ends = window.rays.map(at);
         let height = (line - root.real.y).abs();
+        let straight = by_straight(&search.goal, root.real.x, height, line, ends);
         let beyond = match self {
-            Aim::Straight => by_straight(&search.goal, root.real.x, height, line, ends),
+            Aim::Straight => straight,
             Aim::Field(times, scale) => {
-                let far = |x: f64| (x - root.real.x).hypot(height) + scale * on_line(search.rows, times, window, x);
-                least(far, ends)
+                let far = |x: f64| norm(x - root.real.x, height) + scale * on_line(search.rows, times, window, x);
+                straight.max(least(far, ends))
             }
         };
         root.length + beyond
@@ -40,18 +33,26 @@ impl Aim<'_> {
 
     /// How far it is from a corner.
     pub fn from(&self, search: &Search, x: usize, y: usize) -> f64 {
+        let straight = norm(search.goal.real.x - x as f64, search.goal.real.y - y as f64);
         match self {
-            Aim::Straight => (search.goal.real.x - x as f64).hypot(search.goal.real.y - y as f64),
-            Aim::Field(times, scale) => {
-                let about = [(x - 1, y - 1), (x, y), (x - 1, y), (x, y - 1)];
-                let free = about.iter().filter(|(x, y)| search.rows.has(*x, *y));
-                let (sum, count) = free.fold((0.0, 0.0), |(sum, count), (x, y)| {
-                    (sum + times[search.rows.cell(*x, *y)], count + 1.0)
-                });
-                scale * sum / count
-            }
+            Aim::Straight => straight,
+            Aim::Field(times, scale) => straight.max(scale * about(search.rows, times, x, y)),
         }
     }
+}
+
+/// The square root of the squares' sum; coordinates of a map do not overflow.
+pub(super) fn norm(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+/// The time at a corner: the mean of those of the free cells about it.
+fn about(rows: &Rows, times: &[f64], x: usize, y: usize) -> f64 {
+    let cells = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
+    let free = cells.iter().filter(|(x, y)| rows.has(*x, *y));
+    let sum = free.map(|(x, y)| times[rows.cell(*x, *y)]).sum::<f64>();
+    // It is convex: one of the four is an obstacle.
+    sum / 3.0
 }
 
 /// From a root by a stretch of a line to the goal, which is seen in the line's mirror where it is on the root's side.
@@ -61,9 +62,9 @@ fn by_straight(goal: &Goal, root: f64, height: f64, line: f64, ends: [f64; 2]) -
     let crossing = root + (goal.real.x - root) * share;
     let through = crossing.clamp(ends[0], ends[1].max(ends[0]));
     if through == crossing {
-        (goal.real.x - root).hypot(height + depth)
+        norm(goal.real.x - root, height + depth)
     } else {
-        (through - root).hypot(height) + (goal.real.x - through).hypot(depth)
+        norm(through - root, height) + norm(goal.real.x - through, depth)
     }
 }
 

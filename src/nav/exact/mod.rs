@@ -25,6 +25,9 @@ use super::map::Map;
 use super::way::{Enclosure, Way};
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// By how much a field's times, made as long as a way is, may still be too long.
+const CAUTION: f64 = 0.98;
+
 /// A way, and what is proved of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shortest {
@@ -69,11 +72,8 @@ impl Map {
         if !is_reached && let Some(enclosure) = floor.enclosure(watch)? {
             return Ok(Err(enclosure));
         }
-        let guided = match (guide.field, scale) {
-            (Some(field), Some(scale)) if is_reached => floor.guided(field, scale, watch)?,
-            _ => None,
-        };
-        Ok(Ok(floor.proved(guided, guide.effort, watch)?))
+        let aims = guide.field.zip(scale).filter(|_| is_reached);
+        floor.shortest(aims.map(|(field, scale)| (field.times(), scale)), guide.effort, watch).map(Ok)
     }
 }
 
@@ -100,33 +100,42 @@ impl Floor<'_> {
         flood::enclosure(self.map, &self.rows, self.cells.map(|cell| self.rows.place(cell)), watch)
     }
 
-    /// A way that a field leads to. It is as good as the field: the search ends where times, which are too long by what the start's is, leave no shorter one.
-    fn guided(&self, field: &Field, scale: f64, watch: &Watch) -> Result<Option<(f64, Way)>> {
-        let told = field.times()[self.cells[0]] * scale;
-        let slack = |best: f64| best + (told - best).clamp(0.0, 0.01 * best) + 0.5;
-        let mut search = self.search(Aim::Field(field.times(), scale));
-        search.run(slack, None, watch)?;
-        Ok(search.best.0.is_finite().then(|| (search.best.0, self.way(&search))))
-    }
-
-    /// The shortest way, as far as the effort allows to prove it.
-    fn proved(&self, guided: Option<(f64, Way)>, effort: Option<usize>, watch: &Watch) -> Result<Shortest> {
-        let mut search = self.search(Aim::Straight);
-        let mut known = None;
-        if let Some((length, way)) = guided {
-            known = Some(way);
-            search.best.0 = search.best.0.min(length);
+    /// First a way that the times of a field lead to, then what the straight line to the goal leaves of shorter ones; where the effort does not last for that, once more by the times.
+    fn shortest(&self, times: Option<(&[f64], f64)>, effort: Option<usize>, watch: &Watch) -> Result<Shortest> {
+        let mut best = None;
+        if let Some((times, scale)) = times {
+            self.improve(&mut best, Aim::Field(times, scale), Some(0), watch)?;
         }
-        let end = search.run(|best| best * (1.0 - 1e-13), effort, watch)?;
-        let way = match known {
-            Some(way) if search.best.1 == NONE => way,
-            _ => self.way(&search),
-        };
+        let known = best.as_ref().map(|(length, _)| *length);
+        let end = self.improve(&mut best, Aim::Straight, effort, watch)?;
+        if let (Some((times, scale)), Some(length), End::Open(_)) = (times, known, &end) {
+            let told = times[self.cells[0]] * scale;
+            let less = CAUTION * (length / told).min(1.0);
+            self.improve(&mut best, Aim::Field(times, scale * less), effort, watch)?;
+        }
+        let Some((length, way)) = best else { unreachable!("cells that are connected have a way") };
         let bound = match end {
             End::Closed => way.length(),
-            End::Open(least) => (least * self.map.resolution() * (1.0 - 1e-12)).min(way.length()),
+            End::Open(least) => least.min(length) / length * way.length() * (1.0 - 1e-12),
         };
         Ok(Shortest { way, bound })
+    }
+
+    /// Looks for a way that is shorter than the best one, which is told with its length in cells.
+    fn improve(
+        &self,
+        best: &mut Option<(f64, Way)>,
+        aim: Aim,
+        effort: Option<usize>,
+        watch: &Watch,
+    ) -> Result<End> {
+        let mut search = self.search(aim);
+        search.best.0 = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length).min(search.best.0);
+        let end = search.run(effort, watch)?;
+        if search.best.1 != NONE {
+            *best = Some((search.best.0, self.way(&search)));
+        }
+        Ok(end)
     }
 
     /// A search that has looked about from the start.

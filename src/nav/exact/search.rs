@@ -98,6 +98,8 @@ pub(super) struct Search<'a> {
     /// By lattice point its root, nought where it is none.
     numbers: Vec<u32>,
     steps: Vec<Step>,
+    /// Steps that have been taken, whose places are free.
+    taken: Vec<u32>,
     /// By the bits of the least length that a way by it has: those of positive numbers have their order.
     queue: BinaryHeap<Reverse<(u64, u32)>>,
     fresh: Vec<Window>,
@@ -119,7 +121,7 @@ impl<'a> Search<'a> {
     pub fn new(rows: &'a Rows, plane: Plane, goal: Goal, aim: Aim<'a>) -> Self {
         let (numbers, queue) = (vec![0; rows.points()], BinaryHeap::new());
         let best = (f64::INFINITY, NONE);
-        Search { rows, plane, goal, aim, roots: vec![], numbers, steps: vec![], queue, fresh: vec![], best, count: 0 }
+        Search { rows, plane, goal, aim, roots: vec![], numbers, steps: vec![], taken: vec![], queue, fresh: vec![], best, count: 0 }
     }
 
     /// Looks about from a start in a cell.
@@ -129,12 +131,12 @@ impl<'a> Search<'a> {
         self.begin(cell);
     }
 
-    /// Takes the most promising step until none is below the best length and `slack`, or `effort` steps are taken.
-    pub fn run(&mut self, slack: impl Fn(f64) -> f64, effort: Option<usize>, watch: &Watch) -> Result<End> {
+    /// Takes the most promising step until none is below the best length, or `effort` steps are taken and a way is known.
+    pub fn run(&mut self, effort: Option<usize>, watch: &Watch) -> Result<End> {
         let mut checked = self.count;
         while let Some(Reverse((bits, step))) = self.queue.pop() {
             let least = f64::from_bits(bits);
-            if least >= slack(self.best.0) {
+            if least >= self.best.0 * (1.0 - SAME) {
                 return Ok(End::Closed);
             }
             if self.best.0.is_finite() && effort.is_some_and(|effort| self.count >= effort) {
@@ -145,6 +147,7 @@ impl<'a> Search<'a> {
                 watch.report("shortest way", self.count, self.queue.len());
                 watch.check()?;
             }
+            self.taken.push(step);
             match self.steps[step as usize] {
                 Step::Window(window) => self.enter(window),
                 Step::Turn(turn) => self.turn(&turn),
@@ -265,10 +268,15 @@ impl<'a> Search<'a> {
     }
 
     fn put(&mut self, least: f64, step: Step) {
-        if least < self.aim.limit(self.best.0) {
-            self.queue.push(Reverse((least.to_bits(), self.steps.len() as u32)));
-            self.steps.push(step);
+        if least >= self.best.0 {
+            return;
         }
+        let place = self.taken.pop().unwrap_or(self.steps.len() as u32);
+        match self.steps.get_mut(place as usize) {
+            Some(own) => *own = step,
+            None => self.steps.push(step),
+        }
+        self.queue.push(Reverse((least.to_bits(), place)));
     }
 
     /// A way from a root turns at a corner, `is_left` or right, where it came in a direction: worth a step where it is not longer than another one, nor seen by another one as short.
