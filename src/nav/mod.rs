@@ -8,6 +8,7 @@ mod grid;
 mod grow;
 mod map;
 mod marching;
+mod octile;
 mod read;
 mod shape;
 mod waves;

@@ -3,6 +3,7 @@
 mod exact;
 mod fields;
 mod maps;
+mod octile;
 
 use groebot::nav::{Cell, Map};
 

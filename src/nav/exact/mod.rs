@@ -18,7 +18,7 @@ use nalgebra::{Point2, Vector2};
 
 use self::aim::Aim;
 use self::plane::Plane;
-use self::rows::Rows;
+pub(super) use self::rows::Rows;
 use self::search::{End, Goal, NONE, Search};
 use super::field::Field;
 use super::map::Map;
@@ -69,7 +69,7 @@ impl Map {
         let scale = guide.field.map(|field| scale(self, field, cells[1])).transpose()?;
         let floor = Floor { map: self, rows: Rows::new(self), plane: Plane::new(self), ends: [*start, *goal], cells };
         let is_reached = guide.field.is_some_and(|field| field.times()[cells[0]].is_finite());
-        if !is_reached && let Some(enclosure) = floor.enclosure(watch)? {
+        if !is_reached && let Some(enclosure) = enclosure(self, &floor.rows, cells, watch)? {
             return Ok(Err(enclosure));
         }
         let aims = guide.field.zip(scale).filter(|_| is_reached);
@@ -86,6 +86,11 @@ fn scale(map: &Map, field: &Field, goal: usize) -> Result<f64> {
     Ok(1.0 / map.resolution())
 }
 
+/// The cells that enclose one of two cells against the other, where they are not connected.
+pub(super) fn enclosure(map: &Map, rows: &Rows, cells: [usize; 2], watch: &Watch) -> Result<Option<Enclosure>> {
+    flood::enclosure(map, rows, cells.map(|cell| rows.place(cell)), watch)
+}
+
 /// A map between whose places one goes.
 struct Floor<'a> {
     map: &'a Map,
@@ -96,10 +101,6 @@ struct Floor<'a> {
 }
 
 impl Floor<'_> {
-    fn enclosure(&self, watch: &Watch) -> Result<Option<Enclosure>> {
-        flood::enclosure(self.map, &self.rows, self.cells.map(|cell| self.rows.place(cell)), watch)
-    }
-
     /// First a way that the times of a field lead to, then what the straight line to the goal leaves of shorter ones; where the effort does not last for that, once more by the times.
     fn shortest(&self, times: Option<(&[f64], f64)>, effort: Option<usize>, watch: &Watch) -> Result<Shortest> {
         let mut best = None;

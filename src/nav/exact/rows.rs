@@ -118,11 +118,6 @@ impl Rows {
         if is_right { self.next(x, y, other) } else { self.after_last(x, y, other) }
     }
 
-    /// Whether it is a convex corner of an obstacle: of the four cells about it exactly one is not free.
-    pub fn is_corner(&self, x: usize, y: usize) -> bool {
-        [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)].into_iter().filter(|(x, y)| !self.has(*x, *y)).count() == 1
-    }
-
     /// The cells of the map whose bits are set, in order.
     pub fn cells(&self) -> Vec<usize> {
         let mut cells = Vec::new();
