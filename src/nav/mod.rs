@@ -2,16 +2,19 @@
 //!
 //! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
 
+mod exact;
 mod field;
 mod grid;
 mod grow;
 mod map;
 mod marching;
+mod octile;
 mod read;
 mod shape;
 mod waves;
 mod way;
 
+pub use exact::{Guide, Shortest};
 pub use field::{Field, Method};
 pub use map::{Cell, Map};
 pub use read::Meaning;

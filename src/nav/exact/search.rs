@@ -1,0 +1,311 @@
+//! The search for a shortest way over windows. Main type: [`Search`].
+//!
+//! A window is a stretch of a lattice line that a root sees; through it one enters a row. Where its end is a convex corner, a way may turn there, and the corner becomes a root.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use nalgebra::Point2;
+
+use super::aim::Aim;
+use super::plane::{Plane, Spot};
+use super::rows::Rows;
+use crate::{Result, Watch};
+
+/// Two lengths that differ by less, in parts of themselves, are one.
+const SAME: f64 = 1e-12;
+/// No root.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A start or a corner, and how one gets there.
+pub(super) struct Root {
+    pub spot: Spot,
+    pub real: Point2<f64>,
+    /// How far it is from the start, in cells.
+    pub length: f64,
+    pub before: u32,
+    /// In which direction a way of that length came that turned to the left there, and to the right.
+    turns: [Option<Spot>; 2],
+}
+
+/// From which root one goes up or down into which row.
+#[derive(Clone, Copy)]
+pub(super) struct View {
+    pub root: u32,
+    pub row: u32,
+    pub is_up: bool,
+    /// The root's length when it looked.
+    pub length: f64,
+}
+
+impl View {
+    /// The height of the lattice line by which the row is entered.
+    pub fn line(&self) -> usize {
+        self.row as usize + usize::from(!self.is_up)
+    }
+
+    /// Above nought where `other` has a greater x than the ray has beside it, below for a lesser one; both begin at the root.
+    #[inline]
+    pub fn side(&self, ray: Spot, other: Spot) -> i128 {
+        if self.is_up { -ray.cross(other) } else { ray.cross(other) }
+    }
+}
+
+/// Between which rays one looks, from the root; nothing where only walls are in the way.
+pub(super) type Rays = [Option<Spot>; 2];
+
+/// A stretch of the line by which a view enters its row.
+#[derive(Clone, Copy)]
+pub(super) struct Window {
+    pub view: View,
+    /// The rays to its ends, the one of the lesser x first.
+    pub rays: [Spot; 2],
+    /// The opening that it is part of: cells from one to below the other are free on both sides of the line.
+    pub opening: (u32, u32),
+}
+
+/// What a way does at a corner: it looks between two rays, and it follows the line to the left or to the right.
+#[derive(Clone, Copy)]
+pub(super) struct Turn {
+    pub view: View,
+    pub rays: Rays,
+    /// A cell of the row that touches the corner.
+    pub cell: u32,
+    pub follows: Option<bool>,
+}
+
+#[derive(Clone, Copy)]
+enum Step {
+    Window(Window),
+    Turn(Turn),
+}
+
+/// A goal: its cell and where it is.
+#[derive(Clone, Copy)]
+pub(super) struct Goal {
+    pub cell: (usize, usize),
+    pub spot: Spot,
+    pub real: Point2<f64>,
+}
+
+/// A search from one start to one goal.
+pub(super) struct Search<'a> {
+    pub rows: &'a Rows,
+    pub plane: Plane,
+    pub goal: Goal,
+    aim: Aim<'a>,
+    pub roots: Vec<Root>,
+    /// By lattice point its root, nought where it is none.
+    numbers: Vec<u32>,
+    steps: Vec<Step>,
+    /// Steps that have been taken, whose places are free.
+    taken: Vec<u32>,
+    /// By the bits of the least length that a way by it has: those of positive numbers have their order.
+    queue: BinaryHeap<Reverse<(u64, u32)>>,
+    fresh: Vec<Window>,
+    /// The shortest way that is known: its length and its last root.
+    pub best: (f64, u32),
+    /// Steps that have been taken.
+    pub count: usize,
+}
+
+/// How a search ended.
+pub(super) enum End {
+    /// Nothing below the limit is left.
+    Closed,
+    /// The effort is spent; no way that is not known is shorter than this.
+    Open(f64),
+}
+
+impl<'a> Search<'a> {
+    pub fn new(rows: &'a Rows, plane: Plane, goal: Goal, aim: Aim<'a>) -> Self {
+        let (numbers, queue) = (vec![0; rows.points()], BinaryHeap::new());
+        let best = (f64::INFINITY, NONE);
+        Search { rows, plane, goal, aim, roots: vec![], numbers, steps: vec![], taken: vec![], queue, fresh: vec![], best, count: 0 }
+    }
+
+    /// Looks about from a start in a cell.
+    pub fn start(&mut self, real: Point2<f64>, cell: (usize, usize)) {
+        let spot = self.plane.spot(&real, cell);
+        self.roots.push(Root { spot, real, length: 0.0, before: NONE, turns: [None; 2] });
+        self.begin(cell);
+    }
+
+    /// Takes the most promising step until none is below the best length, or `effort` steps are taken and a way is known.
+    pub fn run(&mut self, effort: Option<usize>, watch: &Watch) -> Result<End> {
+        let mut checked = self.count;
+        while let Some(Reverse((bits, step))) = self.queue.pop() {
+            let least = f64::from_bits(bits);
+            if least >= self.best.0 * (1.0 - SAME) {
+                return Ok(End::Closed);
+            }
+            if self.best.0.is_finite() && effort.is_some_and(|effort| self.count >= effort) {
+                return Ok(End::Open(least));
+            }
+            if self.count >= checked + 1024 {
+                checked = self.count;
+                watch.report("shortest way", self.count, self.queue.len());
+                watch.check()?;
+            }
+            self.taken.push(step);
+            match self.steps[step as usize] {
+                Step::Window(window) => self.enter(window),
+                Step::Turn(turn) => self.turn(&turn),
+            }
+        }
+        Ok(End::Closed)
+    }
+
+    /// Into the row behind a window, and on while there is but one way.
+    fn enter(&mut self, mut window: Window) {
+        loop {
+            self.count += 1;
+            if self.is_overtaken(&window.view) {
+                return;
+            }
+            let run = self.rows.run(window.opening.0 as usize, window.view.row as usize);
+            self.corners(&window);
+            self.spread(&window.view, window.rays.map(Some), run);
+            let least = self.queue.peek().map_or(f64::INFINITY, |Reverse((bits, _))| f64::from_bits(*bits));
+            match self.fresh[..] {
+                [only] if self.aim.through(self, &only) <= least.min(self.best.0) => window = only,
+                _ => return self.queue_fresh(),
+            }
+        }
+    }
+
+    /// On from a corner.
+    fn turn(&mut self, turn: &Turn) {
+        self.count += 1;
+        if self.is_overtaken(&turn.view) {
+            return;
+        }
+        self.look(&turn.view, turn.rays, turn.cell as usize);
+        if let Some(is_right) = turn.follows {
+            let corner = self.plane.floor(self.roots[turn.view.root as usize].spot);
+            self.walk(turn.view.root, corner, is_right, [true; 2]);
+        }
+    }
+
+    /// Whether a shorter way to the root has been found since.
+    fn is_overtaken(&self, view: &View) -> bool {
+        view.length > self.roots[view.root as usize].length * (1.0 + SAME)
+    }
+
+    /// All windows that a root at the border of a row, or inside of it, sees there.
+    pub fn look(&mut self, view: &View, rays: Rays, cell: usize) {
+        let run = self.rows.run(cell, view.row as usize);
+        self.spread(view, rays, run);
+        self.queue_fresh();
+    }
+
+    /// The windows through which one leaves a run of a row, as fresh ones; the goal where it is seen in the run.
+    fn spread(&mut self, view: &View, rays: Rays, run: (usize, usize)) {
+        self.fresh.clear();
+        if self.goal.cell.1 == view.row as usize && (run.0..run.1).contains(&self.goal.cell.0) {
+            self.see_goal(view, rays);
+        }
+        let root = self.roots[view.root as usize].spot;
+        let next = if view.is_up { view.row + 1 } else { view.row - 1 };
+        let behind = View { row: next, ..*view };
+        let from = |x: usize| self.plane.lattice(x, behind.line()).from(root);
+        let (mut x, end) = self.reach(&behind, rays, run);
+        loop {
+            let first = self.rows.next(x, next as usize, true);
+            if first >= end {
+                return;
+            }
+            let last = self.rows.next(first, next as usize, false).min(end);
+            let ends = [from(first), from(last)];
+            let is_left = |ray: Option<Spot>, end: Spot| ray.is_some_and(|ray| view.side(ray, end) < 0);
+            let is_right = |ray: Option<Spot>, end: Spot| ray.is_some_and(|ray| view.side(ray, end) > 0);
+            if is_right(rays[1], ends[0]) {
+                return;
+            }
+            if !is_left(rays[0], ends[1]) {
+                let low = rays[0].filter(|_| is_left(rays[0], ends[0])).unwrap_or(ends[0]);
+                let high = rays[1].filter(|_| is_right(rays[1], ends[1])).unwrap_or(ends[1]);
+                let opening = (first as u32, last as u32);
+                self.fresh.push(Window { view: behind, rays: [low, high], opening });
+            }
+            x = last;
+        }
+    }
+
+    /// The part of a run beside which rays meet the line behind it, a cell more than that on both sides.
+    fn reach(&self, behind: &View, rays: Rays, run: (usize, usize)) -> (usize, usize) {
+        let root = &self.roots[behind.root as usize].real;
+        let at = |ray: Spot| root.x + ray.x as f64 / ray.y as f64 * (behind.line() as f64 - root.y);
+        let low = rays[0].map_or(0.0, |ray| at(ray).floor() - 1.0).max(run.0 as f64);
+        let high = rays[1].map_or(f64::INFINITY, |ray| at(ray).ceil() + 1.0).min(run.1 as f64);
+        (low as usize, high.max(0.0) as usize)
+    }
+
+    fn see_goal(&mut self, view: &View, rays: Rays) {
+        let away = self.goal.spot.from(self.roots[view.root as usize].spot);
+        let is_seen = rays[0].is_none_or(|ray| view.side(ray, away) >= 0)
+            && rays[1].is_none_or(|ray| view.side(ray, away) <= 0);
+        if is_seen {
+            self.reach_goal(view.root);
+        }
+    }
+
+    /// The goal is reached from a root that sees it.
+    pub fn reach_goal(&mut self, root: u32) {
+        let own = &self.roots[root as usize];
+        let length = own.length + (self.goal.real - own.real).norm();
+        if length < self.best.0 {
+            self.best = (length, root);
+        }
+    }
+
+    fn queue_fresh(&mut self) {
+        for place in 0..self.fresh.len() {
+            let window = self.fresh[place];
+            let least = self.aim.through(self, &window);
+            self.put(least, Step::Window(window));
+        }
+    }
+
+    fn put(&mut self, least: f64, step: Step) {
+        if least >= self.best.0 {
+            return;
+        }
+        let place = self.taken.pop().unwrap_or(self.steps.len() as u32);
+        match self.steps.get_mut(place as usize) {
+            Some(own) => *own = step,
+            None => self.steps.push(step),
+        }
+        self.queue.push(Reverse((least.to_bits(), place)));
+    }
+
+    /// A way from a root turns at a corner, `is_left` or right, where it came in a direction: worth a step where it is not longer than another one, nor seen by another one as short.
+    pub fn turn_at(&mut self, from: u32, (x, y): (usize, usize), is_left: bool, turn: Turn) {
+        let before = &self.roots[from as usize];
+        let spot = self.plane.lattice(x, y);
+        let real = Point2::new(x as f64, y as f64);
+        let (length, came) = (before.length + (real - before.real).norm(), spot.from(before.spot));
+        let point = self.rows.point(x, y);
+        if self.numbers[point] == 0 {
+            self.numbers[point] = self.roots.len() as u32;
+            self.roots.push(Root { spot, real, length, before: from, turns: [None; 2] });
+        }
+        let number = self.numbers[point];
+        let own = &mut self.roots[number as usize];
+        if length > own.length * (1.0 + SAME) {
+            return;
+        }
+        if length < own.length * (1.0 - SAME) {
+            (own.length, own.before, own.turns) = (length, from, [None; 2]);
+        }
+        // From farther outside one sees more.
+        let is_wider = |known: Spot| if is_left { came.cross(known) > 0 } else { came.cross(known) < 0 };
+        let known = &mut own.turns[usize::from(!is_left)];
+        if known.is_none_or(is_wider) {
+            *known = Some(came);
+            let turn = Turn { view: View { root: number, length: own.length, ..turn.view }, ..turn };
+            let least = length + self.aim.from(self, x, y);
+            self.put(least, Step::Turn(turn));
+        }
+    }
+}
