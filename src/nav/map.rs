@@ -163,6 +163,11 @@ impl Map {
         self.resolution
     }
 
+    /// How its rows are turned anticlockwise \[rad\].
+    pub fn yaw(&self) -> f64 {
+        self.yaw
+    }
+
     /// The cells, by rows from the lowest one.
     pub fn cells(&self) -> &[Cell] {
         &self.cells

@@ -9,8 +9,11 @@ mod grow;
 mod map;
 mod marching;
 mod octile;
+mod png;
 mod read;
+mod room;
 mod shape;
+mod sweep;
 mod waves;
 mod way;
 
@@ -18,5 +21,6 @@ pub use exact::{Guide, Shortest};
 pub use field::{Field, Method};
 pub use map::{Cell, Map};
 pub use read::Meaning;
+pub use room::{Piece, Room};
 pub use shape::Shape;
 pub use way::{Enclosure, Way};

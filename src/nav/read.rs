@@ -1,16 +1,17 @@
-//! Maps from files: ROS' `map_server` pairs of YAML and PGM, and rows of characters.
+//! Maps from files: ROS' `map_server` pairs of YAML and image, and rows of characters.
 
 use std::path::Path;
 
 use nalgebra::Point2;
 
 use super::map::{Cell, Map};
-use crate::document::{read_text, shown};
+use super::room::Room;
+use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::{Error, ErrorKind, Result};
 
 /// The longest description of an image, in bytes.
 const DESCRIPTION_LIMIT: u64 = 100_000;
-/// The longest text, in bytes.
+/// The longest image or text, in bytes.
 const IMAGE_LIMIT: u64 = 1 << 30;
 
 /// What an image's values mean, as `map_server` has it.
@@ -32,7 +33,7 @@ impl Meaning {
         Meaning { resolution, origin: [0.0; 3], negate: false, thresholds: [0.65, 0.196] }
     }
 
-    fn cell(&self, value: u32, most: u32) -> Cell {
+    pub(super) fn cell(&self, value: u32, most: u32) -> Cell {
         let share = f64::from(value) / f64::from(most);
         let black = if self.negate { share } else { 1.0 - share };
         match black {
@@ -44,24 +45,32 @@ impl Meaning {
 }
 
 impl Map {
-    /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` with pixels of this side \[m\], or text (`.txt`, `.map`) with such cells.
+    /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` or `.png` with pixels of this side \[m\], text (`.txt`, `.map`) with such cells, or a [`Room`] (`.toml`).
     ///
     /// # Errors
-    /// [`ErrorKind::Io`], [`ErrorKind::Unsupported`] for another ending, and those of [`Map::from_pgm`], [`Map::from_text`]; all with the file.
+    /// [`ErrorKind::Io`], [`ErrorKind::Unsupported`] for another ending, and those of [`Map::from_pgm`], [`Map::from_png`], [`Map::from_text`], [`Room::from_toml`] and [`Room::map`];
+    /// all with the file.
     pub fn read(path: &Path, resolution: f64) -> Result<Self> {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase();
-        let map = match ending.as_str() {
+        let map = match ending(path).as_str() {
             "yaml" | "yml" => {
                 let (image, meaning) =
                     description(&read_text(path, DESCRIPTION_LIMIT)?).map_err(|e| e.in_file(path))?;
                 let image = path.parent().unwrap_or(Path::new("")).join(image);
-                return Map::from_pgm(&bytes(&image)?, &meaning).map_err(|e| e.in_file(&image));
+                return Map::from_image(&image, &meaning).map_err(|e| e.in_file(&image));
             }
-            "pgm" => Map::from_pgm(&bytes(path)?, &Meaning::new(resolution)),
             "txt" | "map" => Map::from_text(&read_text(path, IMAGE_LIMIT)?, resolution),
-            _ => Err(Error::new(ErrorKind::Unsupported, "a map is a .yaml, .pgm, .txt or .map")),
+            "toml" => Room::from_toml(&read_text(path, TEXT_LIMIT)?).and_then(|room| room.map()),
+            _ => Map::from_image(path, &Meaning::new(resolution)),
         };
         map.map_err(|error| error.in_file(path))
+    }
+
+    fn from_image(path: &Path, meaning: &Meaning) -> Result<Self> {
+        match ending(path).as_str() {
+            "pgm" => Map::from_pgm(&bytes(path)?, meaning),
+            "png" => Map::from_png(&bytes(path)?, meaning),
+            _ => Err(Error::new(ErrorKind::Unsupported, "a map is a .yaml, .pgm, .png, .txt, .map or .toml")),
+        }
     }
 
     /// The map that a PGM image holds, plain (P2) or not (P5).
@@ -144,8 +153,19 @@ impl Map {
     }
 }
 
+/// How a name ends.
+fn ending(path: &Path) -> String {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
 fn bytes(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|error| Error::io(path, &error))
+    let io = |error: std::io::Error| Error::io(path, &error);
+    let length = std::fs::metadata(path).map_err(io)?.len();
+    if length > IMAGE_LIMIT {
+        let text = format!("{length} bytes are too many; a map has at most {IMAGE_LIMIT}");
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    std::fs::read(path).map_err(io)
 }
 
 /// Words of an image's head, and remarks between them.

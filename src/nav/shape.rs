@@ -19,6 +19,9 @@ pub enum Shape {
     Polygon(Vec<Point2<f64>>),
 }
 
+/// A shape that is less deep in a cell does not touch it, in cells: rounding is less, and nothing is measured so well.
+const DUST: f64 = 1e-9;
+
 impl Shape {
     /// A box: its middle, how long it is ahead and how wide, and how it is turned anticlockwise \[m, rad\].
     pub fn rectangle(centre: Point2<f64>, length: f64, width: f64, yaw: f64) -> Self {
@@ -98,11 +101,11 @@ impl Shape {
         corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
     }
 
-    /// Whether it has points inside of the unit square with this lower left corner.
+    /// Whether it has points inside of the unit square with this lower left corner, farther than dust from its sides.
     pub(super) fn touches(&self, corner: &Point2<f64>) -> bool {
         match self {
             Shape::Circle { centre, radius } => {
-                let near = |value: f64, low: f64| value.clamp(low, low + 1.0);
+                let near = |value: f64, low: f64| value.clamp(low + DUST, low + 1.0 - DUST);
                 let nearest = Point2::new(near(centre.x, corner.x), near(centre.y, corner.y));
                 (nearest - centre).norm_squared() < radius * radius
             }
@@ -113,19 +116,19 @@ impl Shape {
     }
 }
 
-/// Whether a side has points strictly inside of the unit square with this lower left corner (W. Liang and B. Barsky, ACM Transactions on Graphics 3, 1984).
+/// Whether a side has points inside of the unit square with this lower left corner, farther than dust from its sides (W. Liang and B. Barsky, ACM Transactions on Graphics 3, 1984).
 fn enters((a, b): (Point2<f64>, Point2<f64>), corner: &Point2<f64>) -> bool {
     let way = b - a;
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (axis, low) in [(0, corner.x), (1, corner.y)] {
-        let (from, along) = (a[axis] - low, way[axis]);
+        let (from, along, size) = (a[axis] - low - DUST, way[axis], 1.0 - 2.0 * DUST);
         if along == 0.0 {
-            if from <= 0.0 || from >= 1.0 {
+            if from <= 0.0 || from >= size {
                 return false;
             }
             continue;
         }
-        let (into, out) = (-from / along, (1.0 - from) / along);
+        let (into, out) = (-from / along, (size - from) / along);
         (first, last) = (first.max(into.min(out)), last.min(into.max(out)));
     }
     first < last

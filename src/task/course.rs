@@ -7,7 +7,7 @@ use nalgebra::Point2;
 use super::floor::Floor;
 use super::pilot::Pilot;
 use crate::gait::Footprint;
-use crate::nav::{self, Enclosure, Field, Map, Way};
+use crate::nav::{self, Enclosure, Field, Guide, Map, Way};
 use crate::{ErrorKind, Result, Watch};
 
 /// How the way is found.
@@ -101,11 +101,12 @@ fn way(
     method: Method,
     watch: &Watch,
 ) -> Result<std::result::Result<Way, Enclosure>> {
-    let down = |method: nav::Method| -> Result<std::result::Result<Way, Enclosure>> {
-        Field::new(map, &[*goal], method, watch)?.descend(map, start)
-    };
+    let down = |method: nav::Method| Field::new(map, &[*goal], method, watch)?.descend(map, start);
     match method {
-        Method::Exact => down(nav::Method::FastMarching(2)),
+        Method::Exact => {
+            let found = map.shortest_way(start, goal, &Guide::default(), watch)?;
+            Ok(found.map(|shortest| shortest.way))
+        }
         Method::FastMarching => down(nav::Method::FastMarching(1)),
         Method::M3r => down(nav::Method::M3r),
     }

@@ -17,7 +17,7 @@ const MOST: (f64, f64) = (WIDTH - LEFT - 24.0, 900.0);
 const TOP: f64 = 60.0;
 
 const STYLE: &str = "<style>
-.wall { fill: #555 } .near { fill: #e4dccf } .unseen { fill: #bbb }
+.wall { fill: #555; stroke: #555; stroke-width: 0.6 } .near { fill: #e4dccf; stroke: #e4dccf; stroke-width: 0.6 }
 .way { stroke: #2a7d46; stroke-width: 2; stroke-dasharray: 7 4 } .body { fill: none; stroke: #999; stroke-width: 0.8 }
 .goal { fill: #2a7d46 }
 </style>";
@@ -70,7 +70,6 @@ impl Plan {
     fn draw_walk(&self, pilot: &Pilot, frame: &Frame, svg: &mut Svg) {
         let line =
             |points: &mut dyn Iterator<Item = Point2<f64>>| points.map(|at| page(frame, &at)).collect::<Vec<_>>();
-        svg.line("way", line(&mut self.course.way.points.iter().copied()));
         let (biped, route) = (&pilot.walker().biped, &self.walk.schedule.route);
         let rests = route.rests.iter().map(|rest| pilot.outline_at(rest));
         for outline in rests {
@@ -83,6 +82,7 @@ impl Plan {
             let sole = biped.sole_at(side, &print);
             svg.polygon(side.name(), 1.0, line(&mut sole.corners().iter().copied()));
         }
+        svg.line("way", line(&mut self.course.way.points.iter().copied()));
         svg.line("com", line(&mut self.walk.motion.centres.iter().map(|centre| centre.xy())));
         let (x, y) = page(frame, &self.course.goal.place);
         svg.add(format_args!(r#"<circle class="goal" cx="{x:.1}" cy="{y:.1}" r="4"/>"#));

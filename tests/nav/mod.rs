@@ -4,6 +4,7 @@ mod exact;
 mod fields;
 mod maps;
 mod octile;
+mod rooms;
 
 use groebot::nav::{Cell, Map};
 

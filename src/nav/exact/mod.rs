@@ -123,13 +123,7 @@ impl Floor<'_> {
     }
 
     /// Looks for a way that is shorter than the best one, which is told with its length in cells.
-    fn improve(
-        &self,
-        best: &mut Option<(f64, Way)>,
-        aim: Aim,
-        effort: Option<usize>,
-        watch: &Watch,
-    ) -> Result<End> {
+    fn improve(&self, best: &mut Option<(f64, Way)>, aim: Aim, effort: Option<usize>, watch: &Watch) -> Result<End> {
         let mut search = self.search(aim);
         search.best.0 = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length).min(search.best.0);
         let end = search.run(effort, watch)?;

@@ -121,7 +121,20 @@ impl<'a> Search<'a> {
     pub fn new(rows: &'a Rows, plane: Plane, goal: Goal, aim: Aim<'a>) -> Self {
         let (numbers, queue) = (vec![0; rows.points()], BinaryHeap::new());
         let best = (f64::INFINITY, NONE);
-        Search { rows, plane, goal, aim, roots: vec![], numbers, steps: vec![], taken: vec![], queue, fresh: vec![], best, count: 0 }
+        Search {
+            rows,
+            plane,
+            goal,
+            aim,
+            roots: vec![],
+            numbers,
+            steps: vec![],
+            taken: vec![],
+            queue,
+            fresh: vec![],
+            best,
+            count: 0,
+        }
     }
 
     /// Looks about from a start in a cell.
@@ -243,8 +256,8 @@ impl<'a> Search<'a> {
 
     fn see_goal(&mut self, view: &View, rays: Rays) {
         let away = self.goal.spot.from(self.roots[view.root as usize].spot);
-        let is_seen = rays[0].is_none_or(|ray| view.side(ray, away) >= 0)
-            && rays[1].is_none_or(|ray| view.side(ray, away) <= 0);
+        let is_seen =
+            rays[0].is_none_or(|ray| view.side(ray, away) >= 0) && rays[1].is_none_or(|ray| view.side(ray, away) <= 0);
         if is_seen {
             self.reach_goal(view.root);
         }
