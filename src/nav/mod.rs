@@ -3,6 +3,7 @@
 //! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
 
 mod field;
+mod front;
 mod grid;
 mod grow;
 mod map;
@@ -13,6 +14,7 @@ mod waves;
 mod way;
 
 pub use field::{Field, Method};
+pub use grid::Window;
 pub use map::{Cell, Map};
 pub use read::Meaning;
 pub use shape::Shape;
