@@ -7,7 +7,7 @@ use super::grid::Grid;
 use crate::{Result, Watch};
 
 /// The share of the least cost that a level of trial values is wide.
-const WIDTH: f64 = 0.5;
+const WIDTH: f64 = 0.25;
 /// The most levels.
 const LEVELS: f64 = 4096.0;
 
@@ -39,6 +39,20 @@ impl Rule for Eikonal {
         // (T - a)^2 + (T - b)^2 = cost^2; with one neighbour alone where the other one is farther than that.
         let apart = lesser((along - across).abs(), cost);
         lesser(along, across) + 0.5 * (apart + (2.0 * cost * cost - apart * apart).sqrt())
+    }
+}
+
+/// A rule under which some places keep their times.
+pub(super) struct Held<R> {
+    pub rule: R,
+    /// By place.
+    pub is_held: Vec<bool>,
+}
+
+impl<R: Rule> Rule for Held<R> {
+    #[inline]
+    fn arrival(&self, grid: &Grid, times: &[f64], place: usize) -> f64 {
+        if self.is_held[place] { f64::INFINITY } else { self.rule.arrival(grid, times, place) }
     }
 }
 

@@ -26,6 +26,25 @@ impl Window {
         Window { columns: range(cell % map.columns(), map.columns()), rows: range(cell / map.columns(), map.rows()) }
     }
 
+    /// Whether a cell of a map is in it.
+    pub fn holds(&self, map: &Map, cell: usize) -> bool {
+        self.columns.contains(&(cell % map.columns())) && self.rows.contains(&(cell / map.columns()))
+    }
+
+    /// Its outermost cells, by column and row; those in a corner twice.
+    pub(super) fn rim(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let sides = [self.columns.start, self.columns.end - 1];
+        let ends = [self.rows.start, self.rows.end - 1];
+        let along = self.rows.clone().flat_map(move |row| sides.map(|column| (column, row)));
+        along.chain(self.columns.clone().flat_map(move |column| ends.map(|row| (column, row))))
+    }
+
+    /// The cells of a map that are next to it.
+    pub(super) fn beside<'a>(&'a self, map: &'a Map) -> impl Iterator<Item = usize> + 'a {
+        let outside = |cell: &usize| !self.holds(map, *cell);
+        self.rim().flat_map(|(column, row)| map.beside(row * map.columns() + column)).filter(outside)
+    }
+
     /// Whether it is one of a map.
     pub(super) fn check(&self, map: &Map) -> Result<()> {
         let is_in = |range: &Range<usize>, most: usize| range.start < range.end && range.end <= most;
@@ -72,9 +91,10 @@ impl Costs {
     pub fn range(&self) -> (f64, f64) {
         match self {
             Costs::Even(cost) => (*cost, *cost),
-            Costs::Own(costs) => costs.iter().filter(|cost| **cost > 0.0).fold((f64::INFINITY, 0.0), |(least, most), cost| {
-                (cost.min(least), cost.max(most))
-            }),
+            Costs::Own(costs) => costs
+                .iter()
+                .filter(|cost| **cost > 0.0)
+                .fold((f64::INFINITY, 0.0), |(least, most), cost| (cost.min(least), cost.max(most))),
         }
     }
 }
@@ -117,6 +137,31 @@ impl Grid {
     pub fn place(&self, cell: usize) -> usize {
         let (column, row) = (cell % self.columns, cell / self.columns);
         (row + 1 - self.window.rows.start) * self.stride + column + 1 - self.window.columns.start
+    }
+
+    /// How many places there are, the border's among them.
+    pub fn places(&self) -> usize {
+        self.stride * (self.window.rows.len() + 2)
+    }
+
+    /// The places of each row, without the border.
+    pub fn rows(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        (1..=self.window.rows.len()).map(|row| row * self.stride + 1..(row + 1) * self.stride - 1)
+    }
+
+    /// The places of the border.
+    pub fn border(&self) -> impl Iterator<Item = usize> + '_ {
+        let last = self.places() - self.stride;
+        let sides = (0..self.places()).step_by(self.stride).flat_map(|first| [first, first + self.stride - 1]);
+        sides.chain(0..self.stride).chain(last..last + self.stride)
+    }
+
+    /// Gives places that have not been reached what is known of the cells of the whole map.
+    pub fn fill(&self, times: &mut [f64], known: &[f64]) {
+        for (places, known) in self.rows().zip(known.chunks_exact(self.columns)) {
+            let open = times[places].iter_mut().zip(known).filter(|(time, _)| **time == f64::INFINITY);
+            open.for_each(|(time, known)| *time = *known);
+        }
     }
 
     /// The cells of the map in the window.

@@ -2,6 +2,7 @@
 //!
 //! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
 
+mod again;
 mod field;
 mod front;
 mod grid;
@@ -13,6 +14,7 @@ mod shape;
 mod waves;
 mod way;
 
+pub use again::Again;
 pub use field::{Field, Method};
 pub use grid::Window;
 pub use map::{Cell, Map};
