@@ -3,6 +3,7 @@
 mod again;
 mod fields;
 mod maps;
+mod thesis;
 
 use groebot::nav::{Cell, Map};
 
