@@ -2,7 +2,8 @@
 
 use nalgebra::Point2;
 
-use super::grid::Grid;
+use super::front::{Along, Eikonal, march};
+use super::grid::{Grid, Window};
 use super::map::Map;
 use super::{marching, waves};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -20,10 +21,10 @@ pub enum Method {
 /// The time of arrival T, RH0 (4-8), by cell: from its middle to the nearest goal, where one gets on with the map's speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    method: Method,
-    columns: usize,
-    goals: Vec<usize>,
-    times: Vec<f64>,
+    pub(super) method: Method,
+    pub(super) columns: usize,
+    pub(super) goals: Vec<usize>,
+    pub(super) times: Vec<f64>,
 }
 
 impl Field {
@@ -32,18 +33,17 @@ impl Field {
     /// # Errors
     /// [`ErrorKind::BadValue`] for no goals, a goal that is not free ([`Map::free_cell_at`]), another order than 1 and 2; [`Watch::check`].
     pub fn new(map: &Map, goals: &[Point2<f64>], method: Method, watch: &Watch) -> Result<Self> {
-        let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
         let goals: Vec<usize> = goals.iter().map(|goal| map.free_cell_at(goal)).collect::<Result<_>>()?;
+        let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
         if goals.is_empty() {
             return bad("a field has at least one goal");
         }
-        let grid = Grid::new(map);
         let times = match method {
-            Method::M3r => waves::arrivals(&grid, &goals, watch)?,
-            Method::FastMarching(order @ 1..=2) => marching::arrivals(&grid, &goals, order == 2, watch)?,
+            Method::M3r if map.speeds().is_none() => waves::arrivals(map, &goals, map.resolution(), watch)?,
+            Method::M3r | Method::FastMarching(1 | 2) => marched(map, &goals, method, watch)?,
             Method::FastMarching(_) => return bad("fast marching has order 1 or 2"),
         };
-        Ok(Field { method, columns: map.columns(), goals, times: grid.without_border(&times) })
+        Ok(Field { method, columns: map.columns(), goals, times })
     }
 
     /// How it was made.
@@ -65,4 +65,18 @@ impl Field {
     pub fn columns(&self) -> usize {
         self.columns
     }
+}
+
+/// T by cell, by a front that marches.
+fn marched(map: &Map, goals: &[usize], method: Method, watch: &Watch) -> Result<Vec<f64>> {
+    let grid = Grid::new(map, Window::of(map));
+    let mut times = grid.untouched(map);
+    let places: Vec<usize> = goals.iter().map(|goal| grid.place(*goal)).collect();
+    places.iter().for_each(|place| times[*place] = 0.0);
+    match method {
+        Method::M3r => march(&grid, &Along, &mut times, &places, watch).map(drop)?,
+        Method::FastMarching(1) => march(&grid, &Eikonal, &mut times, &places, watch).map(drop)?,
+        Method::FastMarching(_) => times = marching::arrivals(&grid, times, &places, watch)?,
+    }
+    Ok(grid.without_border(times))
 }

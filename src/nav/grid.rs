@@ -1,16 +1,73 @@
-//! A map as fields march over it. Main type: [`Grid`].
+//! A map as fields march over it. Main types: [`Grid`], [`Window`].
+
+use std::ops::Range;
 
 use super::map::{Cell, Map};
+use crate::{Error, ErrorKind, Result};
 
-/// A map with a border of obstacles, so that each cell has four neighbours.
+/// A rectangle of a map's cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Its columns.
+    pub columns: Range<usize>,
+    /// Its rows.
+    pub rows: Range<usize>,
+}
+
+impl Window {
+    /// All of a map.
+    pub fn of(map: &Map) -> Self {
+        Window { columns: 0..map.columns(), rows: 0..map.rows() }
+    }
+
+    /// So many cells to each side of a cell, as far as they are on the map.
+    pub fn around(map: &Map, cell: usize, reach: usize) -> Self {
+        let range = |middle: usize, most: usize| middle.saturating_sub(reach)..(middle + reach + 1).min(most);
+        Window { columns: range(cell % map.columns(), map.columns()), rows: range(cell / map.columns(), map.rows()) }
+    }
+
+    /// Whether a cell of a map is in it.
+    pub fn holds(&self, map: &Map, cell: usize) -> bool {
+        self.columns.contains(&(cell % map.columns())) && self.rows.contains(&(cell / map.columns()))
+    }
+
+    /// Its outermost cells, by column and row; those in a corner twice.
+    pub(super) fn rim(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let sides = [self.columns.start, self.columns.end - 1];
+        let ends = [self.rows.start, self.rows.end - 1];
+        let along = self.rows.clone().flat_map(move |row| sides.map(|column| (column, row)));
+        along.chain(self.columns.clone().flat_map(move |column| ends.map(|row| (column, row))))
+    }
+
+    /// The cells of a map that are next to it.
+    pub(super) fn beside<'a>(&'a self, map: &'a Map) -> impl Iterator<Item = usize> + 'a {
+        let outside = |cell: &usize| !self.holds(map, *cell);
+        self.rim().flat_map(|(column, row)| map.beside(row * map.columns() + column)).filter(outside)
+    }
+
+    /// Whether it is one of a map.
+    pub(super) fn check(&self, map: &Map) -> Result<()> {
+        let is_in = |range: &Range<usize>, most: usize| range.start < range.end && range.end <= most;
+        if is_in(&self.columns, map.columns()) && is_in(&self.rows, map.rows()) {
+            return Ok(());
+        }
+        let (columns, rows) = (map.columns(), map.rows());
+        let text = format!(
+            "columns {:?}, rows {:?}: give ranges that are not empty within 0..{columns} and 0..{rows}",
+            self.columns, self.rows
+        );
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+}
+
+/// Cells with a border around them, so that each has four neighbours.
 pub(super) struct Grid {
     /// From a cell to the one above it.
     pub stride: usize,
-    columns: usize,
-    /// What it takes to cross a cell, `G / F`; infinite where nobody goes.
+    /// What it takes to cross a cell, `G / F`.
     pub costs: Costs,
-    /// Where nobody has been yet: infinite, and not a number where nobody goes.
-    pub untouched: Vec<f64>,
+    columns: usize,
+    window: Window,
 }
 
 /// What it takes to cross the cells that are free.
@@ -29,42 +86,106 @@ impl Costs {
             Costs::Own(costs) => costs[cell],
         }
     }
+
+    /// The least and the greatest one; nought is no cost.
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            Costs::Even(cost) => (*cost, *cost),
+            Costs::Own(costs) => costs
+                .iter()
+                .filter(|cost| **cost > 0.0)
+                .fold((f64::INFINITY, 0.0), |(least, most), cost| (cost.min(least), cost.max(most))),
+        }
+    }
 }
 
 impl Grid {
-    /// That of a map.
-    pub fn new(map: &Map) -> Self {
-        let (columns, rows, stride) = (map.columns(), map.rows(), map.columns() + 2);
-        let mut untouched = vec![f64::NAN; stride * (rows + 2)];
-        for (row, cells) in map.cells().chunks_exact(columns).enumerate() {
-            let own = &mut untouched[(row + 1) * stride + 1..][..columns];
-            for (time, cell) in own.iter_mut().zip(cells) {
-                if *cell == Cell::Free {
-                    *time = f64::INFINITY;
-                }
-            }
+    /// A window of a map.
+    pub fn new(map: &Map, window: Window) -> Self {
+        let mut grid = Grid {
+            stride: window.columns.len() + 2,
+            costs: Costs::Even(map.resolution()),
+            columns: map.columns(),
+            window,
+        };
+        if let Some(speeds) = map.speeds() {
+            let cost = |speed: &f32| map.resolution() / f64::from(*speed);
+            grid.costs = Costs::Own(grid.with_border(speeds, 0.0, cost));
         }
-        let costs = map.speeds().map_or(Costs::Even(map.resolution()), |speeds| {
-            let mut costs = vec![f64::INFINITY; untouched.len()];
-            for (row, speeds) in speeds.chunks_exact(columns).enumerate() {
-                let own = &mut costs[(row + 1) * stride + 1..][..columns];
-                own.iter_mut().zip(speeds).for_each(|(cost, speed)| *cost = map.resolution() / f64::from(*speed));
-            }
-            Costs::Own(costs)
-        });
-        Grid { stride, columns, costs, untouched }
+        grid
     }
 
-    /// Where a cell of the map is in the grid.
+    /// Where nobody has been yet: infinite, and not a number where nobody goes.
+    pub fn untouched(&self, map: &Map) -> Vec<f64> {
+        self.with_border(map.cells(), f64::NAN, |cell| if *cell == Cell::Free { f64::INFINITY } else { f64::NAN })
+    }
+
+    /// What stands in the map's cells, as the window has it.
+    fn with_border<T>(&self, cells: &[T], border: f64, value: impl Fn(&T) -> f64) -> Vec<f64> {
+        let mut all = Vec::with_capacity(self.stride * (self.window.rows.len() + 2));
+        all.resize(self.stride, border);
+        for row in self.window.rows.clone() {
+            all.push(border);
+            all.extend(cells[row * self.columns..][self.window.columns.clone()].iter().map(&value));
+            all.push(border);
+        }
+        all.resize(all.len() + self.stride, border);
+        all
+    }
+
+    /// Where a cell of the map is in the grid; it may stand in the border.
     pub fn place(&self, cell: usize) -> usize {
-        (cell / self.columns + 1) * self.stride + cell % self.columns + 1
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        (row + 1 - self.window.rows.start) * self.stride + column + 1 - self.window.columns.start
     }
 
-    /// What stands in the grid, cell by cell of the map; infinite where nobody goes.
-    pub fn without_border(&self, all: &[f64]) -> Vec<f64> {
-        let rows = all.chunks_exact(self.stride).skip(1);
-        let rows = rows.take(all.len() / self.stride - 2);
-        let known = |time: &f64| if time.is_nan() { f64::INFINITY } else { *time };
-        rows.flat_map(|row| row[1..=self.columns].iter().map(known)).collect()
+    /// How many places there are, the border's among them.
+    pub fn places(&self) -> usize {
+        self.stride * (self.window.rows.len() + 2)
+    }
+
+    /// The places of each row, without the border.
+    pub fn rows(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        (1..=self.window.rows.len()).map(|row| row * self.stride + 1..(row + 1) * self.stride - 1)
+    }
+
+    /// The places of the border.
+    pub fn border(&self) -> impl Iterator<Item = usize> + '_ {
+        let last = self.places() - self.stride;
+        let sides = (0..self.places()).step_by(self.stride).flat_map(|first| [first, first + self.stride - 1]);
+        sides.chain(0..self.stride).chain(last..last + self.stride)
+    }
+
+    /// Gives places that have not been reached what is known of the cells of the whole map.
+    pub fn fill(&self, times: &mut [f64], known: &[f64]) {
+        for (places, known) in self.rows().zip(known.chunks_exact(self.columns)) {
+            let open = times[places].iter_mut().zip(known).filter(|(time, _)| **time == f64::INFINITY);
+            open.for_each(|(time, known)| *time = *known);
+        }
+    }
+
+    /// The cells of the map in the window.
+    pub fn cells(&self) -> impl Iterator<Item = usize> + '_ {
+        let row = move |row: usize| self.window.columns.clone().map(move |column| row * self.columns + column);
+        self.window.rows.clone().flat_map(row)
+    }
+
+    /// The neighbours of a place.
+    #[inline]
+    pub fn beside(&self, place: usize) -> [usize; 4] {
+        [place - 1, place + 1, place - self.stride, place + self.stride]
+    }
+
+    /// What stands in the grid, cell by cell, in the same memory; infinite where nobody goes.
+    pub fn without_border(&self, mut all: Vec<f64>) -> Vec<f64> {
+        let (columns, rows) = (self.window.columns.len(), self.window.rows.len());
+        for row in 0..rows {
+            let from = (row + 1) * self.stride + 1;
+            all.copy_within(from..from + columns, row * columns);
+            let own = &mut all[row * columns..][..columns];
+            own.iter_mut().for_each(|time| *time = if time.is_nan() { f64::INFINITY } else { *time });
+        }
+        all.truncate(columns * rows);
+        all
     }
 }

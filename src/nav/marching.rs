@@ -1,6 +1,6 @@
-//! Fast marching, RH0 (4-15): the eikonal equation `|grad T| F = 1` by upwind differences.
+//! Fast marching by differences of the second order: the eikonal equation `|grad T| F = 1`, RH0 (4-11), in upwind direction.
 //!
-//! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). No bisection is needed: each update is the root of a quadratic equation.
+//! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). A difference of the first order stands in where the second neighbour is not known.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -29,13 +29,11 @@ impl Ord for Trial {
     }
 }
 
-/// T by cell of the grid, by differences of the first or the second order.
-pub(super) fn arrivals(grid: &Grid, goals: &[usize], is_second: bool, watch: &Watch) -> Result<Vec<f64>> {
-    let mut times = grid.untouched.clone();
+/// T by place of the grid, where the goals' is nought and nobody has been elsewhere.
+pub(super) fn arrivals(grid: &Grid, mut times: Vec<f64>, goals: &[usize], watch: &Watch) -> Result<Vec<f64>> {
     let mut accepted = vec![false; times.len()];
     let mut band = BinaryHeap::new();
-    for place in goals.iter().map(|goal| grid.place(*goal)) {
-        times[place] = 0.0;
+    for place in goals.iter().copied() {
         band.push(Reverse(Trial { time: 0.0, place: place as u32 }));
     }
     let mut count = 0u32;
@@ -48,12 +46,12 @@ pub(super) fn arrivals(grid: &Grid, goals: &[usize], is_second: bool, watch: &Wa
         if count.is_multiple_of(4096) {
             watch.check()?;
         }
-        for beside in [place - 1, place + 1, place - grid.stride, place + grid.stride] {
+        for beside in grid.beside(place) {
             // Not a number compares with nothing.
             if accepted[beside] || times[beside].is_nan() {
                 continue;
             }
-            let time = solve(grid, &times, &accepted, beside, is_second);
+            let time = solve(grid, &times, &accepted, beside);
             if time < times[beside] {
                 times[beside] = time;
                 band.push(Reverse(Trial { time, place: beside as u32 }));
@@ -63,8 +61,8 @@ pub(super) fn arrivals(grid: &Grid, goals: &[usize], is_second: bool, watch: &Wa
     Ok(times)
 }
 
-/// The root of (4-15) from the accepted neighbours.
-fn solve(grid: &Grid, times: &[f64], accepted: &[bool], place: usize, is_second: bool) -> f64 {
+/// The root of the equation from the accepted neighbours.
+fn solve(grid: &Grid, times: &[f64], accepted: &[bool], place: usize) -> f64 {
     let cost = grid.costs.of(place);
     // Along each axis `a T - b` is the difference, of the nearer neighbour: (T - T1), or (3 T - 4 T1 + T2) / 2.
     let axis = |step: usize| {
@@ -72,7 +70,7 @@ fn solve(grid: &Grid, times: &[f64], accepted: &[bool], place: usize, is_second:
         let (before, behind) = (known(place - step), known(place + step));
         let (first, farther) =
             if before <= behind { (before, place.checked_sub(2 * step)) } else { (behind, Some(place + 2 * step)) };
-        let second = farther.filter(|at| is_second && *at < times.len()).map_or(f64::INFINITY, known);
+        let second = farther.filter(|at| *at < times.len()).map_or(f64::INFINITY, known);
         if second <= first { (first, 1.5, 2.0 * first - 0.5 * second) } else { (first, 1.0, first) }
     };
     let mut axes = [axis(1), axis(grid.stride)];

@@ -2,14 +2,17 @@
 //!
 //! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
 
+mod again;
 mod exact;
 mod field;
+mod front;
 mod grid;
 mod grow;
 mod map;
 mod marching;
 mod octile;
 mod png;
+mod potential;
 mod read;
 mod room;
 mod shape;
@@ -17,9 +20,12 @@ mod sweep;
 mod waves;
 mod way;
 
+pub use again::Again;
 pub use exact::{Guide, Shortest};
 pub use field::{Field, Method};
+pub use grid::Window;
 pub use map::{Cell, Map};
+pub use potential::{Forces, Potential, Stuck};
 pub use read::Meaning;
 pub use room::{Piece, Room};
 pub use shape::Shape;

@@ -1,77 +1,137 @@
-//! The thesis' modified fast marching, RH0 4.3: wave after wave over four neighbours.
+//! The thesis' modified fast marching, RH0 4.3, where all cells cost the same: wave after wave over four neighbours, sixty-four cells in one word.
 
-use super::grid::{Costs, Grid};
+use super::map::{Cell, Map};
 use crate::{Result, Watch};
 
-/// More levels of costs than this are put in order by a heap.
-const LEVELS: f64 = 65_536.0;
+const LEFT: u64 = 0x0101_0101_0101_0101;
+const RIGHT: u64 = LEFT << 7;
+const LOWEST: u64 = 0xff;
+const HIGHEST: u64 = LOWEST << 56;
 
-/// T of RH0 (4-17) and (4-18) by cell of the grid.
-pub(super) fn arrivals(grid: &Grid, goals: &[usize], watch: &Watch) -> Result<Vec<f64>> {
-    match &grid.costs {
-        Costs::Even(cost) => even(grid, goals, *cost, watch),
-        Costs::Own(costs) => own(grid, goals, costs, watch),
-    }
+/// Eight rows of eight cells, the lowest row in the lowest bits.
+#[derive(Clone, Copy, Default)]
+struct Tile {
+    /// What is free and has not been reached.
+    open: u64,
+    /// What the next wave reaches.
+    next: u64,
 }
 
-/// Where all cells cost the same, a wave is all that is one cell farther.
-fn even(grid: &Grid, goals: &[usize], cost: f64, watch: &Watch) -> Result<Vec<f64>> {
-    let mut times = grid.untouched.clone();
-    let mut wave: Vec<u32> = goals.iter().map(|goal| grid.place(*goal) as u32).collect();
-    wave.iter().for_each(|place| times[*place as usize] = 0.0);
-    let (mut next, mut count) = (Vec::with_capacity(wave.len() + 1024), 0u32);
-    while !wave.is_empty() {
+/// A part of a wave.
+#[derive(Clone, Copy, Default)]
+struct Crest {
+    tile: u32,
+    cells: u64,
+}
+
+/// A map in tiles with a border of tiles.
+struct Tiles {
+    stride: usize,
+    tiles: Vec<Tile>,
+    /// By tile and cell of it the count of the wave that reached it, from one; nought is none.
+    waves: Vec<[u32; 64]>,
+}
+
+/// T of RH0 (4-17) by cell, where each takes the same time to cross.
+pub(super) fn arrivals(map: &Map, goals: &[usize], cost: f64, watch: &Watch) -> Result<Vec<f64>> {
+    let mut tiles = Tiles::new(map);
+    let (mut wave, mut next) = (tiles.begin(map, goals), Vec::new());
+    let (mut length, mut count) = (wave.len(), 0u32);
+    while length > 0 {
         if count.is_multiple_of(256) {
             watch.check()?;
         }
         count += 1;
-        let time = f64::from(count) * cost;
-        for place in wave.drain(..) {
-            let place = place as usize;
-            for beside in [place - 1, place + 1, place - grid.stride, place + grid.stride] {
-                if times[beside] == f64::INFINITY {
-                    times[beside] = time;
-                    next.push(beside as u32);
-                }
-            }
-        }
+        length = tiles.spread(&mut wave[..length], &mut next, count);
         std::mem::swap(&mut wave, &mut next);
     }
-    Ok(times)
+    Ok(tiles.times(map, cost))
 }
 
-/// Where they differ, trial values wait in levels as wide as the least cost, so that none in a level changes another one there (R. Dial, Communications of the ACM 12, 1969).
-fn own(grid: &Grid, goals: &[usize], costs: &[f64], watch: &Watch) -> Result<Vec<f64>> {
-    let mut times = grid.untouched.clone();
-    let finite = || costs.iter().copied().filter(|cost| cost.is_finite());
-    let (least, most) = (finite().fold(f64::INFINITY, f64::min), finite().fold(0.0, f64::max));
-    let width = least.max(most / LEVELS);
-    let count = (most / width).ceil() as usize + 2;
-    let mut levels: Vec<Vec<u32>> = vec![Vec::new(); count];
-    levels[0].extend(goals.iter().map(|goal| grid.place(*goal) as u32));
-    levels[0].iter().for_each(|place| times[*place as usize] = 0.0);
-    let (mut level, mut waiting) = (0usize, levels[0].len());
-    while waiting > 0 {
-        if level.is_multiple_of(256) {
-            watch.check()?;
-        }
-        while let Some(place) = levels[level % count].pop() {
-            waiting -= 1;
-            let (place, time) = (place as usize, times[place as usize]);
-            // One that was put forward since has been dealt with.
-            if (time / width) as usize != level {
-                continue;
-            }
-            for beside in [place - 1, place + 1, place - grid.stride, place + grid.stride] {
-                let new = time + costs[beside];
-                if new < times[beside] {
-                    times[beside] = new;
-                    levels[(new / width) as usize % count].push(beside as u32);
-                    waiting += 1;
-                }
+impl Tiles {
+    fn new(map: &Map) -> Self {
+        let stride = map.columns().div_ceil(8) + 2;
+        let mut tiles = vec![Tile::default(); stride * (map.rows().div_ceil(8) + 2)];
+        for (row, cells) in map.cells().chunks_exact(map.columns()).enumerate() {
+            let own = &mut tiles[(row / 8 + 1) * stride + 1..];
+            for (tile, cells) in own.iter_mut().zip(cells.chunks(8)) {
+                let bits = cells.iter().rev().fold(0, |bits, cell| bits << 1 | u64::from(*cell == Cell::Free));
+                tile.open |= bits << (row % 8 * 8);
             }
         }
-        level += 1;
+        let waves = vec![[0; 64]; tiles.len()];
+        Tiles { stride, tiles, waves }
     }
-    Ok(times)
+
+    /// The first wave.
+    fn begin(&mut self, map: &Map, goals: &[usize]) -> Vec<Crest> {
+        let mut wave = Vec::new();
+        for goal in goals {
+            let (column, row) = (goal % map.columns(), goal / map.columns());
+            let tile = (row / 8 + 1) * self.stride + column / 8 + 1;
+            if self.tiles[tile].next == 0 {
+                wave.push(Crest { tile: tile as u32, cells: 0 });
+            }
+            self.put(tile, 1 << (row % 8 * 8 + column % 8));
+        }
+        wave
+    }
+
+    /// Has open cells of a tile reached by the next wave; whether they are the first ones there.
+    #[inline]
+    fn put(&mut self, tile: usize, cells: u64) -> bool {
+        let own = &mut self.tiles[tile];
+        let (cells, is_first) = (cells & own.open, own.next == 0);
+        own.next |= cells;
+        own.open &= !cells;
+        is_first & (cells != 0)
+    }
+
+    /// Marks a wave and writes the next one, whose length it tells. Nothing branches on which sides of a tile the wave leaves by, but for two questions.
+    fn spread(&mut self, wave: &mut [Crest], next: &mut Vec<Crest>, count: u32) -> usize {
+        if next.len() < 5 * wave.len() {
+            next.resize(8 * wave.len(), Crest::default());
+        }
+        wave.iter_mut().for_each(|crest| crest.cells = std::mem::take(&mut self.tiles[crest.tile as usize].next));
+        let (mut length, stride) = (0, self.stride);
+        for &Crest { tile, cells } in &*wave {
+            let tile = tile as usize;
+            mark(&mut self.waves[tile], cells, count);
+            let mut put = |tile: usize, cells: u64| {
+                next[length].tile = tile as u32;
+                length += usize::from(self.put(tile, cells));
+            };
+            put(tile, cells << 8 | cells >> 8 | (cells & !RIGHT) << 1 | (cells & !LEFT) >> 1);
+            if cells & (LEFT | RIGHT) != 0 {
+                put(tile - 1, (cells & LEFT) << 7);
+                put(tile + 1, (cells & RIGHT) >> 7);
+            }
+            if cells & (LOWEST | HIGHEST) != 0 {
+                put(tile - stride, cells << 56);
+                put(tile + stride, cells >> 56);
+            }
+        }
+        length
+    }
+
+    fn times(&self, map: &Map, cost: f64) -> Vec<f64> {
+        let time = |wave: &u32| if *wave == 0 { f64::INFINITY } else { f64::from(*wave - 1) * cost };
+        let (columns, mut times) = (map.columns(), vec![0.0; map.cells().len()]);
+        for (row, times) in times.chunks_exact_mut(columns).enumerate() {
+            let tiles = &self.waves[(row / 8 + 1) * self.stride + 1..];
+            for (times, waves) in times.chunks_mut(8).zip(tiles) {
+                let waves = &waves[row % 8 * 8..][..8];
+                times.iter_mut().zip(waves).for_each(|(own, wave)| *own = time(wave));
+            }
+        }
+        times
+    }
+}
+
+#[inline]
+fn mark(waves: &mut [u32; 64], mut cells: u64, count: u32) {
+    while cells != 0 {
+        waves[cells.trailing_zeros() as usize] = count;
+        cells &= cells - 1;
+    }
 }

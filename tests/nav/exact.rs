@@ -4,7 +4,7 @@ use groebot::nav::{Field, Guide, Map, Method, Shortest};
 use groebot::{ErrorKind, Watch};
 use nalgebra::Point2;
 
-use super::{Numbers, random_map};
+use super::{Random, random_map};
 
 /// Parts of a cell: all that the graph compares is whole numbers of them.
 pub(super) const PARTS: i64 = 1 << 20;
@@ -118,14 +118,14 @@ fn enters(a: Spot, b: Spot, (x, y): Spot) -> bool {
 }
 
 /// A place in a free cell: anywhere, in parts of eight, on its border or its lower left corner.
-pub(super) fn place(map: &Map, numbers: &mut Numbers) -> Spot {
+pub(super) fn place(map: &Map, numbers: &mut Random) -> Spot {
     let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
-    let cell = free[(numbers.next() * free.len() as f64) as usize];
-    let kind = (numbers.next() * 4.0) as i64;
+    let cell = free[(numbers.number() * free.len() as f64) as usize];
+    let kind = (numbers.number() * 4.0) as i64;
     let mut part = || match kind {
-        0 => (numbers.next() * PARTS as f64) as i64,
-        1 => (numbers.next() * 8.0) as i64 * PARTS / 8,
-        2 => (numbers.next() * 2.0) as i64 * PARTS / 2,
+        0 => (numbers.number() * PARTS as f64) as i64,
+        1 => (numbers.number() * 8.0) as i64 * PARTS / 8,
+        2 => (numbers.number() * 2.0) as i64 * PARTS / 2,
         _ => 0,
     };
     let (column, row) = (cell % map.columns(), cell / map.columns());
@@ -168,11 +168,11 @@ fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
 
 #[test]
 fn ways_are_those_of_all_corners_that_see_one_another() {
-    let mut numbers = Numbers(7);
+    let mut numbers = Random(7);
     let (mut reached, mut enclosed) = (0, 0);
     for seed in 0..240 {
         let share = [0.05, 0.15, 0.25, 0.35, 0.45, 0.55][seed as usize % 6];
-        let [columns, rows] = [(); 2].map(|()| 1 + (numbers.next() * 22.0) as usize);
+        let [columns, rows] = [(); 2].map(|()| 1 + (numbers.number() * 22.0) as usize);
         let map = random_map(columns, rows, share, 1000 + seed);
         if !(0..columns * rows).any(|cell| map.is_free(cell)) {
             continue;
@@ -188,7 +188,7 @@ fn ways_are_those_of_all_corners_that_see_one_another() {
 /// A field shows a way sooner, and an effort that does not last leaves a bound; neither is ever on the wrong side.
 #[test]
 fn a_field_and_a_bounded_effort_leave_what_is_true() {
-    let mut numbers = Numbers(8);
+    let mut numbers = Random(8);
     let (mut proved, mut open) = (0, 0);
     for seed in 0..24 {
         let map = random_map(40, 37, [0.1, 0.2, 0.3, 0.4][seed as usize % 4], 2000 + seed);
@@ -283,10 +283,10 @@ const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/nav/shortest_wa
 
 #[test]
 fn the_record_that_python_checks_is_up_to_date() {
-    let mut numbers = Numbers(9);
+    let mut numbers = Random(9);
     let mut table = String::from("rows,start_x,start_y,goal_x,goal_y,length\n");
     for seed in 0..120 {
-        let [columns, rows] = [(); 2].map(|()| 4 + (numbers.next() * 12.0) as usize);
+        let [columns, rows] = [(); 2].map(|()| 4 + (numbers.number() * 12.0) as usize);
         let map = random_map(columns, rows, [0.1, 0.25, 0.4][seed as usize % 3], 3000 + seed);
         let ends = [(); 2].map(|()| {
             let (x, y) = place(&map, &mut numbers);

@@ -110,6 +110,62 @@ fn fast_marching_solves_its_equation() {
     }
 }
 
+/// Fast marching as Sethian tells it: of all trial values the least one is accepted, and only accepted ones count.
+fn tidy(map: &Map, goals: &[usize]) -> Vec<f64> {
+    let mut times = vec![f64::INFINITY; map.cells().len()];
+    let mut open: Vec<usize> = goals.to_vec();
+    let mut is_accepted = vec![false; times.len()];
+    goals.iter().for_each(|goal| times[*goal] = 0.0);
+    while let Some(at) = (0..open.len()).min_by(|a, b| times[open[*a]].total_cmp(&times[open[*b]])) {
+        let cell = open.swap_remove(at);
+        if std::mem::replace(&mut is_accepted[cell], true) {
+            continue;
+        }
+        for other in beside(map, cell).into_iter().filter(|other| !is_accepted[*other]) {
+            let cost = map.resolution() / map.speeds().map_or(1.0, |speeds| f64::from(speeds[other]));
+            let nearest = |columns: bool| {
+                let known = beside(map, other).into_iter().filter(|near| is_accepted[*near]);
+                let along = known.filter(|near| (near.abs_diff(other) == 1) == columns);
+                along.map(|near| times[near]).fold(f64::INFINITY, f64::min)
+            };
+            let (a, b) = (nearest(true), nearest(false));
+            let both = 0.5 * (a + b + (2.0 * cost * cost - (a - b).powi(2)).sqrt());
+            times[other] = if (a - b).abs() < cost { both } else { a.min(b) + cost };
+            open.push(other);
+        }
+    }
+    times
+}
+
+/// The order in which a front marches does not show: it ends where a tidy one does, however much speeds differ.
+#[test]
+fn fast_marching_ends_where_a_tidy_front_does() {
+    let extreme = |map: Map, speeds: [f64; 2]| {
+        let disc = |x: f64, radius: f64| Shape::Circle { centre: Point2::new(x, 0.8), radius };
+        map.with_speed(&disc(0.5, 0.4), speeds[0]).unwrap().with_speed(&disc(1.5, 0.3), speeds[1]).unwrap()
+    };
+    for seed in 0..12 {
+        let share = 0.05 * (seed % 8) as f64;
+        let even = random_map(43, 31, share, seed);
+        let fast = extreme(even.clone(), [1e-3, 1e6]);
+        for map in [with_speeds(even.clone()), fast, even] {
+            let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
+            let goals = [free[free.len() / 4], free[free.len() - 3]];
+            let found = field(&map, &goals, Method::FastMarching(1));
+            for (cell, (found, expected)) in found.times().iter().zip(tidy(&map, &goals)).enumerate() {
+                assert!(
+                    *found == expected || (found - expected).abs() <= 1e-12 * expected,
+                    "{cell}: {found} {expected}"
+                );
+            }
+            let along = field(&map, &goals, Method::M3r);
+            for (found, expected) in along.times().iter().zip(shortest(&map, &goals)) {
+                assert!(*found == expected || (found - expected).abs() <= 1e-12 * expected, "{found} {expected}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_has_no_field_is_refused() {
     let map = Map::from_text("..#\n...\n", 1.0).unwrap();

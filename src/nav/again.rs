@@ -1,0 +1,165 @@
+//! Fields that are marched again in part: in a window around the robot, and after the map has changed. Main type: [`Again`].
+//!
+//! Raised and lowered cells as in A. Stentz, The focussed D* algorithm for real-time replanning (1995), where a cell counts as raised as soon as its equation does not hold.
+
+use std::collections::VecDeque;
+
+use super::field::{Field, Method};
+use super::front::{Along, Eikonal, Held, Rule, march};
+use super::grid::{Grid, Window};
+use super::map::Map;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// What a cell's time may be beside its equation, as a share of it.
+const ROUNDING: f64 = 1e-14;
+
+/// A field after the map has changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Again {
+    /// The field of the map as it is now.
+    pub field: Field,
+    /// How many cells were marched again; those that took part twice count twice.
+    pub marched: usize,
+}
+
+impl Field {
+    /// The same after its map has changed: other obstacles, other speeds. All cells are looked at once, and marched again are those whose equation does not hold any longer and what
+    /// hangs on them; to rounding it is the field that [`Field::new`] makes. That of the second order is made from nothing.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a map of another size, a goal that is not free any longer; [`Watch::check`].
+    pub fn after(self, map: &Map, watch: &Watch) -> Result<Again> {
+        self.check(map)?;
+        match self.method {
+            Method::M3r => self.mended(map, &Along, watch),
+            Method::FastMarching(1) => self.mended(map, &Eikonal, watch),
+            Method::FastMarching(_) => {
+                let goals: Vec<_> = self.goals.iter().map(|goal| map.centre(*goal)).collect();
+                let field = Field::new(map, &goals, self.method, watch)?;
+                let marched = field.times.iter().filter(|time| time.is_finite()).count();
+                Ok(Again { field, marched })
+            }
+        }
+    }
+
+    /// The same where a window is marched from nothing on a map that may have changed in it: from goals inside, and from the cells next to the window, which keep their times as all
+    /// others outside do. It takes the time of the window only.
+    ///
+    /// # Errors
+    /// As [`Field::after`]; [`ErrorKind::BadValue`] for a window that is not one of the map, and for the second order.
+    pub fn within(self, map: &Map, window: &Window, watch: &Watch) -> Result<Self> {
+        self.check(map)?;
+        window.check(map)?;
+        match self.method {
+            Method::M3r => self.inside(map, window, Along, watch),
+            Method::FastMarching(1) => self.inside(map, window, Eikonal, watch),
+            Method::FastMarching(_) => {
+                let text = "a window is marched by M3R or by fast marching of the first order; make a new field";
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+        }
+    }
+
+    fn check(&self, map: &Map) -> Result<()> {
+        let rows = self.times.len() / self.columns;
+        if (map.columns(), map.rows()) != (self.columns, rows) {
+            let text = format!(
+                "a map of {} x {} cells; the field has {} x {rows}: give the same cells",
+                map.columns(),
+                map.rows(),
+                self.columns
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        self.goals.iter().try_for_each(|goal| map.free_cell_at(&map.centre(*goal)).map(drop))
+    }
+
+    fn inside(mut self, map: &Map, window: &Window, rule: impl Rule, watch: &Watch) -> Result<Self> {
+        let grid = Grid::new(map, window.clone());
+        let (mut times, mut is_held) = (grid.untouched(map), vec![false; grid.places()]);
+        for cell in window.beside(map).filter(|cell| map.is_free(*cell)) {
+            times[grid.place(cell)] = self.times[cell];
+        }
+        grid.border().for_each(|place| is_held[place] = true);
+        let rim: Vec<usize> = window.rim().map(|(column, row)| grid.place(row * self.columns + column)).collect();
+        let goals: Vec<usize> =
+            self.goals.iter().filter(|goal| window.holds(map, **goal)).map(|goal| grid.place(*goal)).collect();
+        let mut from = first_of(&grid, &rule, &mut times, &rim);
+        goals.iter().for_each(|place| times[*place] = 0.0);
+        from.extend(goals);
+        march(&grid, &Held { rule, is_held }, &mut times, &from, watch)?;
+        for cell in grid.cells() {
+            let time = times[grid.place(cell)];
+            self.times[cell] = if time.is_nan() { f64::INFINITY } else { time };
+        }
+        Ok(self)
+    }
+
+    fn mended(mut self, map: &Map, rule: &impl Rule, watch: &Watch) -> Result<Again> {
+        let grid = Grid::new(map, Window::of(map));
+        let mut times = grid.untouched(map);
+        grid.fill(&mut times, &self.times);
+        watch.check()?;
+        let Wrong { late, early } = wrong(&grid, rule, &times);
+        let mut open = raise(&grid, rule, &mut times, early);
+        watch.check()?;
+        open.extend(late);
+        let known = |place: &usize| times[*place].is_finite();
+        let mut from: Vec<usize> = open.iter().flat_map(|place| grid.beside(*place)).filter(known).collect();
+        from.sort_unstable();
+        from.dedup();
+        let marched = march(&grid, rule, &mut times, &from, watch)?;
+        self.times = grid.without_border(times);
+        Ok(Again { field: self, marched })
+    }
+}
+
+/// Gives cells that have not been reached their times from what stands beside them; those that have one now.
+fn first_of(grid: &Grid, rule: &impl Rule, times: &mut [f64], places: &[usize]) -> Vec<usize> {
+    let open = places.iter().copied().filter(|place| times[*place] == f64::INFINITY);
+    let arrivals: Vec<(usize, f64)> = open.map(|place| (place, rule.arrival(grid, times, place))).collect();
+    let reached = arrivals.into_iter().filter(|(_, time)| time.is_finite());
+    reached.map(|(place, time)| (times[place] = time, place).1).collect()
+}
+
+/// Cells whose equation does not hold.
+struct Wrong {
+    /// Their neighbours are nearer than they say.
+    late: Vec<usize>,
+    /// None of their neighbours is so near.
+    early: VecDeque<usize>,
+}
+
+fn wrong(grid: &Grid, rule: &impl Rule, times: &[f64]) -> Wrong {
+    let (mut late, mut early) = (Vec::new(), VecDeque::new());
+    for place in grid.rows().flatten() {
+        let time = times[place];
+        // Goals and what is not free have no equation.
+        if time > 0.0 {
+            let arrival = rule.arrival(grid, times, place);
+            if arrival < time * (1.0 - ROUNDING) {
+                late.push(place);
+            } else if arrival > time * (1.0 + ROUNDING) {
+                early.push_back(place);
+            }
+        }
+    }
+    Wrong { late, early }
+}
+
+/// Takes back the times that nothing nearer bears out, and those that hang on them; where that was.
+fn raise(grid: &Grid, rule: &impl Rule, times: &mut [f64], mut early: VecDeque<usize>) -> Vec<usize> {
+    let mut raised = Vec::new();
+    while let Some(place) = early.pop_front() {
+        let time = times[place];
+        if time.is_infinite() || time == 0.0 || rule.arrival(grid, times, place) <= time * (1.0 + ROUNDING) {
+            continue;
+        }
+        times[place] = f64::INFINITY;
+        raised.push(place);
+        early.extend(
+            grid.beside(place).into_iter().filter(|beside| times[*beside] > time && times[*beside].is_finite()),
+        );
+    }
+    raised
+}
