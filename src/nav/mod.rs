@@ -14,7 +14,7 @@ mod shape;
 mod waves;
 mod way;
 
-pub use exact::{Guide, Shortest};
+pub use exact::{Distances, Guide, Shortest};
 pub use field::{Field, Method};
 pub use map::{Cell, Map};
 pub use read::Meaning;

@@ -41,6 +41,11 @@ impl Rows {
         Rows { words: vec![0; width * (map.rows() + 2)], width, columns: map.columns() }
     }
 
+    /// Columns and rows of the map.
+    pub fn size(&self) -> (usize, usize) {
+        (self.columns, self.words.len() / self.width - 2)
+    }
+
     /// The cell of the map in a place.
     pub fn cell(&self, x: usize, y: usize) -> usize {
         (y - 1) * self.columns + x - 1
