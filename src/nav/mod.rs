@@ -11,7 +11,11 @@ mod marching;
 mod octile;
 mod read;
 mod shape;
+mod sight;
+mod smooth;
+mod taut;
 mod waves;
+mod weighted;
 mod way;
 
 pub use exact::{Distances, Guide, Shortest};
@@ -19,4 +23,6 @@ pub use field::{Field, Method};
 pub use map::{Cell, Map};
 pub use read::Meaning;
 pub use shape::Shape;
+pub use smooth::{Part, Smooth};
 pub use way::{Enclosure, Way};
+pub use weighted::Quickest;

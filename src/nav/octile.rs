@@ -107,7 +107,8 @@ impl<'a> Search<'a> {
 
     fn expand(&mut self, cell: usize, length: f64) {
         let (x, y) = self.rows.place(cell);
-        let beside = [self.rows.has(x + 1, y), self.rows.has(x, y + 1), self.rows.has(x - 1, y), self.rows.has(x, y - 1)];
+        let beside =
+            [self.rows.has(x + 1, y), self.rows.has(x, y + 1), self.rows.has(x - 1, y), self.rows.has(x, y - 1)];
         for (step, (across, up)) in STEPS.iter().enumerate() {
             let is_allowed = match beside.get(step) {
                 Some(is_free) => *is_free,

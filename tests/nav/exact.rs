@@ -203,7 +203,11 @@ fn a_field_and_a_bounded_effort_leave_what_is_true() {
         for (effort, field) in [0, 10, 40].into_iter().flat_map(|effort| [(effort, None), (effort, Some(&field))]) {
             let found = shortest(&map, ends, &Guide { field, effort: Some(effort) }).unwrap();
             assert!(found.bound <= expected + 1e-12 && expected <= found.way.length() + 1e-12);
-            if found.is_proved() { proved += 1 } else { open += 1 }
+            if found.is_proved() {
+                proved += 1
+            } else {
+                open += 1
+            }
             let spots: Vec<Spot> = found.way.points.iter().map(|point| spot(&map, point)).collect();
             assert!(spots.windows(2).all(|pair| floor.sees(pair[0], pair[1], &pinches)));
         }

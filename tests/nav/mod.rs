@@ -4,6 +4,8 @@ mod exact;
 mod fields;
 mod maps;
 mod octile;
+mod smooth;
+mod weighted;
 
 use groebot::nav::{Cell, Map};
 

@@ -9,9 +9,8 @@ use super::random_map;
 /// Lengths from a cell in cells, by Bellman's and Ford's rounds.
 fn lengths(map: &Map, start: usize) -> Vec<f64> {
     let (columns, rows) = (map.columns() as i64, map.rows() as i64);
-    let free = |x: i64, y: i64| {
-        (0..columns).contains(&x) && (0..rows).contains(&y) && map.is_free((y * columns + x) as usize)
-    };
+    let free =
+        |x: i64, y: i64| (0..columns).contains(&x) && (0..rows).contains(&y) && map.is_free((y * columns + x) as usize);
     let mut lengths = vec![f64::INFINITY; map.cells().len()];
     lengths[start] = 0.0;
     loop {

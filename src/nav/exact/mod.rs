@@ -49,9 +49,9 @@ impl Shortest {
 /// What helps the search for a shortest way, and how long it lasts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Guide<'a> {
-    /// A field of the goal on the same map: it shows where a short way is before one is proved to be shortest.
+    /// A field of the goal on the same map: along it a way is known soon, which matters where the effort is bounded. What proves a way does not need it.
     pub field: Option<&'a Field>,
-    /// How many steps a proof may take once a way is known, each about 0.1 us; as many as it takes where none is told.
+    /// How many steps a proof may take once a way is known, each about 0.3 us; as many as it takes where none is told.
     pub effort: Option<usize>,
 }
 
@@ -126,13 +126,7 @@ impl Floor<'_> {
     }
 
     /// Looks for a way that is shorter than the best one, which is told with its length in cells.
-    fn improve(
-        &self,
-        best: &mut Option<(f64, Way)>,
-        aim: Aim,
-        effort: Option<usize>,
-        watch: &Watch,
-    ) -> Result<End> {
+    fn improve(&self, best: &mut Option<(f64, Way)>, aim: Aim, effort: Option<usize>, watch: &Watch) -> Result<End> {
         let mut search = self.search(aim, None);
         search.best.0 = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length).min(search.best.0);
         let end = search.run(effort, watch)?;

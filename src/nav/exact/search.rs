@@ -278,8 +278,8 @@ impl<'a> Search<'a> {
 
     fn see_goal(&mut self, view: &View, rays: Rays) {
         let away = self.goal.spot.from(self.roots[view.root as usize].spot);
-        let is_seen = rays[0].is_none_or(|ray| view.side(ray, away) >= 0)
-            && rays[1].is_none_or(|ray| view.side(ray, away) <= 0);
+        let is_seen =
+            rays[0].is_none_or(|ray| view.side(ray, away) >= 0) && rays[1].is_none_or(|ray| view.side(ray, away) <= 0);
         if is_seen {
             self.reach_goal(view.root);
         }
@@ -324,7 +324,8 @@ impl<'a> Search<'a> {
         let before = &self.roots[from as usize];
         let spot = self.plane.lattice(x, y);
         let real = Point2::new(x as f64, y as f64);
-        let (length, came) = (before.length + norm(real.x - before.real.x, real.y - before.real.y), spot.from(before.spot));
+        let (length, came) =
+            (before.length + norm(real.x - before.real.x, real.y - before.real.y), spot.from(before.spot));
         let point = self.rows.point(x, y);
         if let Some(distances) = self.distances {
             let known = distances.corner(point).filter(|(_, rest)| length + rest < self.best.0);

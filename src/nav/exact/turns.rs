@@ -7,8 +7,7 @@ impl Search<'_> {
     pub fn corners(&mut self, window: &Window) {
         let root = self.roots[window.view.root as usize].spot;
         let line = window.view.line();
-        for (ray, x, is_right) in
-            [(window.rays[0], window.opening.0, false), (window.rays[1], window.opening.1, true)]
+        for (ray, x, is_right) in [(window.rays[0], window.opening.0, false), (window.rays[1], window.opening.1, true)]
         {
             // The window may end before its opening does.
             if ray.cross(self.plane.lattice(x as usize, line).from(root)) == 0 {
