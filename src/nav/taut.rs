@@ -101,14 +101,27 @@ fn chain(map: &Map, a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Vec<Point
     hull[1..hull.len() - 1].to_vec()
 }
 
-/// Lattice points in the bounds of a triangle.
+/// Lattice points in a triangle, row by row; some that it misses by little are among them.
 fn around(corners: [Point2<f64>; 3]) -> impl Iterator<Item = Point2<f64>> {
-    let range = move |axis: usize| {
-        let values = corners.map(|corner| corner[axis]);
-        let low = values.into_iter().fold(f64::INFINITY, f64::min) - NEAR;
-        low.ceil() as i64..=(values.into_iter().fold(f64::NEG_INFINITY, f64::max) + NEAR).floor() as i64
+    let [a, b, c] = corners;
+    let range = |(low, high): (f64, f64)| (low - NEAR).ceil() as i64..=(high + NEAR).floor() as i64;
+    let bounds = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     };
-    range(1).flat_map(move |y| range(0).map(move |x| Point2::new(x as f64, y as f64)))
+    let in_row = move |y: i64| {
+        let y = y as f64;
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+            // Where a side is at this height, or nearest to it; all of it where it lies there.
+            let share =
+                if (q.y - p.y).abs() < NEAR { [0.0, 1.0] } else { [((y - p.y) / (q.y - p.y)).clamp(0.0, 1.0); 2] };
+            share
+                .map(|share| p + (q - p) * share)
+                .map(|point| if (point.y - y).abs() < 2.0 * NEAR { point.x } else { f64::NAN })
+        });
+        range(bounds(&mut sides.into_iter().flatten().filter(|x| !x.is_nan())))
+    };
+    range(bounds(&mut [a.y, b.y, c.y].into_iter()))
+        .flat_map(move |y| in_row(y).map(move |x| Point2::new(x as f64, y as f64)))
 }
 
 /// The cells about a lattice point that are not free, by their lower left corners.

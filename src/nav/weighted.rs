@@ -154,40 +154,41 @@ impl Course<'_> {
 
     /// Moves points one after the other until none moves.
     fn relax(&mut self, watch: &Watch) -> Result<()> {
-        let mut steps = vec![2.0; self.points.len()];
+        // Each begins with a step as long as its last move was.
+        let mut steps = vec![1.0_f64; self.points.len()];
         for _ in 0..SWEEPS {
             watch.check()?;
-            let mut gain = 0.0;
+            let before = self.time(&self.points);
             for (place, step) in steps.iter_mut().enumerate().take(self.points.len() - 1).skip(1) {
-                gain += self.relax_point(place, step);
+                *step = self.relax_point(place, step.max(16.0 * LEAST_STEP));
             }
-            if gain <= GAINS[0] * self.time(&self.points) && steps.iter().all(|step| *step < 2.0 * LEAST_STEP) {
+            if before - self.time(&self.points) <= GAINS[0] * before {
                 break;
             }
-            steps.iter_mut().for_each(|step| *step = (*step * 4.0).min(2.0));
         }
         Ok(())
     }
 
-    /// One point by the pattern search of R. Hooke and T. Jeeves (Journal of the ACM 8, 1961): what it gains.
-    fn relax_point(&mut self, place: usize, step: &mut f64) -> f64 {
-        let [before, mut own, after] = [place - 1, place, place + 1].map(|at| self.points[at]);
-        let first = self.time(&[before, own, after]);
-        let mut best = first;
+    /// One point by the pattern search of R. Hooke and T. Jeeves (Journal of the ACM 8, 1961): how far it moves.
+    fn relax_point(&mut self, place: usize, mut step: f64) -> f64 {
+        let [before, first, after] = [place - 1, place, place + 1].map(|at| self.points[at]);
+        let mut own = first;
+        let mut best = self.time(&[before, own, after]);
         for _ in 0..TRIES {
-            if *step < LEAST_STEP {
+            if step < LEAST_STEP {
                 break;
             }
-            let tries = moves(own, *step).map(|point| (self.time(&[before, point, after]), point));
+            let tries = moves(own, step).map(|point| (self.time(&[before, point, after]), point));
             let (time, point) = tries.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((best, own));
             if time < best - 1e-13 * best {
                 (best, own) = (time, point);
+                step *= 2.0;
             } else {
-                *step *= 0.5;
+                step *= 0.5;
             }
         }
         self.points[place] = own;
-        if first.is_finite() { first - best } else { 0.0 }
+        (own - first).norm()
     }
 }
 
