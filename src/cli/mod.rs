@@ -21,6 +21,7 @@ mod explain;
 mod export;
 mod files;
 mod fk;
+mod floor;
 mod follow;
 mod forms;
 mod identify;
@@ -30,6 +31,7 @@ mod json;
 mod navigate;
 mod page;
 mod part;
+mod path;
 mod plan;
 mod progress;
 mod report;
@@ -61,6 +63,7 @@ const EXAMPLES: &str = "Examples:
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees
   groebot basis cyclic5.txt --order lex
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
+  groebot path map.pgm --start 1,1 --goal 8,5
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
@@ -89,6 +92,7 @@ enum Command {
     Basis(basis::Arguments),
     Walk(walk::Arguments),
     Navigate(navigate::Arguments),
+    Path(path::Arguments),
     Dynamics(dynamics::Arguments),
     Track(track::Arguments),
     Identify(identify::Arguments),
@@ -144,6 +148,7 @@ pub fn run() -> ExitCode {
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
         Command::Navigate(arguments) => navigate::run(arguments),
+        Command::Path(arguments) => path::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Track(arguments) => track::run(arguments),
         Command::Identify(arguments) => identify::run(arguments),

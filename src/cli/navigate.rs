@@ -6,12 +6,12 @@ use std::time::Instant;
 use clap::ValueEnum;
 use nalgebra::Point2;
 
+use super::floor::FloorArguments;
 use super::progress::{Limits, Session};
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::files::write_atomically;
 use crate::gait::{Footprint, Summary, Usual};
-use crate::nav::Map;
 use crate::robots::Outline;
 use crate::task::{Blocked, Body, Floor, Goal, Method, Pilot, Plan};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -20,6 +20,7 @@ const EXAMPLES: &str = "Examples:
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
   groebot navigate nao --map room.txt --resolution 0.05 --start 0.5,0.5,90 --goal 2,1.5,0
   groebot navigate teo --map room.yaml --goal 3.2,1.5 --method m3r
+  groebot navigate rh0 --map living_room.toml --furniture piano=1.2,0.4 --goal 4,3
   groebot navigate talos.urdf --left left_sole_link --right right_sole_link --map room.yaml --goal 3,1
 
 Metres, and degrees for headings; radians in files. The way is that of the middle of the feet: first with room for the robot however it is turned, where there is none with room for
@@ -36,12 +37,11 @@ pub struct Arguments {
     robot: String,
     #[command(flatten)]
     soles: SoleArguments,
-    /// The map: ROS' YAML with its image, PGM, PNG, or rows of characters
+    /// The map: ROS' YAML with its image, PGM, PNG, rows of characters, or a room in TOML
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
-    /// The side of a cell of a map without YAML [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.05)]
-    resolution: f64,
+    #[command(flatten)]
+    floor: FloorArguments,
     /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
     #[arg(
         long,
@@ -64,9 +64,6 @@ pub struct Arguments {
     /// The body from above, instead of what the description's shapes say: how long and how wide [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
-    /// Take cells that have not been seen to be free
-    #[arg(long)]
-    unknown_free: bool,
     /// Start and end in the crouch, without lowering and rising
     #[arg(long)]
     crouched: bool,
@@ -95,7 +92,7 @@ enum MethodName {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let map = arguments.map()?;
+    let map = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.apart)?;
     let begun = Instant::now();
@@ -112,11 +109,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn map(&self) -> Result<Map> {
-        let map = Map::read(&self.map, self.resolution)?;
-        Ok(if self.unknown_free { map.with_unknown_free() } else { map })
-    }
-
     fn pilot(&self, named: Named, watch: &Watch) -> Result<Pilot> {
         let body = match self.body.as_deref() {
             Some(&[length, width]) => Body::of_size(length, width)?,

@@ -19,8 +19,8 @@ use crate::{Error, ErrorKind, Result, Watch};
 pub const TICK: f64 = 0.01;
 /// The factor by which a phase is slowed down at a time.
 const SLOWER: f64 = 1.15;
-/// No phase lasts longer than this many times what was asked for.
-const SLOWEST: f64 = 12.0;
+/// No phase lasts longer than this many times what was asked for, unless another figure is given.
+pub(super) const SLOWEST: f64 = 12.0;
 /// The most samples of a walk: half an hour at 100 Hz.
 const MOST_SAMPLES: usize = 180_000;
 
@@ -140,7 +140,7 @@ fn slow_down(biped: &Biped, schedule: &Schedule, request: &Request, found: &[Fou
     }
     for (factor, slow) in slowed.iter_mut().zip(slow) {
         *factor *= if slow { SLOWER } else { 1.0 };
-        if *factor > SLOWEST {
+        if *factor > request.slowest {
             return Err(refusal::of(biped, schedule, request, &found[0]));
         }
     }

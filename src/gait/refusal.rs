@@ -112,6 +112,7 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         ("swing's duration", durations.swing),
         ("speed share", request.speed_share),
         ("time between samples", request.tick),
+        ("most that phases are slowed", request.slowest),
     ];
     let not_negative = [
         ("lift", style.lift),

@@ -50,4 +50,6 @@ pub struct Request {
     pub speed_share: f64,
     /// The time between two samples \[s\].
     pub tick: f64,
+    /// No phase lasts longer than this many times its duration.
+    pub slowest: f64,
 }

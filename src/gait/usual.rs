@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::biped::Biped;
 use super::footprint::Route;
 use super::legs::Legs;
-use super::plan::{Walk, plan};
+use super::plan::{SLOWEST, Walk, plan};
 use super::reference::Style;
 use super::request::{Gait, Request};
 use super::schedule::Durations;
@@ -99,6 +99,7 @@ impl Usual {
             margin: self.margin,
             speed_share: self.speed_share,
             tick: self.tick,
+            slowest: SLOWEST,
         }
     }
 

@@ -67,9 +67,11 @@ impl<'a> Search<'a> {
 
     /// The octile distance to the goal.
     fn at_least(&self, cell: usize) -> f64 {
-        let away = |a: usize, b: usize| a.abs_diff(b) as f64;
-        let across = away(cell % self.columns, self.goal % self.columns);
-        let up = away(cell / self.columns, self.goal / self.columns);
+        // Cells are fewer than 2^28.
+        let (cell, goal, columns) = (cell as u32, self.goal as u32, self.columns as u32);
+        let away = |a: u32, b: u32| f64::from(a.abs_diff(b));
+        let across = away(cell % columns, goal % columns);
+        let up = away(cell / columns, goal / columns);
         across.max(up) + (SQRT_2 - 1.0) * across.min(up)
     }
 

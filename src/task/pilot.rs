@@ -9,6 +9,9 @@ use crate::gait::{
 };
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// A step that would have to be slower than so many times its pace is not taken: another one is.
+const SLOWEST: f64 = 2.0;
+
 /// A walker with its body, how far it steps, and what it covers of the floor.
 #[derive(Clone, Debug)]
 pub struct Pilot {
@@ -114,7 +117,8 @@ impl Pilot {
         plan_actions(&self.walker.biped, &self.walker.legs, &self.request(route), actions, watch)
     }
 
-    pub(super) fn request(&self, route: Route) -> Request {
-        self.usual.request(&self.walker.biped, route, self.reach.hip_height)
+    fn request(&self, route: Route) -> Request {
+        let request = self.usual.request(&self.walker.biped, route, self.reach.hip_height);
+        Request { slowest: SLOWEST, ..request }
     }
 }

@@ -1,6 +1,6 @@
 //! Shortest ways beside a graph of all corners that see one another, made by trying every pair against every obstacle.
 
-use groebot::nav::{Field, Guide, Map, Method, Shortest};
+use groebot::nav::{Distances, Field, Guide, Map, Method, Shortest};
 use groebot::{ErrorKind, Watch};
 use nalgebra::Point2;
 
@@ -213,6 +213,41 @@ fn a_field_and_a_bounded_effort_leave_what_is_true() {
         }
     }
     assert!(proved > 20 && open > 20, "{proved} {open}");
+}
+
+/// From all over a map to one goal.
+#[test]
+fn distances_of_all_corners_lead_the_same_way() {
+    let mut numbers = Random(11);
+    let (mut reached, mut enclosed) = (0, 0);
+    for seed in 0..60 {
+        let share = [0.02, 0.1, 0.25, 0.4, 0.5][seed as usize % 5];
+        let map = random_map(31, 26, share, 4000 + seed);
+        let goal = place(&map, &mut numbers);
+        let distances = Distances::new(&map, &point(&map, goal), &Watch::none()).unwrap();
+        for _ in 0..20 {
+            let start = place(&map, &mut numbers);
+            let found = distances.way(&map, &point(&map, start), &Watch::none()).unwrap();
+            let expected = shortest(&map, [start, goal], &Guide::default());
+            let Ok(found) = found else {
+                assert!(expected.is_none());
+                enclosed += 1;
+                continue;
+            };
+            let length = expected.unwrap().way.length();
+            assert!((found.way.length() - length).abs() < 1e-9 && found.is_proved(), "{found:?} {length}");
+            assert_eq!(found.way.points[0], point(&map, start));
+            assert_eq!(found.way.points.last(), Some(distances.goal()));
+            reached += 1;
+        }
+    }
+    assert!(reached > 700 && enclosed > 50, "{reached} {enclosed}");
+    let distances = Distances::new(&Map::new(5, 5, 0.1).unwrap(), &Point2::new(0.1, 0.1), &Watch::none()).unwrap();
+    let shape = groebot::nav::Shape::rectangle(Point2::new(0.35, 0.35), 0.05, 0.05, 0.0);
+    for other in [Map::new(4, 5, 0.1).unwrap(), Map::new(5, 5, 0.1).unwrap().with(&[shape]).unwrap()] {
+        let error = distances.way(&other, &Point2::new(0.1, 0.1), &Watch::none()).unwrap_err();
+        assert!(error.message().contains("other free cells"), "{error}");
+    }
 }
 
 fn spot(map: &Map, point: &Point2<f64>) -> Spot {

@@ -6,7 +6,9 @@ mod fields;
 mod maps;
 mod octile;
 mod rooms;
+mod smooth;
 mod thesis;
+mod weighted;
 
 use groebot::nav::{Cell, Map};
 

@@ -8,6 +8,8 @@ use super::search::{Goal, Search, Window};
 pub(super) enum Aim<'a> {
     /// The straight line to the goal: no way is shorter.
     Straight,
+    /// How far it is to the window: there is no goal.
+    Nearest,
     /// The times of a field by cell, and by how much to multiply them to have cells, about as far as it is; the straight line where that is longer.
     Field(&'a [f64], f64),
 }
@@ -20,12 +22,13 @@ impl Aim<'_> {
         let at = |ray: Spot| root.real.x + ray.x as f64 / ray.y as f64 * (line - root.real.y);
         let ends = window.rays.map(at);
         let height = (line - root.real.y).abs();
-        let straight = by_straight(&search.goal, root.real.x, height, line, ends);
+        let straight = || by_straight(&search.goal, root.real.x, height, line, ends);
         let beyond = match self {
-            Aim::Straight => straight,
+            Aim::Straight => straight(),
+            Aim::Nearest => norm((ends[0] - root.real.x).max(root.real.x - ends[1]).max(0.0), height),
             Aim::Field(times, scale) => {
                 let far = |x: f64| norm(x - root.real.x, height) + scale * on_line(search.rows, times, window, x);
-                straight.max(least(far, ends))
+                straight().max(least(far, ends))
             }
         };
         root.length + beyond
@@ -36,6 +39,7 @@ impl Aim<'_> {
         let straight = norm(search.goal.real.x - x as f64, search.goal.real.y - y as f64);
         match self {
             Aim::Straight => straight,
+            Aim::Nearest => 0.0,
             Aim::Field(times, scale) => straight.max(scale * about(search.rows, times, x, y)),
         }
     }

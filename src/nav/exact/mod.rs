@@ -1,4 +1,4 @@
-//! Shortest ways for a point, exact and proved. Main types: [`Shortest`], [`Search`].
+//! Shortest ways for a point, exact and proved. Main types: [`Shortest`], [`Distances`].
 //!
 //! After D. Harabor, A. Grastien, D. Oz and V. Aksakalli, Optimal Any-Angle Pathfinding in Practice (Journal of Artificial Intelligence Research 56, 2016), and M. Cui, D. Harabor and
 //! A. Grastien, Compromise-free Pathfinding on a Navigation Mesh (IJCAI 2017): here the mesh is the runs of free cells of each row, read off bits, and who sees whom is decided in whole
@@ -8,6 +8,7 @@
 //! obstacles. The map's speeds do not matter.
 
 mod aim;
+mod distances;
 mod flood;
 mod plane;
 mod rows;
@@ -17,6 +18,7 @@ mod turns;
 use nalgebra::{Point2, Vector2};
 
 use self::aim::Aim;
+pub use self::distances::Distances;
 use self::plane::Plane;
 pub(super) use self::rows::Rows;
 use self::search::{End, Goal, NONE, Search};
@@ -47,9 +49,9 @@ impl Shortest {
 /// What helps the search for a shortest way, and how long it lasts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Guide<'a> {
-    /// A field of the goal on the same map: it shows where a short way is before one is proved to be shortest.
+    /// A field of the goal on the same map: along it a way is known soon, which matters where the effort is bounded. What proves a way does not need it.
     pub field: Option<&'a Field>,
-    /// How many steps a proof may take once a way is known, each about 0.1 us; as many as it takes where none is told.
+    /// How many steps a proof may take once a way is known, each about 0.3 us; as many as it takes where none is told.
     pub effort: Option<usize>,
 }
 
@@ -67,9 +69,10 @@ impl Map {
     ) -> Result<std::result::Result<Shortest, Enclosure>> {
         let cells = [self.free_cell_at(start)?, self.free_cell_at(goal)?];
         let scale = guide.field.map(|field| scale(self, field, cells[1])).transpose()?;
-        let floor = Floor { map: self, rows: Rows::new(self), plane: Plane::new(self), ends: [*start, *goal], cells };
+        let rows = Rows::new(self);
+        let floor = Floor { map: self, rows: &rows, plane: Plane::new(self), ends: [*start, *goal], cells };
         let is_reached = guide.field.is_some_and(|field| field.times()[cells[0]].is_finite());
-        if !is_reached && let Some(enclosure) = enclosure(self, &floor.rows, cells, watch)? {
+        if !is_reached && let Some(enclosure) = enclosure(self, &rows, cells, watch)? {
             return Ok(Err(enclosure));
         }
         let aims = guide.field.zip(scale).filter(|_| is_reached);
@@ -94,7 +97,7 @@ pub(super) fn enclosure(map: &Map, rows: &Rows, cells: [usize; 2], watch: &Watch
 /// A map between whose places one goes.
 struct Floor<'a> {
     map: &'a Map,
-    rows: Rows,
+    rows: &'a Rows,
     plane: Plane,
     ends: [Point2<f64>; 2],
     cells: [usize; 2],
@@ -124,7 +127,7 @@ impl Floor<'_> {
 
     /// Looks for a way that is shorter than the best one, which is told with its length in cells.
     fn improve(&self, best: &mut Option<(f64, Way)>, aim: Aim, effort: Option<usize>, watch: &Watch) -> Result<End> {
-        let mut search = self.search(aim);
+        let mut search = self.search(aim, None);
         search.best.0 = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length).min(search.best.0);
         let end = search.run(effort, watch)?;
         if search.best.1 != NONE {
@@ -134,11 +137,12 @@ impl Floor<'_> {
     }
 
     /// A search that has looked about from the start.
-    fn search<'a>(&'a self, aim: Aim<'a>) -> Search<'a> {
+    fn search<'a>(&'a self, aim: Aim<'a>, distances: Option<&'a Distances>) -> Search<'a> {
         let [start, end] = self.ends.map(|place| self.map.in_map(&place) + Vector2::repeat(1.0));
         let cell = self.rows.place(self.cells[1]);
         let goal = Goal { cell, spot: self.plane.spot(&end, cell), real: end };
-        let mut search = Search::new(&self.rows, self.plane, goal, aim);
+        let mut search = Search::new(self.rows, self.plane, goal, aim);
+        search.distances = distances;
         search.start(start, self.rows.place(self.cells[0]));
         search
     }

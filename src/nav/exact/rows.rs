@@ -7,7 +7,7 @@ use crate::nav::map::{Cell, Map};
 const WORD: usize = 64;
 
 /// Rows of bits, set where a cell is free.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::nav) struct Rows {
     words: Vec<u64>,
     /// Words of a row.

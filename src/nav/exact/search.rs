@@ -7,7 +7,8 @@ use std::collections::BinaryHeap;
 
 use nalgebra::Point2;
 
-use super::aim::Aim;
+use super::aim::{Aim, norm};
+use super::distances::Distances;
 use super::plane::{Plane, Spot};
 use super::rows::Rows;
 use crate::{Result, Watch};
@@ -105,6 +106,9 @@ pub(super) struct Search<'a> {
     fresh: Vec<Window>,
     /// The shortest way that is known: its length and its last root.
     pub best: (f64, u32),
+    /// The corner from which distances tell the rest of that way, as they number it; nought for none.
+    pub via: u32,
+    pub distances: Option<&'a Distances>,
     /// Steps that have been taken.
     pub count: usize,
 }
@@ -133,6 +137,8 @@ impl<'a> Search<'a> {
             queue,
             fresh: vec![],
             best,
+            via: 0,
+            distances: None,
             count: 0,
         }
     }
@@ -173,7 +179,7 @@ impl<'a> Search<'a> {
     fn enter(&mut self, mut window: Window) {
         loop {
             self.count += 1;
-            if self.is_overtaken(&window.view) {
+            if self.is_overtaken(&window.view) || self.is_dominated(&window) {
                 return;
             }
             let run = self.rows.run(window.opening.0 as usize, window.view.row as usize);
@@ -203,6 +209,22 @@ impl<'a> Search<'a> {
     /// Whether a shorter way to the root has been found since.
     fn is_overtaken(&self, view: &View) -> bool {
         view.length > self.roots[view.root as usize].length * (1.0 + SAME)
+    }
+
+    /// Whether all of a window is reached sooner along its line, from a corner at an end of its opening.
+    fn is_dominated(&self, window: &Window) -> bool {
+        let root = &self.roots[window.view.root as usize];
+        let line = window.view.line();
+        let height = line as f64 - root.real.y;
+        let sooner = |end: u32, ray: Spot| {
+            let number = self.numbers[self.rows.point(end as usize, line)];
+            let across = ray.x as f64 / ray.y as f64 * height;
+            // Nowhere in the window is the difference less than at the end that is farther from the corner.
+            let along = (root.real.x + across - f64::from(end)).abs();
+            let here = (root.length + norm(across, height)) * (1.0 - SAME);
+            number > 0 && self.roots[number as usize].length + along < here
+        };
+        sooner(window.opening.0, window.rays[1]) || sooner(window.opening.1, window.rays[0])
     }
 
     /// All windows that a root at the border of a row, or inside of it, sees there.
@@ -268,8 +290,13 @@ impl<'a> Search<'a> {
         let own = &self.roots[root as usize];
         let length = own.length + (self.goal.real - own.real).norm();
         if length < self.best.0 {
-            self.best = (length, root);
+            (self.best, self.via) = ((length, root), 0);
         }
+    }
+
+    /// By lattice point the number of its root, nought where it is none.
+    pub fn into_numbers(self) -> Vec<u32> {
+        self.numbers
     }
 
     fn queue_fresh(&mut self) {
@@ -297,8 +324,16 @@ impl<'a> Search<'a> {
         let before = &self.roots[from as usize];
         let spot = self.plane.lattice(x, y);
         let real = Point2::new(x as f64, y as f64);
-        let (length, came) = (before.length + (real - before.real).norm(), spot.from(before.spot));
+        let (length, came) =
+            (before.length + norm(real.x - before.real.x, real.y - before.real.y), spot.from(before.spot));
         let point = self.rows.point(x, y);
+        if let Some(distances) = self.distances {
+            let known = distances.corner(point).filter(|(_, rest)| length + rest < self.best.0);
+            if let Some((corner, rest)) = known {
+                (self.best, self.via) = ((length + rest, from), corner);
+            }
+            return;
+        }
         if self.numbers[point] == 0 {
             self.numbers[point] = self.roots.len() as u32;
             self.roots.push(Root { spot, real, length, before: from, turns: [None; 2] });

@@ -57,7 +57,11 @@ impl Search<'_> {
                 let is_up = !free[0];
                 let view = View { root, row: sides[usize::from(!is_up)] as u32, is_up, length: 0.0 };
                 let turn = Turn { view, rays: [None; 2], cell: ahead as u32, follows: Some(is_right) };
-                return self.turn_at(root, (x, y), is_up == is_right, turn);
+                self.turn_at(root, (x, y), is_up == is_right, turn);
+                // There the corner follows the line, unless all about it is known.
+                if self.distances.is_none() {
+                    return;
+                }
             }
         }
     }

@@ -1,0 +1,167 @@
+//! `groebot path`: the way of a point or of a round robot over a map.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::ValueEnum;
+use nalgebra::Point2;
+use serde_json::{Value, json};
+
+use super::floor::FloorArguments;
+use super::json::FORMAT;
+use super::progress::{Limits, Session};
+use super::{Halt, Outcome, console};
+use crate::files::write_atomically;
+use crate::nav::{Enclosure, Field, Guide, Map, Method, Way};
+use crate::{Error, ErrorKind, Result, Watch};
+
+const EXAMPLES: &str = "Examples:
+  groebot path map.pgm --start 1,1 --goal 8,5
+  groebot path room.yaml --start 1,1 --goal 8,5 --radius 0.2 --method fmm --json
+  groebot path maze.map --resolution 1 --start 0.5,0.5 --goal 40.5,30.5 --method octile -o way.csv
+
+Metres. `exact` is the shortest way for a point; it may touch obstacles, which --radius grows. `fmm` goes down a field of fast marching and `m3r` down one of the thesis' own, over the
+middles of cells; `octile` is the shortest way over eight neighbours. A map without speeds has a field in metres. Where there is no way the exit status is 4, and what is told is a set of cells that no
+way leaves.";
+
+/// Finds a way over a map
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The map: ROS' YAML with its image, PGM, PNG, rows of characters, or a room in TOML
+    #[arg(value_name = "MAP")]
+    map: PathBuf,
+    #[command(flatten)]
+    floor: FloorArguments,
+    /// Where it begins [m]
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    start: Vec<f64>,
+    /// Where it ends [m]
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    goal: Vec<f64>,
+    /// How it is found
+    #[arg(long, value_name = "METHOD", default_value = "exact")]
+    method: MethodName,
+    /// Grow obstacles by the radius of a round robot [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.0)]
+    radius: f64,
+    /// Where the corners of the way go, CSV
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    /// The shortest way
+    Exact,
+    /// Down a field of fast marching
+    Fmm,
+    /// Down a field of the thesis' M3R
+    M3r,
+    /// The shortest way over eight neighbours
+    Octile,
+}
+
+/// What was found.
+struct Found {
+    way: std::result::Result<Way, Enclosure>,
+    /// No way is shorter \[m\], where that is known.
+    bound: Option<f64>,
+}
+
+/// Finds the way and tells it.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let session = Session::start(Limits::default())?;
+    let map = arguments.floor.map(&arguments.map)?;
+    let map = if arguments.radius == 0.0 { map } else { map.grown(arguments.radius)? };
+    let [start, goal] = [("start", &arguments.start), ("goal", &arguments.goal)].map(|(name, told)| match told[..] {
+        [x, y] => Ok(Point2::new(x, y)),
+        _ => Err(Error::new(ErrorKind::BadValue, format!("--{name} takes two numbers: --{name} 1,0.5"))),
+    });
+    let begun = Instant::now();
+    let found = arguments.method.find(&map, &start?, &goal?, &session.watch)?;
+    let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
+    drop(session);
+    if let (Some(file), Ok(way)) = (&arguments.out, &found.way) {
+        let rows: String = way.points.iter().map(|point| format!("{},{}\n", point.x, point.y)).collect();
+        write_atomically(file, format!("x,y\n{rows}").as_bytes())?;
+    }
+    let text = if arguments.json {
+        super::json::text(&arguments.json(&map, &found, milliseconds))
+    } else {
+        found.text(&map, milliseconds)
+    };
+    console::print(&text)?;
+    found.way.map(|_| ()).map_err(|_| Halt::NoWay)
+}
+
+impl Arguments {
+    fn json(&self, map: &Map, found: &Found, milliseconds: f64) -> Value {
+        let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
+        let mut told = json!({ "format": FORMAT, "method": method, "milliseconds": milliseconds });
+        match &found.way {
+            Ok(way) => {
+                told["points"] = way.points.iter().map(|point| json!([point.x, point.y])).collect();
+                told["length"] = way.length().into();
+                told["bound"] = found.bound.into();
+            }
+            Err(enclosure) => {
+                let middle = |cell: &usize| {
+                    let at = map.centre(*cell);
+                    json!([at.x, at.y])
+                };
+                told["points"] = Value::Null;
+                told["enclosure"] = enclosure.cells.iter().map(middle).collect();
+            }
+        }
+        told
+    }
+}
+
+impl MethodName {
+    fn find(self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, watch: &Watch) -> Result<Found> {
+        let down = |method: Method| Field::new(map, &[*goal], method, watch)?.descend(map, start);
+        let way = match self {
+            MethodName::Exact => {
+                let found = map.shortest_way(start, goal, &Guide::default(), watch)?;
+                let bound = found.as_ref().ok().map(|shortest| shortest.bound);
+                return Ok(Found { way: found.map(|shortest| shortest.way), bound });
+            }
+            MethodName::Fmm => down(Method::FastMarching(1)),
+            MethodName::M3r => down(Method::M3r),
+            MethodName::Octile => map.octile_way(start, goal, watch),
+        };
+        Ok(Found { way: way?, bound: None })
+    }
+}
+
+impl Found {
+    fn text(&self, map: &Map, milliseconds: f64) -> String {
+        match &self.way {
+            Ok(way) => {
+                let proved = match self.bound {
+                    Some(bound) if bound >= way.length() * (1.0 - 1e-12) => ", proved to be the shortest".to_owned(),
+                    Some(bound) => format!(", none is shorter than {bound:.4} m"),
+                    None => String::new(),
+                };
+                let rows: String =
+                    way.points.iter().map(|point| format!("  {:.4} {:.4}\n", point.x, point.y)).collect();
+                format!(
+                    "way of {:.4} m{proved}, {} points, {milliseconds:.2} ms\n{rows}",
+                    way.length(),
+                    way.points.len()
+                )
+            }
+            Err(enclosure) => {
+                let area = enclosure.cells.len() as f64 * map.resolution().powi(2);
+                format!(
+                    "there is no way: {} cells ({area:.2} m^2) that no way leaves enclose start or goal, {milliseconds:.2} ms\n",
+                    enclosure.cells.len()
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Exact distances of a goal from all corners. Main type: [`Distances`].
+//!
+//! The windows of the search for one way, taken from the goal in the order of their distance (J. Mitchell, D. Mount and C. Papadimitriou, The Discrete Geodesic Problem, SIAM Journal on Computing
+//! 16, 1987).
+
+use nalgebra::{Point2, Vector2};
+
+use super::aim::Aim;
+use super::search::{Goal, NONE, Search};
+use super::{Floor, Plane, Rows, Shortest, enclosure};
+use crate::nav::map::Map;
+use crate::nav::way::{Enclosure, Way};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How far each corner of an obstacle is from a goal, so that a shortest way from anywhere is found by looking about once.
+#[derive(Clone, Debug)]
+pub struct Distances {
+    goal: Point2<f64>,
+    cell: usize,
+    rows: Rows,
+    /// By lattice point the number of its corner and one more, nought where it is none or no way leads to it.
+    numbers: Vec<u32>,
+    corners: Vec<Corner>,
+}
+
+/// A corner as the search found it.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    place: Point2<f64>,
+    /// To the goal, in cells.
+    length: f64,
+    /// The next corner on the way there, one more than its number; nought where the goal is seen.
+    next: u32,
+}
+
+impl Distances {
+    /// Those of a goal \[m\].
+    ///
+    /// # Errors
+    /// As [`Map::free_cell_at`]; [`Watch::check`].
+    pub fn new(map: &Map, goal: &Point2<f64>, watch: &Watch) -> Result<Self> {
+        let cell = map.free_cell_at(goal)?;
+        let (rows, plane) = (Rows::new(map), Plane::new(map));
+        let start = map.in_map(goal) + Vector2::repeat(1.0);
+        // Nowhere: no run holds a cell of the border.
+        let nowhere = Goal { cell: (0, 0), spot: plane.lattice(0, 0), real: Point2::origin() };
+        let mut search = Search::new(&rows, plane, nowhere, Aim::Nearest);
+        search.start(start, rows.place(cell));
+        search.run(None, watch)?;
+        let corner = |root: &super::search::Root| Corner { place: root.real, length: root.length, next: root.before };
+        let corners = search.roots[1..].iter().map(corner).collect();
+        let numbers = search.into_numbers();
+        Ok(Distances { goal: *goal, cell, rows, numbers, corners })
+    }
+
+    /// The goal \[m\].
+    pub fn goal(&self) -> &Point2<f64> {
+        &self.goal
+    }
+
+    /// The shortest way from a place to the goal, proved; or the cells that enclose one of them.
+    ///
+    /// # Errors
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map with other free cells; [`Watch::check`].
+    pub fn way(
+        &self,
+        map: &Map,
+        start: &Point2<f64>,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Shortest, Enclosure>> {
+        let cells = [map.free_cell_at(start)?, self.cell];
+        if self.rows != Rows::new(map) {
+            let text = "the distances are those of a map with other free cells; give the one that they were made of";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let floor = Floor { map, rows: &self.rows, plane: Plane::new(map), ends: [*start, self.goal], cells };
+        let mut search = floor.search(Aim::Straight, Some(self));
+        search.run(None, watch)?;
+        if search.best.1 == NONE {
+            let enclosure = enclosure(map, &self.rows, cells, watch)?;
+            return Ok(Err(enclosure.unwrap_or_else(|| unreachable!("cells that are connected have a way"))));
+        }
+        let mut points = vec![*start];
+        let mut next = search.via;
+        while let Some(corner) = next.checked_sub(1).and_then(|number| self.corners.get(number as usize)) {
+            points.push(map.in_world(&(corner.place - Vector2::repeat(1.0))));
+            next = corner.next;
+        }
+        points.push(self.goal);
+        let way = Way { points };
+        Ok(Ok(Shortest { bound: way.length(), way }))
+    }
+
+    /// The number of a corner, one more than its place, and how far it is.
+    pub(super) fn corner(&self, point: usize) -> Option<(u32, f64)> {
+        let number = self.numbers[point];
+        Some((number, self.corners.get(number.checked_sub(1)? as usize)?.length))
+    }
+}

@@ -1,0 +1,254 @@
+//! Quickest ways where speeds differ. Main type: [`Quickest`].
+//!
+//! The way down a fast marching field is pulled taut and given points where speeds change, which move until no move makes it quicker: then Snell's law holds there (J. Mitchell and
+//! C. Papadimitriou, The Weighted Region Problem, Journal of the ACM 38, 1991).
+
+use nalgebra::{Point2, Vector2};
+
+use super::exact::Guide;
+use super::field::{Field, Method};
+use super::map::Map;
+use super::sight::{pieces, time};
+use super::way::{Enclosure, Way};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// Rounds, and sweeps over all points in each.
+const ROUNDS: usize = 12;
+const SWEEPS: usize = 60;
+/// The last step of a point, in cells.
+const LEAST_STEP: f64 = 1e-5;
+/// Moves that a point may try in a sweep.
+const TRIES: usize = 48;
+/// A gain that is worth another sweep, and another round, in parts of the time.
+const GAINS: [f64; 2] = [1e-9, 1e-6];
+
+/// A way, how long it takes, and what is proved of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quickest {
+    /// The way: no small move of its points makes it quicker.
+    pub way: Way,
+    /// As [`Way::time`] \[s\].
+    pub time: f64,
+    /// No way is quicker than this \[s\].
+    pub bound: f64,
+}
+
+impl Map {
+    /// A quick way from one place to another one with the map's speeds \[m\], down a fast marching field of the goal where one is at hand; or the cells that enclose one of them.
+    ///
+    /// Whether it is the quickest one is told by its bound: the greatest of the shortest way at the greatest speed, and what a map takes whose columns, or rows, have the greatest speed in them
+    /// all over.
+    ///
+    /// # Errors
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal; [`Watch::check`].
+    pub fn quickest_way(
+        &self,
+        start: &Point2<f64>,
+        goal: &Point2<f64>,
+        field: Option<&Field>,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Quickest, Enclosure>> {
+        let (from, to) = (self.free_cell_at(start)?, self.free_cell_at(goal)?);
+        let shortest = match self.shortest_way(start, goal, &Guide::default(), watch)? {
+            Ok(shortest) => shortest,
+            Err(enclosure) => return Ok(Err(enclosure)),
+        };
+        let own =
+            if field.is_none() { Some(Field::new(self, &[*goal], Method::FastMarching(1), watch)?) } else { None };
+        let Some(field) = field.or(own.as_ref()).filter(|field| field.goals() == [to]) else {
+            return Err(Error::new(ErrorKind::BadValue, "the field is not one of this goal; give one of it, or none"));
+        };
+        let places = |way: &Way| way.points.iter().map(|point| self.in_map(point)).collect::<Vec<_>>();
+        let mut course = Course { map: self, points: places(&shortest.way) };
+        let mut best = course.settle(watch)?;
+        let ends = [self.in_map(start), self.in_map(goal)];
+        if let Some(down) = descent(self, field, from, to, ends)? {
+            let mut other = Course { map: self, points: down };
+            let time = other.settle(watch)?;
+            if time < best {
+                (course, best) = (other, time);
+            }
+        }
+        let mut way = Way { points: course.points.iter().map(|point| self.in_world(point)).collect() };
+        let last = way.points.len() - 1;
+        (way.points[0], way.points[last]) = (*start, *goal);
+        let time = best * self.resolution();
+        Ok(Ok(Quickest { bound: bound(self, ends, shortest.bound).min(time), time, way }))
+    }
+}
+
+/// The way down a field from one end to the other; nothing where it ends elsewhere.
+fn descent(
+    map: &Map,
+    field: &Field,
+    from: usize,
+    to: usize,
+    ends: [Point2<f64>; 2],
+) -> Result<Option<Vec<Point2<f64>>>> {
+    let Ok(down) = field.descend(map, &map.centre(from))? else { return Ok(None) };
+    let mut points = vec![ends[0]];
+    points.extend(down.points.iter().map(|point| map.in_map(point)));
+    let arrives = down.points.last().is_some_and(|last| *last == map.centre(to));
+    points.push(ends[1]);
+    Ok(arrives.then_some(points))
+}
+
+/// A way that becomes quicker; points are counted in cells.
+struct Course<'a> {
+    map: &'a Map,
+    points: Vec<Point2<f64>>,
+}
+
+impl Course<'_> {
+    /// Until nothing more is gained: its time.
+    fn settle(&mut self, watch: &Watch) -> Result<f64> {
+        let mut best = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            self.pull();
+            self.divide();
+            self.relax(watch)?;
+            self.pull();
+            let found = self.time(&self.points);
+            let gain = best - found;
+            best = found.min(best);
+            if gain <= GAINS[1] * best {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    fn time(&self, points: &[Point2<f64>]) -> f64 {
+        time(self.map, points).unwrap_or(f64::INFINITY)
+    }
+
+    /// Leaves out points without which it is as quick.
+    fn pull(&mut self) {
+        loop {
+            let before = self.points.len();
+            let mut place = 1;
+            while place + 1 < self.points.len() {
+                let [a, b, c] = [place - 1, place, place + 1].map(|at| self.points[at]);
+                if self.time(&[a, c]) <= self.time(&[a, b, c]) + 1e-12 {
+                    self.points.remove(place);
+                }
+                place += 1;
+            }
+            if self.points.len() == before {
+                return;
+            }
+        }
+    }
+
+    /// A point wherever the speed changes.
+    fn divide(&mut self) {
+        let mut points = vec![self.points[0]];
+        for pair in self.points.windows(2) {
+            let pieces = pieces(self.map, pair[0], pair[1]).unwrap_or_default();
+            let changes = pieces.windows(2).filter(|pair| pair[0].slowness != pair[1].slowness);
+            points.extend(changes.map(|pair| on_line(pair[0].end)));
+            points.push(pair[1]);
+        }
+        self.points = points;
+    }
+
+    /// Moves points one after the other until none moves.
+    fn relax(&mut self, watch: &Watch) -> Result<()> {
+        // Each begins with a step as long as its last move was.
+        let mut steps = vec![1.0_f64; self.points.len()];
+        for _ in 0..SWEEPS {
+            watch.check()?;
+            let before = self.time(&self.points);
+            for (place, step) in steps.iter_mut().enumerate().take(self.points.len() - 1).skip(1) {
+                *step = self.relax_point(place, step.max(16.0 * LEAST_STEP));
+            }
+            if before - self.time(&self.points) <= GAINS[0] * before {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// One point by the pattern search of R. Hooke and T. Jeeves (Journal of the ACM 8, 1961): how far it moves.
+    fn relax_point(&mut self, place: usize, mut step: f64) -> f64 {
+        let [before, first, after] = [place - 1, place, place + 1].map(|at| self.points[at]);
+        let mut own = first;
+        let mut best = self.time(&[before, own, after]);
+        for _ in 0..TRIES {
+            if step < LEAST_STEP {
+                break;
+            }
+            let tries = moves(own, step).map(|point| (self.time(&[before, point, after]), point));
+            let (time, point) = tries.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((best, own));
+            if time < best - 1e-13 * best {
+                (best, own) = (time, point);
+                step *= 2.0;
+            } else {
+                step *= 0.5;
+            }
+        }
+        self.points[place] = own;
+        (own - first).norm()
+    }
+}
+
+/// Where a point may go: along the axes and diagonals, and onto lattice lines and points, where speeds and obstacles begin.
+fn moves(point: Point2<f64>, step: f64) -> [Point2<f64>; 11] {
+    let go = |x: f64, y: f64| point + Vector2::new(x, y) * step;
+    let (x, y) = (point.x.round(), point.y.round());
+    [
+        go(1.0, 0.0),
+        go(-1.0, 0.0),
+        go(0.0, 1.0),
+        go(0.0, -1.0),
+        go(1.0, 1.0),
+        go(1.0, -1.0),
+        go(-1.0, 1.0),
+        go(-1.0, -1.0),
+        Point2::new(x, point.y),
+        Point2::new(point.x, y),
+        Point2::new(x, y),
+    ]
+}
+
+/// On the lattice line that it is nearest to.
+fn on_line(point: Point2<f64>) -> Point2<f64> {
+    let (x, y) = (point.x.round(), point.y.round());
+    if (point.x - x).abs() < (point.y - y).abs() { Point2::new(x, point.y) } else { Point2::new(point.x, y) }
+}
+
+/// No way is quicker \[s\].
+fn bound(map: &Map, ends: [Point2<f64>; 2], shortest: f64) -> f64 {
+    let (columns, rows) = (map.columns(), map.rows());
+    let slowness = |cell: usize| map.speeds().map_or(1.0, |speeds| 1.0 / f64::from(speeds[cell]));
+    let (mut along_x, mut along_y) = (vec![f64::INFINITY; columns], vec![f64::INFINITY; rows]);
+    for cell in (0..columns * rows).filter(|cell| map.is_free(*cell)) {
+        let (x, y, own) = (cell % columns, cell / columns, slowness(cell));
+        (along_x[x], along_y[y]) = (along_x[x].min(own), along_y[y].min(own));
+    }
+    let least = along_x.iter().copied().fold(f64::INFINITY, f64::min);
+    let [a, b] = ends;
+    let across = layered(&along_x, [a.x, b.x], (a.y - b.y).abs(), least);
+    let up = layered(&along_y, [a.y, b.y], (a.x - b.x).abs(), least);
+    (across.max(up) * map.resolution()).max(shortest * least) * (1.0 - 1e-9)
+}
+
+/// What it takes at least through layers, in each of which it takes at least so much by cell: with Snell's constant c the function of the sum of `sqrt(s^2 - c^2)` across and c along them
+/// rises nowhere by more than s, and this is its rise, for the best c.
+fn layered(slowness: &[f64], [from, to]: [f64; 2], along: f64, most: f64) -> f64 {
+    let rise = |c: f64| {
+        let (low, high) = (from.min(to), from.max(to));
+        let layers = slowness.iter().enumerate().map(|(layer, slowness)| {
+            let depth = (high.min(layer as f64 + 1.0) - low.max(layer as f64)).max(0.0);
+            if depth > 0.0 { depth * (slowness * slowness - c * c).max(0.0).sqrt() } else { 0.0 }
+        });
+        layers.sum::<f64>() + c * along
+    };
+    // It is concave in c.
+    let (mut low, mut high) = (0.0, most);
+    for _ in 0..100 {
+        let third = (high - low) / 3.0;
+        if rise(low + third) < rise(high - third) { low += third } else { high -= third }
+    }
+    rise(low).max(rise(high))
+}
