@@ -86,6 +86,8 @@ enum MethodName {
     Fmm,
     /// Down a field of the thesis' M3R
     M3r,
+    /// Down an artificial potential field, which may be stuck
+    Potential,
 }
 
 /// Plans the journey and writes what is asked for.
@@ -134,6 +136,7 @@ impl Arguments {
             MethodName::Exact => Method::Exact,
             MethodName::Fmm => Method::FastMarching,
             MethodName::M3r => Method::M3r,
+            MethodName::Potential => Method::Potential,
         };
         Plan::find(pilot, floor, start.feet(pilot.half_width()), goal, method, watch)
     }

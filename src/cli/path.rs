@@ -12,7 +12,7 @@ use super::json::FORMAT;
 use super::progress::{Limits, Session};
 use super::{Halt, Outcome, console};
 use crate::files::write_atomically;
-use crate::nav::{Enclosure, Field, Guide, Map, Method, Way};
+use crate::nav::{Enclosure, Field, Forces, Guide, Map, Method, Potential, Way};
 use crate::{Error, ErrorKind, Result, Watch};
 
 const EXAMPLES: &str = "Examples:
@@ -42,6 +42,12 @@ pub struct Arguments {
     /// How it is found
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
+    /// Pull the way taut as a string
+    #[arg(long)]
+    taut: bool,
+    /// Round its corners by arcs of this radius where the map leaves room [m]; points are then the cells' side apart
+    #[arg(long, value_name = "METRES")]
+    smooth: Option<f64>,
     /// Grow obstacles by the radius of a round robot [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.0)]
     radius: f64,
@@ -55,7 +61,7 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// The shortest way
+    /// The shortest way; the quickest one where the map tells speeds
     Exact,
     /// Down a field of fast marching
     Fmm,
@@ -63,13 +69,17 @@ enum MethodName {
     M3r,
     /// The shortest way over eight neighbours
     Octile,
+    /// Down an artificial potential field, which may be stuck
+    Potential,
 }
 
 /// What was found.
 struct Found {
     way: std::result::Result<Way, Enclosure>,
-    /// No way is shorter \[m\], where that is known.
+    /// No way is shorter \[m\], or quicker \[s\], where that is known.
     bound: Option<f64>,
+    /// How long it takes where the map tells speeds \[s\].
+    time: Option<f64>,
 }
 
 /// Finds the way and tells it.
@@ -82,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         _ => Err(Error::new(ErrorKind::BadValue, format!("--{name} takes two numbers: --{name} 1,0.5"))),
     });
     let begun = Instant::now();
-    let found = arguments.method.find(&map, &start?, &goal?, &session.watch)?;
+    let found = arguments.found(&map, &start?, &goal?, &session.watch)?;
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
     if let (Some(file), Ok(way)) = (&arguments.out, &found.way) {
@@ -99,6 +109,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
+    fn found(&self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, watch: &Watch) -> Result<Found> {
+        let mut found = self.method.find(map, start, goal, watch)?;
+        let Ok(way) = &mut found.way else { return Ok(found) };
+        if self.taut {
+            *way = way.taut(map, watch)?;
+        }
+        if let Some(radius) = self.smooth {
+            let poses = way.smoothed(map, radius)?.poses(map.resolution())?;
+            *way = Way { points: poses.into_iter().map(|(at, _)| at).collect() };
+        }
+        Ok(found)
+    }
+
     fn json(&self, map: &Map, found: &Found, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
         let mut told = json!({ "format": FORMAT, "method": method, "milliseconds": milliseconds });
@@ -106,6 +129,7 @@ impl Arguments {
             Ok(way) => {
                 told["points"] = way.points.iter().map(|point| json!([point.x, point.y])).collect();
                 told["length"] = way.length().into();
+                told["seconds"] = found.time.into();
                 told["bound"] = found.bound.into();
             }
             Err(enclosure) => {
@@ -123,18 +147,32 @@ impl Arguments {
 
 impl MethodName {
     fn find(self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, watch: &Watch) -> Result<Found> {
-        let down = |method: Method| Field::new(map, &[*goal], method, watch)?.descend(map, start);
+        let down = |method: Method| {
+            let way = Field::new(map, &[*goal], method, watch)?.descend(map, start)?;
+            Ok(way.map(|way| way.between(start, goal)))
+        };
         let way = match self {
+            MethodName::Exact if map.speeds().is_some() => {
+                let found = map.quickest_way(start, goal, None, watch)?;
+                let (time, bound) = found.as_ref().map(|quickest| (quickest.time, quickest.bound)).ok().unzip();
+                return Ok(Found { way: found.map(|quickest| quickest.way), bound, time });
+            }
             MethodName::Exact => {
                 let found = map.shortest_way(start, goal, &Guide::default(), watch)?;
                 let bound = found.as_ref().ok().map(|shortest| shortest.bound);
-                return Ok(Found { way: found.map(|shortest| shortest.way), bound });
+                return Ok(Found { way: found.map(|shortest| shortest.way), bound, time: None });
             }
             MethodName::Fmm => down(Method::FastMarching(1)),
             MethodName::M3r => down(Method::M3r),
             MethodName::Octile => map.octile_way(start, goal, watch),
-        };
-        Ok(Found { way: way?, bound: None })
+            MethodName::Potential => {
+                let found = Potential::new(map, goal, &Forces::default())?.descend(map, start)?;
+                let stuck = |stuck| Error::new(ErrorKind::BadValue, format!("{stuck}; take another method"));
+                found.map(|way| Ok(way.between(start, goal))).map_err(stuck)
+            }
+        }?;
+        let time = way.as_ref().ok().filter(|_| map.speeds().is_some()).and_then(|way| way.time(map));
+        Ok(Found { way, bound: None, time })
     }
 }
 
@@ -142,10 +180,14 @@ impl Found {
     fn text(&self, map: &Map, milliseconds: f64) -> String {
         match &self.way {
             Ok(way) => {
-                let proved = match self.bound {
-                    Some(bound) if bound >= way.length() * (1.0 - 1e-12) => ", proved to be the shortest".to_owned(),
-                    Some(bound) => format!(", none is shorter than {bound:.4} m"),
-                    None => String::new(),
+                let proved = match (self.bound, self.time) {
+                    (Some(bound), None) if bound >= way.length() * (1.0 - 1e-12) => {
+                        ", proved to be the shortest".to_owned()
+                    }
+                    (Some(bound), None) => format!(", none is shorter than {bound:.4} m"),
+                    (Some(bound), Some(time)) => format!(", {time:.4} s, none is quicker than {bound:.4} s"),
+                    (None, Some(time)) => format!(", {time:.4} s"),
+                    (None, None) => String::new(),
                 };
                 let rows: String =
                     way.points.iter().map(|point| format!("  {:.4} {:.4}\n", point.x, point.y)).collect();

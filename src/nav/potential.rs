@@ -24,6 +24,13 @@ pub struct Forces {
     pub influence: f64,
 }
 
+impl Default for Forces {
+    /// For a robot of the size of a person in a room: it keeps half a metre away where it can.
+    fn default() -> Self {
+        Forces { attraction: 1.0, reach: 1.0, repulsion: 0.02, influence: 0.5 }
+    }
+}
+
 /// A potential by cell: that of the goal and that of the nearest obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Potential {

@@ -14,6 +14,14 @@ pub struct Way {
 }
 
 impl Way {
+    /// The same way from and to places in its first and last cell \[m\].
+    #[must_use]
+    pub fn between(mut self, start: &Point2<f64>, goal: &Point2<f64>) -> Self {
+        self.points.insert(0, *start);
+        self.points.push(*goal);
+        self
+    }
+
     /// How long it is \[m\].
     pub fn length(&self) -> f64 {
         self.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()

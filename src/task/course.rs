@@ -7,8 +7,8 @@ use nalgebra::Point2;
 use super::floor::Floor;
 use super::pilot::Pilot;
 use crate::gait::Footprint;
-use crate::nav::{self, Enclosure, Field, Guide, Map, Way};
-use crate::{ErrorKind, Result, Watch};
+use crate::nav::{self, Enclosure, Field, Forces, Guide, Map, Potential, Way};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// How the way is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub enum Method {
     FastMarching,
     /// Down a field of the thesis' M3R, RH0 (4-17), pulled taut.
     M3r,
+    /// Down an artificial potential field, which may be stuck and then says so, RH0 Fig. 4-12.
+    Potential,
 }
 
 /// Where a walker is to get.
@@ -101,7 +103,10 @@ fn way(
     method: Method,
     watch: &Watch,
 ) -> Result<std::result::Result<Way, Enclosure>> {
-    let down = |method: nav::Method| Field::new(map, &[*goal], method, watch)?.descend(map, start);
+    let down = |method: nav::Method| match Field::new(map, &[*goal], method, watch)?.descend(map, start)? {
+        Ok(way) => way.between(start, goal).taut(map, watch).map(Ok),
+        Err(enclosure) => Ok(Err(enclosure)),
+    };
     match method {
         Method::Exact => {
             let found = map.shortest_way(start, goal, &Guide::default(), watch)?;
@@ -109,5 +114,9 @@ fn way(
         }
         Method::FastMarching => down(nav::Method::FastMarching(1)),
         Method::M3r => down(nav::Method::M3r),
+        Method::Potential => match Potential::new(map, goal, &Forces::default())?.descend(map, start)? {
+            Ok(way) => way.between(start, goal).taut(map, watch).map(Ok),
+            Err(stuck) => Err(Error::new(ErrorKind::BadValue, format!("{stuck}; take another method"))),
+        },
     }
 }
