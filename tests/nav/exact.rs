@@ -243,9 +243,11 @@ fn distances_of_all_corners_lead_the_same_way() {
     }
     assert!(reached > 700 && enclosed > 50, "{reached} {enclosed}");
     let distances = Distances::new(&Map::new(5, 5, 0.1).unwrap(), &Point2::new(0.1, 0.1), &Watch::none()).unwrap();
-    let other = Map::new(4, 5, 0.1).unwrap();
-    let error = distances.way(&other, &Point2::new(0.1, 0.1), &Watch::none()).unwrap_err();
-    assert!(error.message().contains("another size"), "{error}");
+    let shape = groebot::nav::Shape::rectangle(Point2::new(0.35, 0.35), 0.05, 0.05, 0.0);
+    for other in [Map::new(4, 5, 0.1).unwrap(), Map::new(5, 5, 0.1).unwrap().with(&[shape]).unwrap()] {
+        let error = distances.way(&other, &Point2::new(0.1, 0.1), &Watch::none()).unwrap_err();
+        assert!(error.message().contains("other free cells"), "{error}");
+    }
 }
 
 fn spot(map: &Map, point: &Point2<f64>) -> Spot {

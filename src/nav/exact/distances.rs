@@ -61,7 +61,7 @@ impl Distances {
     /// The shortest way from a place to the goal, proved; or the cells that enclose one of them.
     ///
     /// # Errors
-    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for another map; [`Watch::check`].
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map with other free cells; [`Watch::check`].
     pub fn way(
         &self,
         map: &Map,
@@ -69,8 +69,8 @@ impl Distances {
         watch: &Watch,
     ) -> Result<std::result::Result<Shortest, Enclosure>> {
         let cells = [map.free_cell_at(start)?, self.cell];
-        if self.rows.size() != (map.columns(), map.rows()) {
-            let text = "the distances are those of a map of another size; give the map that they were made of";
+        if self.rows != Rows::new(map) {
+            let text = "the distances are those of a map with other free cells; give the one that they were made of";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let floor = Floor { map, rows: &self.rows, plane: Plane::new(map), ends: [*start, self.goal], cells };

@@ -7,7 +7,7 @@ use crate::nav::map::{Cell, Map};
 const WORD: usize = 64;
 
 /// Rows of bits, set where a cell is free.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::nav) struct Rows {
     words: Vec<u64>,
     /// Words of a row.
@@ -39,11 +39,6 @@ impl Rows {
     pub fn none(map: &Map) -> Self {
         let width = (map.columns() + 2).div_ceil(WORD);
         Rows { words: vec![0; width * (map.rows() + 2)], width, columns: map.columns() }
-    }
-
-    /// Columns and rows of the map.
-    pub fn size(&self) -> (usize, usize) {
-        (self.columns, self.words.len() / self.width - 2)
     }
 
     /// The cell of the map in a place.
