@@ -24,6 +24,7 @@ mod robots;
 mod roots;
 mod solver;
 mod spatial;
+mod task;
 mod watch;
 mod witness;
 

@@ -1,0 +1,67 @@
+//! Walks around obstacles, of known robots by all methods, and through a passage in which they cannot turn.
+
+use groebot::gait::Footprint;
+use groebot::task::Method;
+
+use super::{ROOM, arrives, goal, is_walked, keeps_away, pilot, plan, room};
+
+#[test]
+fn rh0_walks_around_a_wall() {
+    let (robot, pilot) = pilot("rh0");
+    let map = room(ROOM);
+    let goal = goal(2.9, 0.7, Some(std::f64::consts::FRAC_PI_2));
+    let mut lengths = Vec::new();
+    for method in [Method::Exact, Method::FastMarching, Method::M3r] {
+        let found = plan(&pilot, &map, Footprint { x: 0.6, y: 0.7, yaw: 0.3 }, goal, method);
+        assert!(found.course.is_wide);
+        arrives(&pilot, &found.walk, &goal);
+        is_walked(&pilot, &found.walk);
+        keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
+        lengths.push(found.course.way.length());
+        // As long as steps are, no fewer lead there; turning on the spot takes some more.
+        let least = (lengths[lengths.len() - 1] / pilot.reach().ahead) as usize;
+        let steps = found.walk.schedule.route.steps.len();
+        assert!(steps >= least && steps < 2 * least + 30, "{steps} {least}");
+        let sides: Vec<_> = found.walk.schedule.route.steps.iter().map(|step| step.side).collect();
+        assert!(sides.windows(2).filter(|pair| pair[0] == pair[1]).count() <= 1);
+    }
+    assert!(lengths[1..].iter().all(|length| *length >= lengths[0] - 1e-9), "{lengths:?}");
+}
+
+#[test]
+fn other_robots_walk_there_too() {
+    for (name, start, end) in [("nao", (0.9, 0.5), (0.9, 1.0)), ("teo", (0.7, 0.6), (1.1, 2.0))] {
+        let (robot, pilot) = pilot(name);
+        let map = room(ROOM);
+        let goal = goal(end.0, end.1, None);
+        let found = plan(&pilot, &map, Footprint { x: start.0, y: start.1, yaw: 1.2 }, goal, Method::Exact);
+        arrives(&pilot, &found.walk, &goal);
+        is_walked(&pilot, &found.walk);
+        keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
+    }
+}
+
+/// The passage is wide enough to walk through, not to turn in.
+#[test]
+fn rh0_walks_through_a_passage_in_which_it_cannot_turn() {
+    let (robot, pilot) = pilot("rh0");
+    let text = r#"
+size = [2.6, 1.6]
+wall = 0.05
+[[furniture]]
+name = "right"
+box = [0.5, 0.7]
+at = [1.35, 0.2]
+[[furniture]]
+name = "left"
+box = [0.5, 0.7]
+at = [1.35, 1.4]
+"#;
+    let map = room(text);
+    let goal = goal(2.15, 0.8, None);
+    let found = plan(&pilot, &map, Footprint { x: 0.5, y: 0.8, yaw: 0.2 }, goal, Method::Exact);
+    assert!(!found.course.is_wide);
+    arrives(&pilot, &found.walk, &goal);
+    is_walked(&pilot, &found.walk);
+    keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
+}
