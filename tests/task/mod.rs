@@ -3,6 +3,7 @@
 
 mod changes;
 mod journeys;
+mod living_room;
 mod refused;
 
 use groebot::Watch;
