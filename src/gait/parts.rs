@@ -1,4 +1,4 @@
-//! Work on the samples of a walk, in parts on threads of their own.
+//! Work on the samples of a walk, in parts, on threads of their own where there are many.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,6 +8,8 @@ use crate::{Result, Watch};
 /// In how many parts a walk is solved, each on a thread of its own; their number does not depend on the machine, so that the same walk
 /// comes out everywhere.
 const PARTS: usize = 4;
+/// Fewer samples than this are solved part by part on the caller's thread: threads would take longer to start.
+const FEW: usize = 1024;
 /// After how many samples progress is told.
 const REPORTED: usize = 64;
 
@@ -33,9 +35,13 @@ pub(super) fn in_parts<T: Send, I: Iterator<Item = Result<T>>>(
         });
         told.collect::<Result<Vec<T>>>()
     };
+    let starts = (0..count).step_by(size);
+    if count < FEW {
+        return Ok(starts.map(part).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect());
+    }
     let parts: Vec<Result<Vec<T>>> = std::thread::scope(|scope| {
         let part = &part;
-        let spawned: Vec<_> = (0..count).step_by(size).map(|start| scope.spawn(move || part(start))).collect();
+        let spawned: Vec<_> = starts.map(|start| scope.spawn(move || part(start))).collect();
         let joined = spawned.into_iter().map(|part| part.join());
         joined.map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
     });

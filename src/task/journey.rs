@@ -271,42 +271,42 @@ fn beside(pilot: &Pilot, step: &Footstep) -> Footprint {
 /// # Errors
 /// As [`crate::dynamics::Model::place`].
 fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Point2<f64>)>> {
-    let mut bodies = Swept::default();
-    let mut soles = [Swept::default(), Swept::default()];
-    for (sample, reference) in walk.references.iter().enumerate() {
+    let biped = &pilot.walker().biped;
+    for (sample, (reference, posture)) in walk.references.iter().zip(&walk.motion.postures).enumerate() {
+        let before = sample.saturating_sub(1);
         for side in [Side::Left, Side::Right] {
-            let moves = sample == 0 || !reference.stands[side as usize];
-            let sole = sole(pilot, side, &reference.world_from_soles[side as usize]);
-            let swept = soles[side as usize].to(sole);
-            if let Some(at) = floor.under_sole(&swept).filter(|_| moves) {
+            let poses = [before, sample].map(|sample| walk.references[sample].world_from_soles[side as usize]);
+            let stood = sample > 0 && reference.stands[side as usize];
+            if stood || is_sole_far(pilot, floor, side, &poses[1]) {
+                continue;
+            }
+            if let Some(at) = floor.under_sole(&both(poses.map(|pose| sole(pilot, side, &pose)))) {
                 return Ok(Some((Obstacle::Sole(side), at)));
             }
         }
-        let (biped, posture) = (&pilot.walker().biped, &walk.motion.postures[sample]);
         let placed = biped.model.place(&posture.world_from_torso, &posture.q)?;
         let middle: Point2<f64> = posture.world_from_torso.translation.vector.xy().into();
         if floor.is_far(&middle, pilot.body().reach(&placed, &middle)) {
-            bodies = Swept::default();
             continue;
         }
-        if let Some(at) = floor.beside_body(&bodies.to(pilot.body().outline(biped, posture)?)) {
+        let outline = |sample: usize| pilot.body().outline(biped, &walk.motion.postures[sample]);
+        if let Some(at) = floor.beside_body(&both([outline(before)?, outline(sample)?])) {
             return Ok(Some((Obstacle::Body, at)));
         }
     }
     Ok(None)
 }
 
-/// What an outline covers from one sample to the next.
-#[derive(Default)]
-struct Swept(Vec<Point2<f64>>);
+/// What two outlines and all between them cover.
+fn both(outlines: [Polygon; 2]) -> Polygon {
+    Polygon::hull(&outlines.iter().flat_map(|outline| outline.corners()).copied().collect::<Vec<_>>())
+}
 
-impl Swept {
-    fn to(&mut self, outline: Polygon) -> Polygon {
-        let corners = outline.corners().to_vec();
-        let both: Vec<Point2<f64>> = self.0.iter().chain(&corners).copied().collect();
-        self.0 = corners;
-        Polygon::hull(&both)
-    }
+/// Whether nothing is near to a sole, for sure.
+fn is_sole_far(pilot: &Pilot, floor: &Floor, side: Side, world_from_sole: &Pose) -> bool {
+    let corners = &pilot.walker().biped.feet[side as usize].corners;
+    let reach = corners.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max);
+    floor.is_far(&world_from_sole.translation.vector.xy().into(), reach)
 }
 
 /// A sole from above.

@@ -15,6 +15,7 @@ mod follow;
 mod ik;
 mod info;
 mod interrupted;
+mod navigate;
 mod plan;
 mod refused;
 mod solve;

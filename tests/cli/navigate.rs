@@ -1,0 +1,126 @@
+//! `groebot path` and `groebot navigate`.
+
+use std::fs;
+
+use groebot::motion::Trajectory;
+use serde_json::Value;
+use tempfile::tempdir;
+
+use super::{refused, run, succeed, text};
+
+const ROOM: &str =
+    "size = [3.0, 2.0]\nwall = 0.05\n[[furniture]]\nname = \"wall\"\nbox = [0.1, 1.2]\nat = [1.5, 0.6]\n";
+
+#[test]
+fn ways_are_told_as_text_json_and_csv() {
+    let folder = tempdir().unwrap();
+    let [room, out] = ["room.toml", "way.csv"].map(|name| folder.path().join(name));
+    fs::write(&room, ROOM).unwrap();
+    let asked = ["path", text(&room), "--start", "0.5,0.5", "--goal", "2.5,0.5"];
+    let with = |more: &[&'static str]| [&asked[..], more].concat();
+    let told = succeed(&[&asked[..], &["-o", text(&out)]].concat());
+    // Over both upper corners of the wall, at (1.45, 1.2) and (1.55, 1.2).
+    let length = 2.0 * 0.95f64.hypot(0.7) + 0.1;
+    assert!(told.contains(&format!("way of {length:.4} m, proved to be the shortest, 4 points")), "{told}");
+    assert_eq!(fs::read_to_string(&out).unwrap().lines().count(), 5);
+    let json = |more: &[&'static str]| -> Value { serde_json::from_str(&succeed(&with(more))).unwrap() };
+    let exact = json(&["--json"]);
+    assert!(
+        (exact["length"].as_f64().unwrap() - length).abs() < 1e-12 && exact["points"].as_array().unwrap().len() == 4
+    );
+    assert_eq!(exact["length"], exact["bound"]);
+    for method in ["fmm", "m3r", "octile"] {
+        let found = json(&["--json", "--method", method]);
+        assert!(found["method"] == method && found["length"].as_f64().unwrap() > length && found["bound"].is_null());
+        let taut = json(&["--json", "--method", method, "--taut"]);
+        assert!((taut["length"].as_f64().unwrap() - length).abs() < 0.06, "{taut}");
+    }
+    let grown = json(&["--json", "--radius", "0.2"]);
+    assert!(grown["length"].as_f64().unwrap() > length + 0.1);
+    let smooth = json(&["--json", "--radius", "0.2", "--smooth", "0.1"]);
+    assert!(smooth["points"].as_array().unwrap().len() > 20);
+    // The wall is moved away.
+    assert!(succeed(&with(&["--furniture", "wall=none"])).contains("way of 2.0000 m"));
+    assert!(succeed(&with(&["--furniture", "wall=1.5,1.4"])).contains("way of 2.0000 m"));
+}
+
+#[test]
+fn the_quickest_way_is_told_where_speeds_differ() {
+    let folder = tempdir().unwrap();
+    let room = folder.path().join("room.toml");
+    fs::write(&room, "size = [2, 2]\n[[slow]]\nname = \"mud\"\nbox = [2, 1]\nat = [1, 0.5]\nspeed = 0.5\n").unwrap();
+    let told = succeed(&["path", text(&room), "--start", "0.5,0.2", "--goal", "1.5,1.8", "--json"]);
+    let told: Value = serde_json::from_str(&told).unwrap();
+    // Snell: the least of both pieces' times over where the border is crossed.
+    let time = |x: f64| 2.0 * (x - 0.5).hypot(0.8) + (1.5 - x).hypot(0.8);
+    let least = (0..=100_000).map(|x| time(0.5 + 1e-5 * f64::from(x))).fold(f64::INFINITY, f64::min);
+    assert!((told["seconds"].as_f64().unwrap() / least - 1.0).abs() < 1e-4, "{told} {least}");
+    assert!(told["bound"].as_f64().unwrap() <= least);
+}
+
+#[test]
+fn where_there_is_no_way_the_exit_status_is_four() {
+    let folder = tempdir().unwrap();
+    let room = folder.path().join("room.txt");
+    fs::write(&room, "#######\n#..#..#\n#..#..#\n#######\n").unwrap();
+    for method in ["exact", "fmm", "m3r", "octile"] {
+        let asked = ["path", text(&room), "--start", "0.1,0.1", "--goal", "0.28,0.1", "--json", "--method", method];
+        let output = run(&asked);
+        assert_eq!(output.code, 4, "{}", output.err);
+        let told: Value = serde_json::from_str(&output.out).unwrap();
+        assert!(told["points"].is_null() && told["enclosure"].as_array().unwrap().len() == 4, "{told}");
+    }
+    let asked = ["navigate", "rh0", "--map", text(&room), "--start", "1,1", "--goal", "3.5,1", "--resolution", "0.6"];
+    let output = run(&asked);
+    assert_eq!(output.code, 4, "{}", output.err);
+    assert!(output.err.contains("there is no way: "), "{}", output.err);
+}
+
+#[test]
+fn a_humanoid_walks_over_a_map() {
+    let folder = tempdir().unwrap();
+    let [room, csv, svg] = ["room.toml", "walk.csv", "plan.svg"].map(|name| folder.path().join(name));
+    fs::write(&room, ROOM).unwrap();
+    let goal = ["--start", "0.5,0.5,90", "--goal", "0.9,1.3,0"];
+    let asked = [&["navigate", "rh0", "--map", text(&room)][..], &goal, &["-o", text(&csv), "--plot", text(&svg)]];
+    let told = succeed(&asked.concat());
+    for word in ["rh0: ", "least margin", "course", "steps refused", "planned in"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+    let walk = Trajectory::read_csv(&csv).unwrap();
+    let last = |name: &str| {
+        let contact = walk.contacts.iter().find(|contact| contact.name == name).unwrap();
+        contact.poses[contact.poses.len() - 1].translation.vector
+    };
+    let middle = (last("left") + last("right")) / 2.0;
+    assert!((middle.x - 0.9).abs() < 2e-3 && (middle.y - 1.3).abs() < 2e-3, "{middle}");
+    assert!(fs::read_to_string(&svg).unwrap().contains("too near for the body"));
+}
+
+#[test]
+fn bad_input_of_ways_is_refused() {
+    let folder = tempdir().unwrap();
+    let [room, walls] = ["room.toml", "walls.txt"].map(|name| folder.path().join(name));
+    fs::write(&room, ROOM).unwrap();
+    fs::write(&walls, "...\n.#.\n...\n").unwrap();
+    let path = |more: &[&str]| refused(&[&["path", text(&room), "--start", "0.5,0.5"][..], more].concat());
+    for (more, words) in [
+        (&["--goal", "1.5,0.5"][..], "(1.5, 0.5) is occupied; the nearest free place is (1.425, 0.525)"),
+        (&["--goal", "9,9"], "(9, 9) is not on the map"),
+        (&["--goal", "1"], "--goal takes two numbers"),
+        (&["--goal", "2.5,0.5", "--radius", "-1"], "a radius of -1 m"),
+        (&["--goal", "2.5,0.5", "--smooth", "0"], "a radius of 0 m"),
+        (&["--goal", "2.5,0.5", "--furniture", "walls=none"], "did you mean `wall`"),
+        (&["--goal", "2.5,0.5", "--furniture", "wall"], "give NAME=X,Y"),
+        (&["--goal", "2.5,0.5", "--method", "potential"], "a local minimum at ("),
+    ] {
+        let told = path(more);
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    let told = refused(&["path", text(&walls), "--start", "0,0", "--goal", "0.1,0.1", "--furniture", "a=none"]);
+    assert!(told.contains("--furniture is for rooms"), "{told}");
+    let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "1.5,0.5", "--goal", "0.5,0.5"]);
+    assert!(told.contains("the nearest free place is ("), "{told}");
+    let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "0.5", "--goal", "0.5,0.5"]);
+    assert!(told.contains("--start takes two or three numbers"), "{told}");
+}
