@@ -20,7 +20,8 @@ pub(super) trait Rule {
 /// RH0 (4-17): the nearest neighbour's and the cell's own cost.
 pub(super) struct Along;
 
-/// RH0 (4-15), by differences of the first order.
+/// RH0 (4-15), by differences of the first order; of two neighbours in line the nearer one counts alone (E. Rouy and A. Tourin, SIAM Journal on Numerical Analysis 29, 1992), where
+/// (4-15) adds both.
 pub(super) struct Eikonal;
 
 impl Rule for Along {
