@@ -14,7 +14,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 pub enum Method {
     /// The thesis' modified fast marching, RH0 (4-17): `T = min(T_nb + G / F)` over four neighbours. It is the distance along rows and columns.
     M3r,
-    /// Fast marching, RH0 (4-15), by differences of this order, 1 or 2, in upwind direction.
+    /// Fast marching, RH0 (4-15), by differences of this order, 1 or 2, in upwind direction; of two neighbours in line the nearer one counts alone, where (4-15) adds both.
     FastMarching(u8),
 }
 

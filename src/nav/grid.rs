@@ -74,29 +74,49 @@ pub(super) struct Grid {
 pub(super) enum Costs {
     /// The same everywhere.
     Even(f64),
-    /// By cell.
-    Own(Vec<f64>),
+    /// By place, from a cell's side and its speed.
+    Own {
+        /// G.
+        side: f64,
+        /// F.
+        speeds: Vec<f32>,
+    },
 }
 
 impl Costs {
     #[inline]
-    pub fn of(&self, cell: usize) -> f64 {
+    pub fn of(&self, place: usize) -> f64 {
         match self {
             Costs::Even(cost) => *cost,
-            Costs::Own(costs) => costs[cell],
+            Costs::Own { side, speeds } => side / f64::from(speeds[place]),
         }
     }
 
-    /// The least and the greatest one; nought is no cost.
+    /// The least and the greatest one.
     pub fn range(&self) -> (f64, f64) {
         match self {
             Costs::Even(cost) => (*cost, *cost),
-            Costs::Own(costs) => costs
-                .iter()
-                .filter(|cost| **cost > 0.0)
-                .fold((f64::INFINITY, 0.0), |(least, most), cost| (cost.min(least), cost.max(most))),
+            Costs::Own { side, speeds } => {
+                let (least, most) = range(speeds);
+                (side / f64::from(most), side / f64::from(least))
+            }
         }
     }
+}
+
+/// The least and the greatest positive number, sixteen in a row at a time.
+fn range(speeds: &[f32]) -> (f32, f32) {
+    let (mut least, mut most) = ([f32::INFINITY; 16], [0.0; 16]);
+    let (rows, rest) = speeds.as_chunks::<16>();
+    for row in rows.iter().map(|row| &row[..]).chain([rest]) {
+        for ((least, most), speed) in least.iter_mut().zip(&mut most).zip(row) {
+            // Nought is the border's.
+            let positive = if *speed > 0.0 { *speed } else { f32::INFINITY };
+            *least = if positive < *least { positive } else { *least };
+            *most = if *speed > *most { *speed } else { *most };
+        }
+    }
+    (least.into_iter().fold(f32::INFINITY, f32::min), most.into_iter().fold(0.0, f32::max))
 }
 
 impl Grid {
@@ -109,8 +129,8 @@ impl Grid {
             window,
         };
         if let Some(speeds) = map.speeds() {
-            let cost = |speed: &f32| map.resolution() / f64::from(*speed);
-            grid.costs = Costs::Own(grid.with_border(speeds, 0.0, cost));
+            let speeds = grid.with_border(speeds, 0.0, |speed| *speed);
+            grid.costs = Costs::Own { side: map.resolution(), speeds };
         }
         grid
     }
@@ -121,7 +141,7 @@ impl Grid {
     }
 
     /// What stands in the map's cells, as the window has it.
-    fn with_border<T>(&self, cells: &[T], border: f64, value: impl Fn(&T) -> f64) -> Vec<f64> {
+    fn with_border<T, U: Copy>(&self, cells: &[T], border: U, value: impl Fn(&T) -> U) -> Vec<U> {
         let mut all = Vec::with_capacity(self.stride * (self.window.rows.len() + 2));
         all.resize(self.stride, border);
         for row in self.window.rows.clone() {

@@ -1,7 +1,7 @@
 //! The adversary of RH0 4.3.7: an artificial potential field, which has local minima. Main type: [`Potential`].
 //!
-//! O. Khatib, Real-time obstacle avoidance for manipulators and mobile robots, International Journal of Robotics Research 5 (1986), equations 12 and 17 of the attraction and the
-//! repulsion; far from the goal the attraction is a cone.
+//! O. Khatib, Real-time obstacle avoidance for manipulators and mobile robots, International Journal of Robotics Research 5 (1986): a quadratic attraction and a repulsion by the reciprocal
+//! of the clearance; far from the goal the attraction is a cone.
 
 use std::fmt;
 
