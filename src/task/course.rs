@@ -59,15 +59,14 @@ impl Course {
         method: Method,
         watch: &Watch,
     ) -> Result<std::result::Result<Self, Blocked>> {
-        let half_cell = floor.map().resolution() * std::f64::consts::FRAC_1_SQRT_2;
-        let wide = floor.of_disc(pilot.radius() + half_cell)?;
+        let wide = floor.of_disc(pilot.radius() + floor.half_cell())?;
         match way(&wide, &start.point(), &goal.place, method, watch) {
             Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),
             Ok(Err(_)) => {}
             Err(error) if error.kind() == ErrorKind::BadValue => {}
             Err(error) => return Err(error),
         }
-        let narrow = floor.of_disc((pilot.core() - half_cell).max(0.0))?;
+        let narrow = floor.of_core(pilot)?;
         let found = way(&narrow, &start.point(), &goal.place, method, watch)?;
         Ok(found
             .map(|way| Course { goal, way, is_wide: false })

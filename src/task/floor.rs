@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use super::pilot::Pilot;
 use crate::Result;
 use crate::gait::Polygon;
 use crate::nav::{Map, Shape};
@@ -52,13 +53,26 @@ impl Floor {
         self.map.keeping(&self.clearances, radius + self.apart)
     }
 
+    /// Where the middle of a pilot's core may be, at any place of a cell: what is not free here holds no pilot.
+    ///
+    /// # Errors
+    /// As [`Map::grown`].
+    pub fn of_core(&self, pilot: &Pilot) -> Result<Map> {
+        self.of_disc((pilot.core() - self.half_cell()).max(0.0))
+    }
+
+    /// From the middle of a cell to its corners \[m\].
+    pub(super) fn half_cell(&self) -> f64 {
+        self.map.resolution() * std::f64::consts::FRAC_1_SQRT_2
+    }
+
     /// Whether all within a radius of a place \[m\] keeps away from obstacles, for sure: where this says no there may yet be room.
     pub fn is_far(&self, place: &Point2<f64>, radius: f64) -> bool {
         let own = self.map.in_map(place);
         let ends = [own.x, self.map.columns() as f64 - own.x, own.y, self.map.rows() as f64 - own.y];
         let border = ends.into_iter().fold(f64::INFINITY, f64::min) * self.map.resolution();
         // From the cell's middle to the place.
-        let off = self.map.resolution() * std::f64::consts::FRAC_1_SQRT_2;
+        let off = self.half_cell();
         border > radius && self.map.cell_at(place).is_ok_and(|cell| self.clearances[cell] - off > radius + self.apart)
     }
 

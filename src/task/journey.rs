@@ -13,6 +13,8 @@ use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Polygon, Side, Walk};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// How many steps ahead on its course a search looks for a place at first.
+const STEPS_AHEAD: f64 = 6.0;
 /// How often steps are searched anew on one journey.
 const MOST_SEARCHES: usize = 40;
 
@@ -151,15 +153,16 @@ impl<'p> Journey<'p> {
                 }
                 self.searched.clear();
             } else {
-                let leads = match next(self.pilot, &self.lead, course, &mut self.corner) {
-                    Next::Lead(leads) => leads,
-                    Next::Close => match self.open() {
-                        Some(side) => {
-                            self.side = Some(side);
-                            vec![self.lead]
-                        }
-                        None => return Ok(false),
-                    },
+                let open = self.open();
+                let leads = match (next(self.pilot, &self.lead, course, &mut self.corner), open) {
+                    // From feet side by side more can be stepped than from others.
+                    (Next::Lead(leads), Some(_)) => leads.into_iter().chain([self.lead]).collect(),
+                    (Next::Lead(leads), None) => leads,
+                    (Next::Close, Some(side)) => {
+                        self.side = Some(side);
+                        vec![self.lead]
+                    }
+                    (Next::Close, None) => return Ok(false),
                 };
                 if self.take_one(floor, &leads, watch)? {
                     return Ok(true);
@@ -229,27 +232,27 @@ impl<'p> Journey<'p> {
         Ok(false)
     }
 
-    /// Searches for steps around what is in the way.
+    /// Searches for steps around what is in the way: to a place some steps ahead on the course, or where none lead there to the goal.
     fn search(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<()> {
         if self.searches >= MOST_SEARCHES {
             return self.stuck("steps were searched too often; none leads on");
         }
-        let half_cell = floor.map().resolution() * std::f64::consts::FRAC_1_SQRT_2;
-        let map = floor.of_disc((self.pilot.core() - half_cell).max(0.0))?;
-        let search = Search::new((self.pilot, floor), &map, &course.goal.place, &self.forbidden, watch)?;
+        self.searches += 1;
+        let map = floor.of_core(self.pilot)?;
+        let last = course.way.points.len().saturating_sub(1);
+        let near = ahead(course, self.corner, &self.lead, STEPS_AHEAD * self.pilot.reach().ahead);
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
-        for first in sides {
-            if let Some(steps) = search.steps(self.feet(), first, watch)? {
-                self.searches += 1;
-                self.searched = steps;
-                self.corner = course.way.points.len().saturating_sub(1);
-                if self.searched.is_empty() {
-                    return self.stuck("near the goal no step leads on");
+        for (corner, target) in [near, (last, course.goal.place)] {
+            let search = Search::new((self.pilot, floor), &map, &target, &self.forbidden, watch)?;
+            for first in sides {
+                let steps = search.steps(self.feet(), first, watch)?.unwrap_or_default();
+                if !steps.is_empty() {
+                    (self.searched, self.corner) = (steps, corner);
+                    return Ok(());
                 }
-                return Ok(());
             }
         }
-        self.stuck("no steps of this robot lead to the goal")
+        self.stuck("no steps of this robot lead on")
     }
 
     /// That there is no next step, with the last reason.
@@ -259,6 +262,19 @@ impl<'p> Journey<'p> {
         let text = format!("{text} from ({:.3}, {:.3}), looking {turned:.0} deg{reason}", at.x, at.y);
         Err(Error::new(ErrorKind::BadValue, text))
     }
+}
+
+/// The place so far ahead on a course \[m\], and the corner that comes behind it.
+fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) -> (usize, Point2<f64>) {
+    let mut at = lead.point();
+    for (place, point) in course.way.points.iter().enumerate().skip(corner) {
+        let piece = (point - at).norm();
+        if piece >= distance {
+            return (place, at + (point - at) * (distance / piece));
+        }
+        (at, distance) = (*point, distance - piece);
+    }
+    (course.way.points.len().saturating_sub(1), course.goal.place)
 }
 
 /// The middle of the feet if the other one came to the side of a step.

@@ -31,7 +31,7 @@ pub struct Reach {
 
 impl Reach {
     /// That of a walker with these figures of its gait: at the first of their heights at which it steps as far as they have it, or a part of that, trial walks of
-    /// three steps tell how far it can go each way before a joint meets a limit of place or speed, a sole is out of reach, or the balance is lost.
+    /// four steps tell how far it can go each way before a joint meets a limit of place or speed, a sole is out of reach, or the balance is lost.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] where no step can be walked; [`Watch::check`].
@@ -73,7 +73,7 @@ impl Trials<'_> {
         })
     }
 
-    /// The greatest measure up to `most`, nearly, with which three steps can be walked.
+    /// The greatest measure up to `most`, nearly, with which steps can be walked.
     fn farthest(&self, most: f64, step: impl Fn(f64) -> (f64, f64, f64)) -> Result<f64> {
         let (mut low, mut high) = (0.0, most);
         for _ in 0..HALVINGS {
@@ -88,13 +88,15 @@ impl Trials<'_> {
         Ok(KEPT * low)
     }
 
-    /// Two steps of these measures, the second of them from behind, and one that closes the feet.
+    /// Three steps of these measures, the last two of them from behind, and one that closes the feet; sideways the other foot closes each time.
     fn steps(&self, ahead: f64, aside: f64, turn: f64) -> Result<()> {
         let half = self.usual.half_width(&self.walker.biped);
         let mut lead = Footprint::default();
         let start = lead.feet(half);
         let mut steps = Vec::new();
-        for (side, goes_on) in [(Side::Left, true), (Side::Right, aside == 0.0), (Side::Left, false)] {
+        for place in 0..4 {
+            let side = if place % 2 == 0 { Side::Left } else { Side::Right };
+            let goes_on = if aside == 0.0 { place < 3 } else { side == Side::Left };
             if goes_on {
                 lead = lead.then(&Footprint { x: ahead, y: aside, yaw: turn });
             }
