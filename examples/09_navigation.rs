@@ -12,8 +12,8 @@ use nalgebra::Point2;
 
 const PLACES: [(&str, f64, f64); 7] = [
     ("sofa", 3.0, 1.6),
-    ("billiard table", 3.0, 4.5),
-    ("piano", 4.8, 3.0),
+    ("billiard table", 3.0, 4.25),
+    ("piano", 4.8, 2.85),
     ("armchair", 1.45, 2.3),
     ("chair", 1.6, 3.75),
     ("lamp", 7.0, 5.3),

@@ -1,6 +1,6 @@
 //! Maps of the commands that find ways.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use nalgebra::Point2;
 
@@ -27,7 +27,7 @@ impl FloorArguments {
     ///
     /// # Errors
     /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
-    pub fn map(&self, file: &PathBuf) -> Result<Map> {
+    pub fn map(&self, file: &Path) -> Result<Map> {
         let is_room = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
         let map = match (is_room, self.furniture.is_empty()) {
             (false, false) => {
@@ -39,7 +39,7 @@ impl FloorArguments {
         Ok(if self.unknown_free { map.with_unknown_free() } else { map })
     }
 
-    fn room(&self, file: &PathBuf) -> Result<Room> {
+    fn room(&self, file: &Path) -> Result<Room> {
         let room = Room::from_toml(&read_text(file, TEXT_LIMIT)?).map_err(|error| error.in_file(file))?;
         self.furniture.iter().try_fold(room, |room, told| {
             let wrong = || bad(&format!("--furniture {told}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none"));

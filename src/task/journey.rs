@@ -242,7 +242,9 @@ impl<'p> Journey<'p> {
         let last = course.way.points.len().saturating_sub(1);
         let near = ahead(course, self.corner, &self.lead, STEPS_AHEAD * self.pilot.reach().ahead);
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
-        for (corner, target) in [near, (last, course.goal.place)] {
+        // A way along a border of cells is beside obstacles: what is near may be none of the core's places.
+        let targets = [near, (last, course.goal.place)].into_iter().filter(|(_, at)| map.free_cell_at(at).is_ok());
+        for (corner, target) in targets {
             let search = Search::new((self.pilot, floor), &map, &target, &self.forbidden, watch)?;
             for first in sides {
                 let steps = search.steps(self.feet(), first, watch)?.unwrap_or_default();

@@ -52,6 +52,7 @@ fn request(regular: &Regular) -> Request {
         margin: 0.01,
         speed_share: 0.9,
         tick: TICK,
+        slowest: 12.0,
     }
 }
 

@@ -6,7 +6,7 @@ use groebot::nav::Shape;
 use groebot::task::{Course, Floor, Journey, Method};
 use nalgebra::Point2;
 
-use super::{APART, ROOM, arrives, goal, is_walked, keeps_away, pilot, room};
+use super::{APART, arrives, goal, is_walked, keeps_away, pilot, room};
 
 #[test]
 fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {

@@ -20,8 +20,8 @@ fn living_room() -> Room {
 fn encirclement() -> Room {
     let places = [
         ("sofa", 3.0, 1.6),
-        ("billiard table", 3.0, 4.5),
-        ("piano", 4.8, 3.0),
+        ("billiard table", 3.0, 4.25),
+        ("piano", 4.8, 2.85),
         ("armchair", 1.45, 2.3),
         ("chair", 1.6, 3.75),
         ("lamp", 7.0, 5.3),
@@ -57,7 +57,7 @@ fn rh0_leaves_what_nearly_encloses_it() {
     let found = super::plan(&pilot, &map, INSIDE, goal, task::Method::Exact);
     // Out on the left, and around.
     let leftmost = found.course.way.points.iter().map(|point| point.x).fold(f64::INFINITY, f64::min);
-    assert!(found.course.is_wide && leftmost < 1.0 && found.course.way.length() > 8.0);
+    assert!(found.course.is_wide && leftmost < 1.35 && found.course.way.length() > 8.0);
     arrives(&pilot, &found.walk, &goal);
     is_walked(&pilot, &found.walk);
     keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
@@ -66,7 +66,8 @@ fn rh0_leaves_what_nearly_encloses_it() {
 #[test]
 fn rh0_walled_in_by_furniture_is_told_so() {
     let (_, pilot) = pilot("rh0");
-    let map = encirclement().with_moved("chair", Point2::new(1.6, 3.15), 0.0).unwrap().map().unwrap();
+    let room = encirclement().with_moved("chair", Point2::new(1.6, 3.0), 0.0).unwrap();
+    let map = room.with_moved("planetary ball", Point2::new(1.6, 3.5), 0.0).unwrap().map().unwrap();
     let floor = Floor::new(&map, APART).unwrap();
     let feet = INSIDE.feet(pilot.half_width());
     let goal = goal(7.0, 3.0, None);
