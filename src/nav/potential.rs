@@ -8,7 +8,7 @@ use std::fmt;
 use nalgebra::Point2;
 
 use super::map::Map;
-use super::way::Way;
+use super::way::{Way, around};
 use crate::{Error, ErrorKind, Result};
 
 /// What draws a robot to a goal and keeps it from obstacles.
@@ -93,10 +93,9 @@ impl Potential {
         let mut cell = map.free_cell_at(start)?;
         let mut points = vec![map.centre(cell)];
         while cell != self.goal {
-            let fall =
-                |next: &usize| (self.values[cell] - self.values[*next]) / (map.centre(*next) - map.centre(cell)).norm();
+            let fall = |(next, distance): &(usize, f64)| (self.values[cell] - self.values[*next]) / distance;
             let steepest = around(map, cell).max_by(|a, b| fall(a).total_cmp(&fall(b)));
-            let Some(next) = steepest.filter(|next| fall(next) > 0.0) else {
+            let Some((next, _)) = steepest.filter(|step| fall(step) > 0.0) else {
                 return Ok(Err(Stuck { place: map.centre(cell), way: Way { points } }));
             };
             cell = next;
@@ -117,18 +116,4 @@ impl Forces {
         let excess = clearance.recip() - self.influence.recip();
         0.5 * self.repulsion * excess.max(0.0).powi(2)
     }
-}
-
-/// The free cells around one that a straight step leads to without cutting a corner.
-fn around(map: &Map, cell: usize) -> impl Iterator<Item = usize> + '_ {
-    let free = move |cell: usize| map.beside(cell).filter(|beside| map.is_free(*beside));
-    // A corner's cell is beside two of the neighbours; it counts where both are free.
-    let is_corner = move |other: &usize| {
-        let (column, row) = (cell % map.columns(), cell / map.columns());
-        (other % map.columns()).abs_diff(column) == 1 && (other / map.columns()).abs_diff(row) == 1
-    };
-    let mut corners: Vec<usize> = free(cell).flat_map(free).filter(is_corner).collect();
-    corners.sort_unstable();
-    let both: Vec<usize> = corners.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
-    free(cell).chain(both)
 }

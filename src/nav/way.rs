@@ -113,7 +113,7 @@ impl Field {
 }
 
 /// The cells around one that a straight step leads to without cutting a corner, and how far they are.
-fn around(map: &Map, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+pub(super) fn around(map: &Map, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
     let (columns, rows) = (map.columns() as isize, map.rows() as isize);
     let (column, row) = (cell as isize % columns, cell as isize / columns);
     let free = move |x: isize, y: isize| {

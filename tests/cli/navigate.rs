@@ -97,6 +97,22 @@ fn a_humanoid_walks_over_a_map() {
     assert!(fs::read_to_string(&svg).unwrap().contains("too near for the body"));
 }
 
+/// Any description with two legs: they are derived on the spot, and its body's size is that of its shapes or given.
+#[test]
+fn a_robot_from_a_file_walks_over_a_map() {
+    let folder = tempdir().unwrap();
+    let [urdf, room] = ["robot.urdf", "room.toml"].map(|name| folder.path().join(name));
+    succeed(&["export", "teo", "--format", "urdf", "-o", text(&urdf)]);
+    fs::write(&room, ROOM).unwrap();
+    let soles = ["--left", "l_sole", "--right", "r_sole", "--start", "0.5,0.6,80", "--goal", "0.6,1.1"];
+    let asked = [&["navigate", text(&urdf), "--map", text(&room)][..], &soles].concat();
+    let told = succeed(&asked);
+    assert!(told.contains("steps by one step goal") && told.contains("course          0.510 m"), "{told}");
+    let told = succeed(&[&asked[..], &["--body", "0.2,0.4", "--crouched", "--apart", "0.05"]].concat());
+    assert!(told.contains("course          0.510 m"), "{told}");
+    assert!(refused(&[&asked[..], &["--body", "0.2"]].concat()).contains("--body takes two numbers"));
+}
+
 #[test]
 fn bad_input_of_ways_is_refused() {
     let folder = tempdir().unwrap();
