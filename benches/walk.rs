@@ -1,11 +1,15 @@
-//! How long planning, inverse kinematics and checks of a walk of eight steps take at 100 samples a second.
+//! How long planning, inverse kinematics and checks of a walk of eight steps take at 100 samples a second, and all from a map to joint angles.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::gait::{Biped, Regular, Request, Route, Side, Usual, Walker, plan};
-use groebot::robots::{NAO_PREVIEW, NAO_SEED, Outline, nao_walker};
+use groebot::gait::{Biped, Footprint, Regular, Request, Route, Side, Usual, Walker, plan};
+use groebot::model::Meshes;
+use groebot::nav::Room;
+use groebot::robots::{NAO_PREVIEW, NAO_SEED, Outline, nao_walker, rh0, rh0_walker};
+use groebot::task::{Body, Floor, Goal, Method, Pilot, Plan};
+use nalgebra::Point2;
 
 fn request(usual: &Usual, robot: &Biped, length: f64, turn: f64) -> Request {
     let regular = Regular { steps: 8, length, aside: 0.0, turn, half_width: robot.half_width(), first: Side::Left };
@@ -27,5 +31,33 @@ fn walk(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, walk);
+/// RH0 through a room: the map with its clearances, the way, the steps, joint angles at 81 samples a step, and all checks.
+fn navigate(c: &mut Criterion) {
+    let mut group = c.benchmark_group("navigate");
+    group.sample_size(20);
+    let walker = rh0_walker().expect("the crate's own data");
+    let body = Body::new(&rh0(), &walker.biped, &Meshes::default()).expect("its shapes");
+    let usual = walker.gaits[0].1.clone();
+    let pilot = Pilot::new(walker, usual, body, true, &Watch::none()).expect("it walks");
+    let room = |size: f64| {
+        let wall = |name: &str, x: f64, y: f64| {
+            format!("[[furniture]]\nname = \"{name}\"\nbox = [0.2, 1.2]\nat = [{x}, {y}]\n")
+        };
+        let text = format!("size = [{size}, 2.4]\nwall = 0.05\n{}", wall("a", 0.5 * size, 0.6));
+        Room::from_toml(&text).and_then(|room| room.map()).expect("a room")
+    };
+    for (name, size) in [("rh0_5_m", 5.8), ("rh0_10_m", 10.8)] {
+        let (map, goal) = (room(size), Point2::new(size - 0.5, 0.7));
+        let feet = Footprint { x: 0.5, y: 0.7, yaw: 0.2 }.feet(pilot.half_width());
+        let find = || {
+            let floor = Floor::new(black_box(&map), 0.02).expect("a floor");
+            Plan::find(&pilot, &floor, feet, Goal { place: goal, heading: None }, Method::Exact, &Watch::none())
+        };
+        let steps = find().expect("a walk").expect("a way").walk.schedule.route.steps.len();
+        group.bench_function(format!("{name}_{steps}_steps"), |b| b.iter(find));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, walk, navigate);
 criterion_main!(benches);
