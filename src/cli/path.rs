@@ -21,7 +21,7 @@ const EXAMPLES: &str = "Examples:
   groebot path maze.map --resolution 1 --start 0.5,0.5 --goal 40.5,30.5 --method octile -o way.csv
 
 Metres. `exact` is the shortest way for a point; it may touch obstacles, which --radius grows. `fmm` goes down a field of fast marching and `m3r` down one of the thesis' own, over the
-middles of cells; `octile` is the shortest way over eight neighbours. A map without speeds has a field in metres. Where there is no way the exit status is 4, and what is told is a set of cells that no
+middles of cells; `octile` is the shortest way over eight neighbours, from the middle of a cell to that of another one. A map without speeds has a field in metres. Where there is no way the exit status is 4, and what is told is a set of cells that no
 way leaves.";
 
 /// Finds a way over a map
@@ -45,10 +45,10 @@ pub struct Arguments {
     /// Pull the way taut as a string
     #[arg(long)]
     taut: bool,
-    /// Round its corners by arcs of this radius where the map leaves room [m]; points are then the cells' side apart
+    /// Round its corners by arcs of this radius where the map leaves room [m]; points are then a twentieth of a cell apart
     #[arg(long, value_name = "METRES")]
     smooth: Option<f64>,
-    /// Grow obstacles by the radius of a round robot [m]
+    /// Keep obstacles, and what has not been seen, the radius of a round robot away [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.0)]
     radius: f64,
     /// Where the corners of the way go, CSV
@@ -73,6 +73,15 @@ enum MethodName {
     Potential,
 }
 
+/// How far apart the points of a rounded way are, in cells: so arcs are compared with the map.
+const CHORD: f64 = 0.05;
+
+/// Where a round robot may be at any place of a free cell.
+fn for_radius(map: Map, radius: f64) -> Result<Map> {
+    let half_cell = map.resolution() * std::f64::consts::FRAC_1_SQRT_2;
+    map.with_unknown_occupied().grown(if radius > 0.0 { radius + half_cell } else { radius })
+}
+
 /// What was found.
 struct Found {
     way: std::result::Result<Way, Enclosure>,
@@ -86,7 +95,7 @@ struct Found {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits::default())?;
     let map = arguments.floor.map(&arguments.map)?;
-    let map = if arguments.radius == 0.0 { map } else { map.grown(arguments.radius)? };
+    let map = if arguments.radius == 0.0 { map } else { for_radius(map, arguments.radius)? };
     let [start, goal] = [("start", &arguments.start), ("goal", &arguments.goal)].map(|(name, told)| match told[..] {
         [x, y] => Ok(Point2::new(x, y)),
         _ => Err(Error::new(ErrorKind::BadValue, format!("--{name} takes two numbers: --{name} 1,0.5"))),
@@ -114,10 +123,12 @@ impl Arguments {
         let Ok(way) = &mut found.way else { return Ok(found) };
         if self.taut {
             *way = way.taut(map, watch)?;
+            found.time = found.time.and_then(|_| way.time(map));
         }
         if let Some(radius) = self.smooth {
-            let poses = way.smoothed(map, radius)?.poses(map.resolution())?;
+            let poses = way.smoothed(map, radius)?.poses(CHORD * map.resolution())?;
             *way = Way { points: poses.into_iter().map(|(at, _)| at).collect() };
+            found.time = found.time.and_then(|_| way.time(map));
         }
         Ok(found)
     }

@@ -46,6 +46,14 @@ impl Field {
         Ok(Field { method, columns: map.columns(), goals, times })
     }
 
+    /// Fails for a map that has another count of cells.
+    pub(super) fn check_of(&self, map: &Map) -> Result<()> {
+        if self.times.len() == map.cells().len() && self.columns == map.columns() {
+            return Ok(());
+        }
+        Err(Error::new(ErrorKind::BadValue, "the field is one of another map; give one of this"))
+    }
+
     /// How it was made.
     pub fn method(&self) -> Method {
         self.method

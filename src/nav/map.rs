@@ -1,5 +1,7 @@
 //! Maps of the floor: what of it is free, and how fast one gets on there. Main type: [`Map`].
 
+use std::ops::RangeInclusive;
+
 use nalgebra::{Point2, Vector2};
 
 use super::shape::Shape;
@@ -7,6 +9,8 @@ use crate::{Error, ErrorKind, Result};
 
 /// The most cells of a map.
 const MOST: usize = 1 << 28;
+/// Speeds that a map tells.
+const SPEEDS: RangeInclusive<f64> = 1e-3..=1e6;
 
 /// What is known of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -78,11 +82,15 @@ impl Map {
     /// The same, where one gets on with a speed inside of a shape, RH0 (4-7): one elsewhere, or as it was told before. Of two shapes the later one counts.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a speed that is not finite and positive: what stands in the way is [`Map::with`]; and as [`Shape::check`].
+    /// [`ErrorKind::BadValue`] for a speed that is not from 0.001 to a million: what stands in the way is [`Map::with`]; and as [`Shape::check`].
     pub fn with_speed(mut self, shape: &Shape, speed: f64) -> Result<Self> {
         shape.check()?;
-        if !(speed.is_finite() && speed > 0.0) {
-            let text = format!("a speed of {speed}: give a positive number; where nobody goes there is an obstacle");
+        if !SPEEDS.contains(&speed) {
+            let text = format!(
+                "a speed of {speed}: give a positive number from {} to {}; where nobody goes there is an obstacle",
+                SPEEDS.start(),
+                SPEEDS.end()
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let inside: Vec<usize> = (0..self.cells.len()).filter(|cell| shape.holds(&self.centre(*cell))).collect();
@@ -106,7 +114,7 @@ impl Map {
         Ok(map)
     }
 
-    /// A place where a shape touches what is not free, if there is one: the middle of that cell, or a point of the shape that is not on the map.
+    /// A place where a shape touches what is not free, if there is one: the middle of that cell, or a corner of the shape's bounds that is not on the map.
     pub fn obstacle_under(&self, shape: &Shape) -> Option<Point2<f64>> {
         let placed = self.placed_in_map(shape);
         let (low, high) = placed.bounds();

@@ -33,6 +33,52 @@ impl Meaning {
         Meaning { resolution, origin: [0.0; 3], negate: false, thresholds: [0.65, 0.196] }
     }
 
+    /// The image's name and what it means, of the flat YAML that `map_server` writes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] with the line, [`ErrorKind::MissingKey`].
+    pub fn from_yaml(text: &str) -> Result<(String, Self)> {
+        let (mut image, mut meaning, mut resolution) = (None, Meaning::new(1.0), None);
+        for (place, line) in text.lines().enumerate() {
+            let line = line.split(" #").next().unwrap_or_default().trim();
+            let Some((key, value)) = line.split_once(':').filter(|_| !line.starts_with('#')) else { continue };
+            let value = value.trim().trim_matches(['"', '\'']);
+            let bad = |allowed: &str| {
+                let text = format!("`{}` is `{}`; give {allowed}", shown(key), shown(value));
+                Error::new(ErrorKind::BadValue, text).at_line(place + 1)
+            };
+            let number = || value.parse::<f64>().ok().filter(|number| number.is_finite());
+            let share = || number().filter(|share| (0.0..=1.0).contains(share));
+            match key.trim() {
+                "image" => image = Some(value.to_owned()),
+                "resolution" => {
+                    let positive = number().filter(|side| side.is_finite() && *side > 0.0);
+                    resolution = Some(positive.ok_or_else(|| bad("a positive number of metres"))?);
+                }
+                "occupied_thresh" => meaning.thresholds[0] = share().ok_or_else(|| bad("a share from 0 to 1"))?,
+                "free_thresh" => meaning.thresholds[1] = share().ok_or_else(|| bad("a share from 0 to 1"))?,
+                "negate" => {
+                    meaning.negate = match value {
+                        "0" | "false" => false,
+                        "1" | "true" => true,
+                        _ => return Err(bad("0 or 1")),
+                    }
+                }
+                "origin" => {
+                    let list = value.trim_start_matches('[').trim_end_matches(']').split(',');
+                    let numbers: Option<Vec<f64>> = list.map(|word| word.trim().parse().ok()).collect();
+                    let three = numbers.and_then(|numbers| numbers.try_into().ok());
+                    meaning.origin = three.ok_or_else(|| bad("[x, y, yaw]"))?;
+                }
+                "mode" if value == "raw" => return Err(bad("trinary or scale")),
+                _ => {}
+            }
+        }
+        let missing = |key: &str| Error::new(ErrorKind::MissingKey, format!("there is no `{key}`; it is required"));
+        meaning.resolution = resolution.ok_or_else(|| missing("resolution"))?;
+        Ok((image.ok_or_else(|| missing("image"))?, meaning))
+    }
+
     pub(super) fn cell(&self, value: u32, most: u32) -> Cell {
         let share = f64::from(value) / f64::from(most);
         let black = if self.negate { share } else { 1.0 - share };
@@ -54,7 +100,7 @@ impl Map {
         let map = match ending(path).as_str() {
             "yaml" | "yml" => {
                 let (image, meaning) =
-                    description(&read_text(path, DESCRIPTION_LIMIT)?).map_err(|e| e.in_file(path))?;
+                    Meaning::from_yaml(&read_text(path, DESCRIPTION_LIMIT)?).map_err(|e| e.in_file(path))?;
                 let image = path.parent().unwrap_or(Path::new("")).join(image);
                 return Map::from_image(&image, &meaning).map_err(|e| e.in_file(&image));
             }
@@ -69,7 +115,10 @@ impl Map {
         match ending(path).as_str() {
             "pgm" => Map::from_pgm(&bytes(path)?, meaning),
             "png" => Map::from_png(&bytes(path)?, meaning),
-            _ => Err(Error::new(ErrorKind::Unsupported, "a map is a .yaml, .pgm, .png, .txt, .map or .toml")),
+            _ => {
+                let text = "an image of a map is a .pgm or .png; other maps are .yaml, .txt, .map and .toml";
+                Err(Error::new(ErrorKind::Unsupported, text))
+            }
         }
     }
 
@@ -105,7 +154,12 @@ impl Map {
                 return Err(bad(text));
             }
             let value = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| value << 8 | u32::from(*byte));
-            cells.extend(pixels.chunks_exact(wide).take(count).map(|pixel| meaning.cell(value(pixel), most)));
+            for (pixel, value) in pixels.chunks_exact(wide).take(count).map(value).enumerate() {
+                if value > most {
+                    return Err(bad(format!("pixel {pixel}: the value is {value}; give a number up to {most}")));
+                }
+                cells.push(meaning.cell(value, most));
+            }
         }
         // The first row of an image is the uppermost one.
         let cells = cells.chunks(columns.max(1)).rev().flatten().copied().collect();
@@ -117,16 +171,24 @@ impl Map {
     /// the Moving AI lab may stand before them.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for another character and rows of different lengths, with the line; those of [`Map::of_cells`].
+    /// [`ErrorKind::Syntax`] for another character, rows of different lengths and a head that tells others, with the line; those of [`Map::of_cells`].
     pub fn from_text(text: &str, resolution: f64) -> Result<Self> {
         let mut lines: Vec<(usize, &str)> = text.lines().enumerate().map(|(place, line)| (place + 1, line)).collect();
-        if lines.first().is_some_and(|(_, line)| line.starts_with("type ")) {
-            lines.drain(..lines.len().min(4));
-        }
+        let has_head = lines.first().is_some_and(|(_, line)| line.starts_with("type "));
+        let head: Vec<(usize, &str)> = lines.drain(..if has_head { lines.len().min(4) } else { 0 }).collect();
         while lines.last().is_some_and(|(_, line)| line.is_empty()) {
             lines.pop();
         }
         let columns = lines.first().map_or(0, |(_, line)| line.chars().count());
+        for (place, line) in head {
+            let count = match line.split_once(' ') {
+                Some(("height", told)) if told.trim() != lines.len().to_string() => lines.len(),
+                Some(("width", told)) if told.trim() != columns.to_string() => columns,
+                _ => continue,
+            };
+            let text = format!("the head tells `{}`; the rows that follow make it {count}", shown(line));
+            return Err(Error::new(ErrorKind::Syntax, text).at_line(place));
+        }
         let mut cells = Vec::new();
         for (place, line) in lines.iter().rev() {
             let bad = |text: String| Error::new(ErrorKind::Syntax, text).at_line(*place);
@@ -203,43 +265,4 @@ impl<'a> Words<'a> {
 
 fn text(bytes: &[u8]) -> String {
     shown(&String::from_utf8_lossy(&bytes[..bytes.len().min(40)])).to_string()
-}
-
-/// The image's name and what it means, of the flat YAML that `map_server` writes.
-fn description(text: &str) -> Result<(String, Meaning)> {
-    let (mut image, mut meaning, mut resolution) = (None, Meaning::new(1.0), None);
-    for (place, line) in text.lines().enumerate() {
-        let line = line.split(" #").next().unwrap_or_default().trim();
-        let Some((key, value)) = line.split_once(':').filter(|_| !line.starts_with('#')) else { continue };
-        let value = value.trim().trim_matches(['"', '\'']);
-        let bad = |allowed: &str| {
-            let text = format!("`{}` is `{}`; give {allowed}", shown(key), shown(value));
-            Error::new(ErrorKind::BadValue, text).at_line(place + 1)
-        };
-        let number = || value.parse::<f64>().ok().filter(|number| number.is_finite());
-        match key.trim() {
-            "image" => image = Some(value.to_owned()),
-            "resolution" => resolution = Some(number().ok_or_else(|| bad("a number of metres"))?),
-            "occupied_thresh" => meaning.thresholds[0] = number().ok_or_else(|| bad("a share"))?,
-            "free_thresh" => meaning.thresholds[1] = number().ok_or_else(|| bad("a share"))?,
-            "negate" => {
-                meaning.negate = match value {
-                    "0" | "false" => false,
-                    "1" | "true" => true,
-                    _ => return Err(bad("0 or 1")),
-                }
-            }
-            "origin" => {
-                let list = value.trim_start_matches('[').trim_end_matches(']').split(',');
-                let numbers: Option<Vec<f64>> = list.map(|word| word.trim().parse().ok()).collect();
-                let three = numbers.and_then(|numbers| numbers.try_into().ok());
-                meaning.origin = three.ok_or_else(|| bad("[x, y, yaw]"))?;
-            }
-            "mode" if value == "raw" => return Err(bad("trinary or scale")),
-            _ => {}
-        }
-    }
-    let missing = |key: &str| Error::new(ErrorKind::MissingKey, format!("there is no `{key}`; it is required"));
-    meaning.resolution = resolution.ok_or_else(|| missing("resolution"))?;
-    Ok((image.ok_or_else(|| missing("image"))?, meaning))
 }

@@ -4,7 +4,7 @@ use nalgebra::Point2;
 
 use super::field::Field;
 use super::map::Map;
-use crate::Result;
+use crate::{Error, ErrorKind, Result};
 
 /// A way over the floor, from its start to its goal.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,8 +70,9 @@ impl Field {
     /// corner. Where there is no way, the cells that enclose start or goals.
     ///
     /// # Errors
-    /// As [`Map::free_cell_at`].
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map of another count of cells, and where a field that was marched in a window ([`Field::within`]) falls no further.
     pub fn descend(&self, map: &Map, start: &Point2<f64>) -> Result<std::result::Result<Way, Enclosure>> {
+        self.check_of(map)?;
         let mut cell = map.free_cell_at(start)?;
         let times = self.times();
         if times[cell].is_infinite() {
@@ -81,7 +82,14 @@ impl Field {
         while times[cell] > 0.0 {
             let fall = |(next, distance): &(usize, f64)| (times[cell] - times[*next]) / distance;
             let steepest = around(map, cell).max_by(|a, b| fall(a).total_cmp(&fall(b)).then(b.0.cmp(&a.0)));
-            let Some((next, _)) = steepest.filter(|step| fall(step) > 0.0) else { break };
+            let Some((next, _)) = steepest.filter(|step| fall(step) > 0.0) else {
+                let at = map.centre(cell);
+                let text = format!(
+                    "the field falls no further at ({:.3}, {:.3}), where no goal is; march it anew",
+                    at.x, at.y
+                );
+                return Err(Error::new(ErrorKind::BadValue, text));
+            };
             cell = next;
             points.push(map.centre(cell));
         }

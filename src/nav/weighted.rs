@@ -58,6 +58,7 @@ impl Map {
         let Some(field) = field.or(own.as_ref()).filter(|field| field.goals() == [to]) else {
             return Err(Error::new(ErrorKind::BadValue, "the field is not one of this goal; give one of it, or none"));
         };
+        field.check_of(self)?;
         let places = |way: &Way| way.points.iter().map(|point| self.in_map(point)).collect::<Vec<_>>();
         let mut course = Course { map: self, points: places(&shortest.way) };
         let mut best = course.settle(watch)?;

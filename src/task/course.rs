@@ -59,6 +59,9 @@ impl Course {
         method: Method,
         watch: &Watch,
     ) -> Result<std::result::Result<Self, Blocked>> {
+        if goal.heading.is_some_and(|heading| !heading.is_finite()) {
+            return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));
+        }
         let wide = floor.of_disc(pilot.radius() + floor.half_cell())?;
         match way(&wide, &start.point(), &goal.place, method, watch) {
             Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),

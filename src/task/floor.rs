@@ -1,18 +1,20 @@
 //! The floor as a walker needs it. Main type: [`Floor`].
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use nalgebra::Point2;
 
 use super::pilot::Pilot;
-use crate::Result;
 use crate::gait::Polygon;
 use crate::nav::{Map, Shape};
+use crate::{Error, ErrorKind, Result};
 
 /// A map and how far each of its places is from what stands there. Soles may touch obstacles; the body keeps away from them. Cells that have not been
 /// seen are taken to be occupied.
 #[derive(Clone, Debug)]
 pub struct Floor {
     map: Map,
-    /// The same, grown by what the body keeps away.
+    /// The same, grown by what the body keeps away, and by half a cell.
     near: Map,
     clearances: Vec<f64>,
     apart: f64,
@@ -24,9 +26,15 @@ impl Floor {
     /// # Errors
     /// As [`Map::grown`].
     pub fn new(map: &Map, apart: f64) -> Result<Self> {
+        if apart.is_nan() || apart < 0.0 {
+            let text =
+                format!("the body keeps {apart} m away from obstacles; give a number that is not below zero (--apart)");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
         let map = map.clone().with_unknown_occupied();
         let clearances = map.clearances();
-        let near = map.keeping(&clearances, apart)?;
+        // What is in a cell whose middle is that far is far enough itself.
+        let near = map.keeping(&clearances, apart + map.resolution() * FRAC_1_SQRT_2)?;
         Ok(Floor { map, near, clearances, apart })
     }
 
@@ -35,7 +43,7 @@ impl Floor {
         &self.map
     }
 
-    /// The map, grown by what the body keeps away from obstacles.
+    /// The map, grown by what the body keeps away from obstacles and by half a cell: whoever is in free cells of it keeps away.
     pub fn near(&self) -> &Map {
         &self.near
     }
@@ -63,7 +71,7 @@ impl Floor {
 
     /// From the middle of a cell to its corners \[m\].
     pub(super) fn half_cell(&self) -> f64 {
-        self.map.resolution() * std::f64::consts::FRAC_1_SQRT_2
+        self.map.resolution() * FRAC_1_SQRT_2
     }
 
     /// Whether all within a radius of a place \[m\] keeps away from obstacles, for sure: where this says no there may yet be room.

@@ -1,5 +1,6 @@
 //! A walk that grows step by step along a course. Main type: [`Journey`].
 
+use std::collections::HashSet;
 use std::fmt;
 
 use nalgebra::{Point2, Point3};
@@ -16,7 +17,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// How many steps ahead on its course a search looks for a place at first.
 const STEPS_AHEAD: f64 = 6.0;
 /// How often steps are searched anew on one journey.
-const MOST_SEARCHES: usize = 40;
+const MOST_SEARCHES: usize = 12;
 
 /// What meets an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +79,7 @@ pub struct Journey<'p> {
     /// Steps that were searched and are still to be taken.
     searched: Vec<Footstep>,
     searches: usize,
-    forbidden: Vec<(Key, Key)>,
+    forbidden: HashSet<(Key, Key)>,
     refusals: Vec<Refusal>,
 }
 
@@ -100,10 +101,10 @@ impl<'p> Journey<'p> {
             walk,
             lead: feet[0].middle(&feet[1]),
             side: None,
-            corner: 0,
+            corner: 1,
             searched: Vec::new(),
             searches: 0,
-            forbidden: Vec::new(),
+            forbidden: HashSet::new(),
             refusals: Vec::new(),
         })
     }
@@ -131,7 +132,8 @@ impl<'p> Journey<'p> {
 
     /// To be said when the course or the floor has become another one: what was searched counts no longer.
     pub fn turn_to_new_course(&mut self) {
-        self.corner = 0;
+        // A course begins where the robot is.
+        self.corner = 1;
         self.searched.clear();
         self.forbidden.clear();
     }
@@ -227,7 +229,7 @@ impl<'p> Journey<'p> {
         };
         let stance = footstep.side.other();
         let from = key(self.pilot, stance, &self.feet()[stance as usize]);
-        self.forbidden.push((from, key(self.pilot, footstep.side, &footstep.print)));
+        self.forbidden.insert((from, key(self.pilot, footstep.side, &footstep.print)));
         self.refusals.push(Refusal { step: self.walk.schedule.route.steps.len() + 1, footstep, reason });
         Ok(false)
     }

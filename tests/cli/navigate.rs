@@ -121,7 +121,7 @@ fn bad_input_of_ways_is_refused() {
     fs::write(&walls, "...\n.#.\n...\n").unwrap();
     let path = |more: &[&str]| refused(&[&["path", text(&room), "--start", "0.5,0.5"][..], more].concat());
     for (more, words) in [
-        (&["--goal", "1.5,0.5"][..], "(1.5, 0.5) is occupied; the nearest free place is (1.425, 0.525)"),
+        (&["--goal", "1.5,0.5"][..], "(1.5, 0.5) is occupied; the nearest free place is (1.425, 0.475)"),
         (&["--goal", "9,9"], "(9, 9) is not on the map"),
         (&["--goal", "1"], "--goal takes two numbers"),
         (&["--goal", "2.5,0.5", "--radius", "-1"], "a radius of -1 m"),

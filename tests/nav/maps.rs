@@ -47,8 +47,10 @@ fn a_description_tells_where_its_image_stands() {
     assert_eq!(map.cell_at(&middle).unwrap(), 1);
     for (from, to, kind, words) in [
         ("resolution: 0.05", "", ErrorKind::MissingKey, "`resolution`"),
-        ("0.05", "wide", ErrorKind::BadValue, "give a number of metres"),
-        ("0.05", "-1", ErrorKind::BadValue, "a positive number"),
+        ("0.05", "wide", ErrorKind::BadValue, "give a positive number of metres"),
+        ("0.05", "-1", ErrorKind::BadValue, "line 2: `resolution` is `-1`; give a positive number"),
+        ("0.65", "65", ErrorKind::BadValue, "a share from 0 to 1"),
+        ("room.pgm", "room.yaml", ErrorKind::Unsupported, "an image of a map is a .pgm or .png"),
         ("[-1.0, 2.0, 0.5]", "[1, 2]", ErrorKind::BadValue, "[x, y, yaw]"),
         ("negate: 1", "negate: 2", ErrorKind::BadValue, "0 or 1"),
         ("negate: 1", "mode: raw", ErrorKind::BadValue, "trinary"),
@@ -71,6 +73,7 @@ fn what_is_no_map_is_refused() {
         (b"P5 2 2 70000\n", "up to 65535"),
         (b"P5 2 2 255\n\x00", "1 bytes of pixels; 2 x 2 take 4"),
         (b"P2 1 2 9 3 12", "pixel 1: the value is `12`; give a number up to 9"),
+        (b"P5 1 1 9\n\x0a", "pixel 0: the value is 10; give a number up to 9"),
         (b"P5 0 0 255\n", "0 x 0 cells"),
         (b"P5 200000000 200000000 255\n", "bytes of pixels"),
     ] {
@@ -81,6 +84,8 @@ fn what_is_no_map_is_refused() {
     assert!(error.place().line == Some(2) && error.message().contains("`x` is no cell"), "{error}");
     let error = Map::from_text("..\n...\n", 0.1).unwrap_err();
     assert!(error.place().line == Some(2) && error.message().contains("3 cells"), "{error}");
+    let error = Map::from_text("type octile\nheight 9\nwidth 2\nmap\n..\n..\n", 0.1).unwrap_err();
+    assert!(error.place().line == Some(2) && error.message().contains("make it 2"), "{error}");
     assert!(Map::from_text("", 0.1).is_err() && Map::new(3, 3, f64::NAN).is_err());
 }
 
@@ -138,7 +143,7 @@ fn furniture_covers_the_cells_that_it_touches() {
     for bad in [Shape::Polygon(vec![Point2::origin(); 2]), Shape::Circle { centre: Point2::origin(), radius: -1.0 }] {
         assert!(map.with(std::slice::from_ref(&bad)).is_err() && map.clone().with_speed(&bad, 1.0).is_err());
     }
-    for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for speed in [0.0, -1.0, 1e-46, 1e39, f64::NAN, f64::INFINITY] {
         let error = map.clone().with_speed(&shapes[0], speed).unwrap_err();
         assert!(error.message().contains("give a positive number"), "{error}");
     }

@@ -29,7 +29,10 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
     journey.turn_to_new_course();
     let course = Course::find(&pilot, &floors[1], &journey.middle(), first, Method::M3r, &watch).unwrap().unwrap();
     for _ in 0..6 {
+        let before = journey.middle();
         assert!(journey.step(&floors[1], &course, &watch).unwrap());
+        // It never turns back to where the course begins.
+        assert!(journey.middle().x > before.x - 0.02);
     }
     journey.turn_to_new_course();
     let course = Course::find(&pilot, &floors[1], &journey.middle(), last, Method::Exact, &watch).unwrap().unwrap();

@@ -50,6 +50,15 @@ fn bad_input_is_refused() {
     ] {
         assert!(error.kind() == ErrorKind::BadValue && error.message().contains(words), "{error}");
     }
+    let nowhere = Plan::find(
+        &pilot,
+        &floor,
+        start.feet(pilot.half_width()),
+        goal(2.9, 0.7, Some(f64::NAN)),
+        Method::Exact,
+        &Watch::none(),
+    );
+    assert!(nowhere.unwrap_err().message().contains("the heading at the goal is not finite"));
     assert!(Floor::new(&map, -1.0).is_err() && Floor::new(&map, f64::NAN).is_err());
     for (length, width) in [(0.0, 1.0), (1.0, f64::NAN)] {
         assert!(Body::of_size(length, width).is_err());

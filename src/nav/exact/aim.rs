@@ -2,7 +2,7 @@
 
 use super::plane::Spot;
 use super::rows::Rows;
-use super::search::{Goal, Search, Window};
+use super::windows::{Goal, Root, Window};
 
 /// What a search goes by.
 pub(super) enum Aim<'a> {
@@ -15,19 +15,18 @@ pub(super) enum Aim<'a> {
 }
 
 impl Aim<'_> {
-    /// The length of a way by a window.
-    pub fn through(&self, search: &Search, window: &Window) -> f64 {
-        let root = &search.roots[window.view.root as usize];
+    /// The length of a way by a window of a root.
+    pub fn through(&self, rows: &Rows, goal: &Goal, root: &Root, window: &Window) -> f64 {
         let line = window.view.line() as f64;
         let at = |ray: Spot| root.real.x + ray.x as f64 / ray.y as f64 * (line - root.real.y);
         let ends = window.rays.map(at);
         let height = (line - root.real.y).abs();
-        let straight = || by_straight(&search.goal, root.real.x, height, line, ends);
+        let straight = || by_straight(goal, root.real.x, height, line, ends);
         let beyond = match self {
             Aim::Straight => straight(),
             Aim::Nearest => norm((ends[0] - root.real.x).max(root.real.x - ends[1]).max(0.0), height),
             Aim::Field(times, scale) => {
-                let far = |x: f64| norm(x - root.real.x, height) + scale * on_line(search.rows, times, window, x);
+                let far = |x: f64| norm(x - root.real.x, height) + scale * on_line(rows, times, window, x);
                 straight().max(least(far, ends))
             }
         };
@@ -35,12 +34,12 @@ impl Aim<'_> {
     }
 
     /// How far it is from a corner.
-    pub fn from(&self, search: &Search, x: usize, y: usize) -> f64 {
-        let straight = norm(search.goal.real.x - x as f64, search.goal.real.y - y as f64);
+    pub fn from(&self, rows: &Rows, goal: &Goal, x: usize, y: usize) -> f64 {
+        let straight = norm(goal.real.x - x as f64, goal.real.y - y as f64);
         match self {
             Aim::Straight => straight,
             Aim::Nearest => 0.0,
-            Aim::Field(times, scale) => straight.max(scale * about(search.rows, times, x, y)),
+            Aim::Field(times, scale) => straight.max(scale * about(rows, times, x, y)),
         }
     }
 }

@@ -6,7 +6,9 @@
 use nalgebra::{Point2, Vector2};
 
 use super::aim::Aim;
-use super::search::{Goal, NONE, Search};
+use super::corners::{Corner, Corners};
+use super::search::Search;
+use super::windows::{Goal, NONE, Root};
 use super::{Floor, Plane, Rows, Shortest, enclosure};
 use crate::nav::map::Map;
 use crate::nav::way::{Enclosure, Way};
@@ -18,19 +20,7 @@ pub struct Distances {
     goal: Point2<f64>,
     cell: usize,
     rows: Rows,
-    /// By lattice point the number of its corner and one more, nought where it is none or no way leads to it.
-    numbers: Vec<u32>,
-    corners: Vec<Corner>,
-}
-
-/// A corner as the search found it.
-#[derive(Clone, Copy, Debug)]
-struct Corner {
-    place: Point2<f64>,
-    /// To the goal, in cells.
-    length: f64,
-    /// The next corner on the way there, one more than its number; nought where the goal is seen.
-    next: u32,
+    corners: Corners,
 }
 
 impl Distances {
@@ -47,10 +37,10 @@ impl Distances {
         let mut search = Search::new(&rows, plane, nowhere, Aim::Nearest);
         search.start(start, rows.place(cell));
         search.run(None, watch)?;
-        let corner = |root: &super::search::Root| Corner { place: root.real, length: root.length, next: root.before };
+        let corner = |root: &Root| Corner { place: root.real, length: root.length, next: root.before };
         let corners = search.roots[1..].iter().map(corner).collect();
-        let numbers = search.into_numbers();
-        Ok(Distances { goal: *goal, cell, rows, numbers, corners })
+        let corners = Corners { corners, numbers: search.into_numbers() };
+        Ok(Distances { goal: *goal, cell, rows, corners })
     }
 
     /// The goal \[m\].
@@ -74,7 +64,7 @@ impl Distances {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let floor = Floor { map, rows: &self.rows, plane: Plane::new(map), ends: [*start, self.goal], cells };
-        let mut search = floor.search(Aim::Straight, Some(self));
+        let mut search = floor.search(Aim::Straight, Some(&self.corners));
         search.run(None, watch)?;
         if search.best.1 == NONE {
             let enclosure = enclosure(map, &self.rows, cells, watch)?;
@@ -82,18 +72,12 @@ impl Distances {
         }
         let mut points = vec![*start];
         let mut next = search.via;
-        while let Some(corner) = next.checked_sub(1).and_then(|number| self.corners.get(number as usize)) {
+        while let Some(corner) = next.checked_sub(1).and_then(|number| self.corners.corners.get(number as usize)) {
             points.push(map.in_world(&(corner.place - Vector2::repeat(1.0))));
             next = corner.next;
         }
         points.push(self.goal);
         let way = Way { points };
         Ok(Ok(Shortest { bound: way.length(), way }))
-    }
-
-    /// The number of a corner, one more than its place, and how far it is.
-    pub(super) fn corner(&self, point: usize) -> Option<(u32, f64)> {
-        let number = self.numbers[point];
-        Some((number, self.corners.get(number.checked_sub(1)? as usize)?.length))
     }
 }

@@ -8,20 +8,24 @@
 //! obstacles. The map's speeds do not matter.
 
 mod aim;
+mod corners;
 mod distances;
 mod flood;
 mod plane;
 mod rows;
 mod search;
 mod turns;
+mod windows;
 
 use nalgebra::{Point2, Vector2};
 
 use self::aim::Aim;
+use self::corners::Corners;
 pub use self::distances::Distances;
 use self::plane::Plane;
 pub(super) use self::rows::Rows;
-use self::search::{End, Goal, NONE, Search};
+use self::search::{End, Search};
+use self::windows::{Goal, NONE};
 use super::field::Field;
 use super::map::Map;
 use super::way::{Enclosure, Way};
@@ -137,7 +141,7 @@ impl Floor<'_> {
     }
 
     /// A search that has looked about from the start.
-    fn search<'a>(&'a self, aim: Aim<'a>, distances: Option<&'a Distances>) -> Search<'a> {
+    fn search<'a>(&'a self, aim: Aim<'a>, distances: Option<&'a Corners>) -> Search<'a> {
         let [start, end] = self.ends.map(|place| self.map.in_map(&place) + Vector2::repeat(1.0));
         let cell = self.rows.place(self.cells[1]);
         let goal = Goal { cell, spot: self.plane.spot(&end, cell), real: end };

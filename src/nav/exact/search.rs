@@ -8,63 +8,14 @@ use std::collections::BinaryHeap;
 use nalgebra::Point2;
 
 use super::aim::{Aim, norm};
-use super::distances::Distances;
+use super::corners::Corners;
 use super::plane::{Plane, Spot};
 use super::rows::Rows;
+use super::windows::{Goal, NONE, Rays, Root, View, Window};
 use crate::{Result, Watch};
 
 /// Two lengths that differ by less, in parts of themselves, are one.
 const SAME: f64 = 1e-12;
-/// No root.
-pub(super) const NONE: u32 = u32::MAX;
-
-/// A start or a corner, and how one gets there.
-pub(super) struct Root {
-    pub spot: Spot,
-    pub real: Point2<f64>,
-    /// How far it is from the start, in cells.
-    pub length: f64,
-    pub before: u32,
-    /// In which direction a way of that length came that turned to the left there, and to the right.
-    turns: [Option<Spot>; 2],
-}
-
-/// From which root one goes up or down into which row.
-#[derive(Clone, Copy)]
-pub(super) struct View {
-    pub root: u32,
-    pub row: u32,
-    pub is_up: bool,
-    /// The root's length when it looked.
-    pub length: f64,
-}
-
-impl View {
-    /// The height of the lattice line by which the row is entered.
-    pub fn line(&self) -> usize {
-        self.row as usize + usize::from(!self.is_up)
-    }
-
-    /// Above nought where `other` has a greater x than the ray has beside it, below for a lesser one; both begin at the root.
-    #[inline]
-    pub fn side(&self, ray: Spot, other: Spot) -> i128 {
-        if self.is_up { -ray.cross(other) } else { ray.cross(other) }
-    }
-}
-
-/// Between which rays one looks, from the root; nothing where only walls are in the way.
-pub(super) type Rays = [Option<Spot>; 2];
-
-/// A stretch of the line by which a view enters its row.
-#[derive(Clone, Copy)]
-pub(super) struct Window {
-    pub view: View,
-    /// The rays to its ends, the one of the lesser x first.
-    pub rays: [Spot; 2],
-    /// The opening that it is part of: cells from one to below the other are free on both sides of the line.
-    pub opening: (u32, u32),
-}
-
 /// What a way does at a corner: it looks between two rays, and it follows the line to the left or to the right.
 #[derive(Clone, Copy)]
 pub(super) struct Turn {
@@ -79,14 +30,6 @@ pub(super) struct Turn {
 enum Step {
     Window(Window),
     Turn(Turn),
-}
-
-/// A goal: its cell and where it is.
-#[derive(Clone, Copy)]
-pub(super) struct Goal {
-    pub cell: (usize, usize),
-    pub spot: Spot,
-    pub real: Point2<f64>,
 }
 
 /// A search from one start to one goal.
@@ -108,7 +51,7 @@ pub(super) struct Search<'a> {
     pub best: (f64, u32),
     /// The corner from which distances tell the rest of that way, as they number it; nought for none.
     pub via: u32,
-    pub distances: Option<&'a Distances>,
+    pub distances: Option<&'a Corners>,
     /// Steps that have been taken.
     pub count: usize,
 }
@@ -187,7 +130,7 @@ impl<'a> Search<'a> {
             self.spread(&window.view, window.rays.map(Some), run);
             let least = self.queue.peek().map_or(f64::INFINITY, |Reverse((bits, _))| f64::from_bits(*bits));
             match self.fresh[..] {
-                [only] if self.aim.through(self, &only) <= least.min(self.best.0) => window = only,
+                [only] if self.through(&only) <= least.min(self.best.0) => window = only,
                 _ => return self.queue_fresh(),
             }
         }
@@ -299,10 +242,15 @@ impl<'a> Search<'a> {
         self.numbers
     }
 
+    /// The length of a way by a window at least, or about, as the search goes by it.
+    fn through(&self, window: &Window) -> f64 {
+        self.aim.through(self.rows, &self.goal, &self.roots[window.view.root as usize], window)
+    }
+
     fn queue_fresh(&mut self) {
         for place in 0..self.fresh.len() {
             let window = self.fresh[place];
-            let least = self.aim.through(self, &window);
+            let least = self.through(&window);
             self.put(least, Step::Window(window));
         }
     }
@@ -352,7 +300,7 @@ impl<'a> Search<'a> {
         if known.is_none_or(is_wider) {
             *known = Some(came);
             let turn = Turn { view: View { root: number, length: own.length, ..turn.view }, ..turn };
-            let least = length + self.aim.from(self, x, y);
+            let least = length + self.aim.from(self.rows, &self.goal, x, y);
             self.put(least, Step::Turn(turn));
         }
     }

@@ -1,6 +1,7 @@
 //! Where a way turns: at the ends of windows, and along lattice lines.
 
-use super::search::{Search, Turn, View, Window};
+use super::search::{Search, Turn};
+use super::windows::{View, Window};
 
 impl Search<'_> {
     /// Looks for corners at the ends of a window.
