@@ -91,7 +91,7 @@ impl Body {
 }
 
 /// A polygon around a circle.
-fn around(middle: Point2<f64>, radius: f64) -> impl Iterator<Item = Point2<f64>> {
+pub(super) fn around(middle: Point2<f64>, radius: f64) -> impl Iterator<Item = Point2<f64>> {
     let (count, half) = if radius > 0.0 { (SIDES, std::f64::consts::PI / SIDES as f64) } else { (1, 0.0) };
     let corner = radius / half.cos();
     (0..count).map(move |side| {

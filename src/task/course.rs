@@ -10,6 +10,9 @@ use crate::gait::Footprint;
 use crate::nav::{self, Enclosure, Field, Forces, Guide, Map, Potential, Way};
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// By how much more than it should, as a share, the body keeps away at most: circles are polygons around them.
+const ROUNDED: f64 = 0.04;
+
 /// How the way is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -62,7 +65,7 @@ impl Course {
         if goal.heading.is_some_and(|heading| !heading.is_finite()) {
             return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));
         }
-        let wide = floor.of_disc(pilot.radius() + floor.half_cell())?;
+        let wide = floor.of_disc(pilot.radius() + floor.half_cell() + ROUNDED * floor.apart())?;
         match way(&wide, &start.point(), &goal.place, method, watch) {
             Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),
             Ok(Err(_)) => {}

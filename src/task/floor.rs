@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use nalgebra::Point2;
 
+use super::body::around;
 use super::pilot::Pilot;
 use crate::gait::Polygon;
 use crate::nav::{Map, Shape};
@@ -33,7 +34,6 @@ impl Floor {
         }
         let map = map.clone().with_unknown_occupied();
         let clearances = map.clearances();
-        // What is in a cell whose middle is that far is far enough itself.
         let near = map.keeping(&clearances, apart + map.resolution() * FRAC_1_SQRT_2)?;
         Ok(Floor { map, near, clearances, apart })
     }
@@ -43,7 +43,7 @@ impl Floor {
         &self.map
     }
 
-    /// The map, grown by what the body keeps away from obstacles and by half a cell: whoever is in free cells of it keeps away.
+    /// The map, grown by what the body keeps away from obstacles and by half a cell: whoever is in its free cells keeps away.
     pub fn near(&self) -> &Map {
         &self.near
     }
@@ -91,6 +91,8 @@ impl Floor {
 
     /// A place where a body would come too near to an obstacle.
     pub fn beside_body(&self, outline: &Polygon) -> Option<Point2<f64>> {
-        self.near.obstacle_under(&Shape::Polygon(outline.corners().to_vec()))
+        let corners: Vec<Point2<f64>> =
+            outline.corners().iter().flat_map(|corner| around(*corner, self.apart)).collect();
+        self.map.obstacle_under(&Shape::Polygon(Polygon::hull(&corners).corners().to_vec()))
     }
 }
