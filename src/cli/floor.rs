@@ -12,7 +12,7 @@ use crate::{Error, ErrorKind, Result};
 #[derive(clap::Args)]
 pub struct FloorArguments {
     /// The side of a cell of a map that does not tell it [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.05)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, allow_hyphen_values = true)]
     resolution: f64,
     /// Take cells that have not been seen to be free
     #[arg(long)]

@@ -59,7 +59,7 @@ pub struct Arguments {
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
     /// How far the body keeps away from obstacles [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.02)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
     apart: f64,
     /// The body from above, instead of what the description's shapes say: how long and how wide [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]

@@ -46,10 +46,10 @@ pub struct Arguments {
     #[arg(long)]
     taut: bool,
     /// Round its corners by arcs of this radius where the map leaves room [m]; points are then a twentieth of a cell apart
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     smooth: Option<f64>,
     /// Keep obstacles, and what has not been seen, the radius of a round robot away [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.0)]
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true)]
     radius: f64,
     /// Where the corners of the way go, CSV
     #[arg(short, long, value_name = "FILE")]

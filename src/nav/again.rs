@@ -61,16 +61,7 @@ impl Field {
     }
 
     fn check(&self, map: &Map) -> Result<()> {
-        let rows = self.times.len() / self.columns;
-        if (map.columns(), map.rows()) != (self.columns, rows) {
-            let text = format!(
-                "a map of {} x {} cells; the field has {} x {rows}: give the same cells",
-                map.columns(),
-                map.rows(),
-                self.columns
-            );
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
+        self.check_of(map)?;
         self.goals.iter().try_for_each(|goal| map.free_cell_at(&map.centre(*goal)).map(drop))
     }
 

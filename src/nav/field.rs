@@ -46,12 +46,19 @@ impl Field {
         Ok(Field { method, columns: map.columns(), goals, times })
     }
 
-    /// Fails for a map that has another count of cells.
+    /// Fails for a map that has other cells.
     pub(super) fn check_of(&self, map: &Map) -> Result<()> {
-        if self.times.len() == map.cells().len() && self.columns == map.columns() {
+        let rows = self.times.len() / self.columns;
+        if (map.columns(), map.rows()) == (self.columns, rows) {
             return Ok(());
         }
-        Err(Error::new(ErrorKind::BadValue, "the field is one of another map; give one of this"))
+        let text = format!(
+            "a map of {} x {} cells; the field has {} x {rows}: give the same cells",
+            map.columns(),
+            map.rows(),
+            self.columns
+        );
+        Err(Error::new(ErrorKind::BadValue, text))
     }
 
     /// How it was made.
