@@ -34,7 +34,7 @@ fn main() -> Result<()> {
     let start = Footprint { x: 3.0, y: 3.0, yaw: 0.0 }.feet(pilot.half_width());
     let goal = Goal { place: Point2::new(7.0, 3.0), heading: Some(0.0) };
     match Plan::find(&pilot, &floor, start, goal, Method::Exact, &watch)? {
-        Ok(plan) => print!("{}", plan.to_svg(&pilot)),
+        Ok(plan) => print!("{}", plan.to_svg(&pilot, &floor)),
         Err(blocked) => eprintln!("{blocked}"),
     }
     Ok(())

@@ -29,12 +29,12 @@ impl FloorArguments {
     /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
     pub fn map(&self, file: &Path) -> Result<Map> {
         let is_room = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
-        let map = match (is_room, self.furniture.is_empty()) {
-            (false, false) => {
-                return Err(bad("--furniture is for rooms; give one in TOML").in_file(file));
-            }
-            (true, false) => self.room(file)?.map().map_err(|error| error.in_file(file))?,
-            (_, true) => Map::read(file, self.resolution)?,
+        let map = if is_room {
+            self.room(file)?.map().map_err(|error| error.in_file(file))?
+        } else if self.furniture.is_empty() {
+            Map::read(file, self.resolution)?
+        } else {
+            return Err(bad("--furniture is for rooms; give one in TOML").in_file(file));
         };
         Ok(if self.unknown_free { map.with_unknown_free() } else { map })
     }

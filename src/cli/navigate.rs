@@ -102,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
     match found {
-        Ok(plan) => arguments.tell(&pilot, &plan, milliseconds),
+        Ok(plan) => arguments.tell((&pilot, &floor), &plan, milliseconds),
         Err(blocked) => {
             eprintln!("error: {blocked}");
             Err(Halt::NoWay)
@@ -141,7 +141,7 @@ impl Arguments {
         Plan::find(pilot, floor, start.feet(pilot.half_width()), goal, method, watch)
     }
 
-    fn tell(&self, pilot: &Pilot, plan: &Plan, milliseconds: f64) -> Outcome {
+    fn tell(&self, (pilot, floor): (&Pilot, &Floor), plan: &Plan, milliseconds: f64) -> Outcome {
         let biped = &pilot.walker().biped;
         if let Some(file) = &self.out {
             let is_json = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
@@ -149,7 +149,7 @@ impl Arguments {
             write_atomically(file, text.as_bytes())?;
         }
         if let Some(file) = &self.plot {
-            write_atomically(file, plan.to_svg(pilot).as_bytes())?;
+            write_atomically(file, plan.to_svg(pilot, floor).as_bytes())?;
         }
         if self.quiet {
             return Ok(());

@@ -78,8 +78,8 @@ const CHORD: f64 = 0.05;
 
 /// Where a round robot may be at any place of a free cell.
 fn for_radius(map: Map, radius: f64) -> Result<Map> {
-    let half_cell = map.resolution() * std::f64::consts::FRAC_1_SQRT_2;
-    map.with_unknown_occupied().grown(if radius > 0.0 { radius + half_cell } else { radius })
+    let radius = if radius > 0.0 { radius + map.half_diagonal() } else { radius };
+    map.with_unknown_occupied().grown(radius)
 }
 
 /// What was found.

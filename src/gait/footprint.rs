@@ -166,18 +166,15 @@ impl Route {
             let y = if aside * side.sign() > 0.0 { aside } else { 0.0 };
             Footprint { x: 0.0, y: 0.0, yaw: share / 2.0 }.then(&Footprint { x: length, y, yaw: share / 2.0 })
         };
-        let beside = |middle: &Footprint, side: Side| {
-            middle.then(&Footprint { y: side.sign() * half_width, ..Default::default() })
-        };
         let mut middle = Footprint::default();
-        let start = [Side::Left, Side::Right].map(|side| beside(&middle, side));
+        let start = middle.feet(half_width);
         let mut side = first;
         let mut list = Vec::with_capacity(steps);
         for step in 0..steps {
             if step < advances {
                 middle = middle.then(&stride(side));
             }
-            list.push(Footstep { side, print: beside(&middle, side) });
+            list.push(Footstep { side, print: middle.feet(half_width)[side as usize] });
             side = side.other();
         }
         Route::new(start, list)
@@ -209,8 +206,7 @@ impl Route {
             }
             steps.push(step);
         }
-        let start =
-            [Side::Left, Side::Right].map(|side| Footprint { y: side.sign() * half_width, ..Default::default() });
+        let start = Footprint::default().feet(half_width);
         Route::new(start, steps)
     }
 

@@ -44,7 +44,8 @@ impl Map {
     /// # Errors
     /// [`ErrorKind::BadValue`] for no cells, more than 2^28, and a side that is not positive.
     pub fn new(columns: usize, rows: usize, resolution: f64) -> Result<Self> {
-        Map::of_cells(columns, rows, resolution, vec![Cell::Free; columns.saturating_mul(rows).min(MOST)])
+        let count = count_of(columns, rows, resolution)?;
+        Map::of_cells(columns, rows, resolution, vec![Cell::Free; count])
     }
 
     /// The same of these cells, by rows from the lowest one.
@@ -52,16 +53,10 @@ impl Map {
     /// # Errors
     /// As [`Map::new`], and for another count of cells.
     pub fn of_cells(columns: usize, rows: usize, resolution: f64, cells: Vec<Cell>) -> Result<Self> {
-        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
-        let count = columns.checked_mul(rows).filter(|count| (1..=MOST).contains(count));
-        if count.is_none() {
-            return bad(format!("a map of {columns} x {rows} cells: give between one and {MOST}"));
-        }
-        if count != Some(cells.len()) {
-            return bad(format!("{} cells are given; {columns} x {rows} are {}", cells.len(), columns * rows));
-        }
-        if !(resolution.is_finite() && resolution > 0.0) {
-            return bad(format!("a resolution of {resolution} m: give the side of a cell, a positive number"));
+        let count = count_of(columns, rows, resolution)?;
+        if count != cells.len() {
+            let text = format!("{} cells are given; {columns} x {rows} are {count}", cells.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(Map { columns, rows, resolution, corner: Point2::origin(), yaw: 0.0, cells, speeds: None })
     }
@@ -171,6 +166,11 @@ impl Map {
         self.resolution
     }
 
+    /// From the middle of a cell to its corners \[m\].
+    pub fn half_diagonal(&self) -> f64 {
+        self.resolution * std::f64::consts::FRAC_1_SQRT_2
+    }
+
     /// How its rows are turned anticlockwise \[rad\].
     pub fn yaw(&self) -> f64 {
         self.yaw
@@ -256,5 +256,17 @@ impl Map {
         let (sine, cosine) = self.yaw.sin_cos();
         let turned = Vector2::new(cosine * place.x - sine * place.y, sine * place.x + cosine * place.y);
         self.corner + turned * self.resolution
+    }
+}
+
+/// How many cells so many columns and rows have.
+fn count_of(columns: usize, rows: usize, resolution: f64) -> Result<usize> {
+    let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+    if !(resolution.is_finite() && resolution > 0.0) {
+        return bad(format!("a resolution of {resolution} m: give the side of a cell, a positive number"));
+    }
+    match columns.checked_mul(rows).filter(|count| (1..=MOST).contains(count)) {
+        Some(count) => Ok(count),
+        None => bad(format!("a map of {columns} x {rows} cells: give between one and {MOST}")),
     }
 }

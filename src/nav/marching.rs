@@ -2,42 +2,19 @@
 //!
 //! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). A difference of the first order stands in where the second neighbour is not known.
 
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::grid::Grid;
 use crate::{Result, Watch};
 
-/// A trial value.
-#[derive(Clone, Copy, PartialEq)]
-struct Trial {
-    time: f64,
-    place: u32,
-}
-
-impl Eq for Trial {}
-
-impl PartialOrd for Trial {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Trial {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.time.total_cmp(&other.time).then(self.place.cmp(&other.place))
-    }
-}
-
 /// T by place of the grid, where the goals' is nought and nobody has been elsewhere.
 pub(super) fn arrivals(grid: &Grid, mut times: Vec<f64>, goals: &[usize], watch: &Watch) -> Result<Vec<f64>> {
     let mut accepted = vec![false; times.len()];
-    let mut band = BinaryHeap::new();
-    for place in goals.iter().copied() {
-        band.push(Reverse(Trial { time: 0.0, place: place as u32 }));
-    }
+    // Trial values by the bits of their times: those of numbers that are not below nought have their order.
+    let mut band: BinaryHeap<Reverse<(u64, u32)>> = goals.iter().map(|place| Reverse((0, *place as u32))).collect();
     let mut count = 0u32;
-    while let Some(Reverse(Trial { place, .. })) = band.pop() {
+    while let Some(Reverse((_, place))) = band.pop() {
         let place = place as usize;
         if std::mem::replace(&mut accepted[place], true) {
             continue;
@@ -54,7 +31,7 @@ pub(super) fn arrivals(grid: &Grid, mut times: Vec<f64>, goals: &[usize], watch:
             let time = solve(grid, &times, &accepted, beside);
             if time < times[beside] {
                 times[beside] = time;
-                band.push(Reverse(Trial { time, place: beside as u32 }));
+                band.push(Reverse((time.to_bits(), beside as u32)));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use nalgebra::Point2;
 use png::{ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::map::Map;
+use super::map::{Cell, Map};
 use super::read::Meaning;
 use crate::{Error, ErrorKind, Result};
 
@@ -34,7 +34,7 @@ impl Map {
         let cell = |pixel: &[u8]| {
             let (colour, alpha) = pixel.split_at(colours);
             if has_alpha && alpha == [0] {
-                return super::map::Cell::Unknown;
+                return Cell::Unknown;
             }
             meaning.cell(colour.iter().map(|value| u32::from(*value)).sum(), 255 * colours as u32)
         };

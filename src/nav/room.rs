@@ -114,9 +114,6 @@ impl Room {
         if !self.size.iter().all(|size| size.is_finite() && *size > 0.0) {
             return bad(format!("a room of {length} x {width} m; give positive numbers"));
         }
-        if !(self.resolution.is_finite() && self.resolution > 0.0) {
-            return bad(format!("a resolution of {} m: give the side of a cell, a positive number", self.resolution));
-        }
         if !(self.wall.is_finite() && self.wall >= 0.0) {
             return bad(format!("walls of {} m; give a number that is not below zero", self.wall));
         }

@@ -63,7 +63,7 @@ impl Map {
         let mut course = Course { map: self, points: places(&shortest.way) };
         let mut best = course.settle(watch)?;
         let ends = [self.in_map(start), self.in_map(goal)];
-        if let Some(down) = descent(self, field, from, to, ends)? {
+        if let Some(down) = descent(self, field, from, ends)? {
             let mut other = Course { map: self, points: down };
             let time = other.settle(watch)?;
             if time < best {
@@ -78,20 +78,13 @@ impl Map {
     }
 }
 
-/// The way down a field from one end to the other; nothing where it ends elsewhere.
-fn descent(
-    map: &Map,
-    field: &Field,
-    from: usize,
-    to: usize,
-    ends: [Point2<f64>; 2],
-) -> Result<Option<Vec<Point2<f64>>>> {
+/// The way down a field from one end to the other; nothing where it does not reach so far.
+fn descent(map: &Map, field: &Field, from: usize, ends: [Point2<f64>; 2]) -> Result<Option<Vec<Point2<f64>>>> {
     let Ok(down) = field.descend(map, &map.centre(from))? else { return Ok(None) };
     let mut points = vec![ends[0]];
     points.extend(down.points.iter().map(|point| map.in_map(point)));
-    let arrives = down.points.last().is_some_and(|last| *last == map.centre(to));
     points.push(ends[1]);
-    Ok(arrives.then_some(points))
+    Ok(Some(points))
 }
 
 /// A way that becomes quicker; points are counted in cells.

@@ -65,7 +65,7 @@ impl Course {
         if goal.heading.is_some_and(|heading| !heading.is_finite()) {
             return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));
         }
-        let wide = floor.of_disc(pilot.radius() + floor.half_cell() + ROUNDED * floor.apart())?;
+        let wide = floor.of_disc(pilot.radius() + floor.map().half_diagonal() + ROUNDED * floor.apart())?;
         match way(&wide, &start.point(), &goal.place, method, watch) {
             Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),
             Ok(Err(_)) => {}

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::floor::Floor;
 use super::pilot::Pilot;
 use super::plan::Plan;
 use crate::drawing::frame::Frame;
@@ -23,8 +24,8 @@ const STYLE: &str = "<style>
 </style>";
 
 impl Plan {
-    /// The plan as SVG, in the axes of the map's world. Metres.
-    pub fn to_svg(&self, pilot: &Pilot) -> String {
+    /// The plan of a pilot on its floor as SVG, in the axes of the map's world. Metres.
+    pub fn to_svg(&self, pilot: &Pilot, floor: &Floor) -> String {
         let mut svg = Svg::default();
         svg.add(format_args!("{STYLE}"));
         let route = &self.walk.schedule.route;
@@ -46,25 +47,11 @@ impl Plan {
             (Swatch::Line, "com", "centre of mass"),
         ];
         svg.legend((LEFT, 46.0), &legend);
-        let frame = around(self.floor.map());
-        self.draw_floor(&frame, &mut svg);
+        let frame = around(floor.map());
+        draw_floor(floor, &frame, &mut svg);
         frame.draw(("m", "m"), &mut svg);
         self.draw_walk(pilot, &frame, &mut svg);
         svg.finish(WIDTH, frame.end() + 18.0)
-    }
-
-    fn draw_floor(&self, frame: &Frame, svg: &mut Svg) {
-        let (map, near) = (self.floor.map(), self.floor.near());
-        let drawn = |class: &str, holds: &dyn Fn(usize) -> bool, svg: &mut Svg| {
-            for (row, columns) in runs(map, holds) {
-                let corners =
-                    [(columns.start, row), (columns.end, row), (columns.end, row + 1), (columns.start, row + 1)];
-                let at = |(x, y): (usize, usize)| map.in_world(&Point2::new(x as f64, y as f64));
-                svg.polygon(class, 1.0, corners.map(|corner| page(frame, &at(corner))));
-            }
-        };
-        drawn("near", &|cell| near.cells()[cell] == Cell::Occupied && map.is_free(cell), svg);
-        drawn("wall", &|cell| map.cells()[cell] == Cell::Occupied, svg);
     }
 
     fn draw_walk(&self, pilot: &Pilot, frame: &Frame, svg: &mut Svg) {
@@ -87,6 +74,22 @@ impl Plan {
         let (x, y) = page(frame, &self.course.goal.place);
         svg.add(format_args!(r#"<circle class="goal" cx="{x:.1}" cy="{y:.1}" r="4"/>"#));
     }
+}
+
+/// What is occupied, and what is too near to that for the body.
+fn draw_floor(floor: &Floor, frame: &Frame, svg: &mut Svg) {
+    let map = floor.map();
+    let drawn = |class: &str, holds: &dyn Fn(usize) -> bool, svg: &mut Svg| {
+        for (row, columns) in runs(map, holds) {
+            let corners = [(columns.start, row), (columns.end, row), (columns.end, row + 1), (columns.start, row + 1)];
+            let at = |(x, y): (usize, usize)| map.in_world(&Point2::new(x as f64, y as f64));
+            svg.polygon(class, 1.0, corners.map(|corner| page(frame, &at(corner))));
+        }
+    };
+    if let Ok(far) = floor.of_disc(map.half_diagonal()) {
+        drawn("near", &|cell| !far.is_free(cell) && map.is_free(cell), svg);
+    }
+    drawn("wall", &|cell| map.cells()[cell] == Cell::Occupied, svg);
 }
 
 fn page(frame: &Frame, at: &Point2<f64>) -> (f64, f64) {

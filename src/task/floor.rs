@@ -1,7 +1,5 @@
 //! The floor as a walker needs it. Main type: [`Floor`].
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use nalgebra::Point2;
 
 use super::body::around;
@@ -15,8 +13,6 @@ use crate::{Error, ErrorKind, Result};
 #[derive(Clone, Debug)]
 pub struct Floor {
     map: Map,
-    /// The same, grown by what the body keeps away, and by half a cell.
-    near: Map,
     clearances: Vec<f64>,
     apart: f64,
 }
@@ -25,27 +21,21 @@ impl Floor {
     /// That of a map, with how far the body keeps away from obstacles \[m\].
     ///
     /// # Errors
-    /// As [`Map::grown`].
+    /// [`ErrorKind::BadValue`] for another distance than a finite one that is not below zero.
     pub fn new(map: &Map, apart: f64) -> Result<Self> {
-        if apart.is_nan() || apart < 0.0 {
+        if !(apart.is_finite() && apart >= 0.0) {
             let text =
-                format!("the body keeps {apart} m away from obstacles; give a number that is not below zero (--apart)");
+                format!("the body keeps {apart} m away from obstacles; give a finite number, not below zero (--apart)");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let map = map.clone().with_unknown_occupied();
         let clearances = map.clearances();
-        let near = map.keeping(&clearances, apart + map.resolution() * FRAC_1_SQRT_2)?;
-        Ok(Floor { map, near, clearances, apart })
+        Ok(Floor { map, clearances, apart })
     }
 
     /// The map.
     pub fn map(&self) -> &Map {
         &self.map
-    }
-
-    /// The map, grown by what the body keeps away from obstacles and by half a cell: whoever is in its free cells keeps away.
-    pub fn near(&self) -> &Map {
-        &self.near
     }
 
     /// How far the body keeps away from obstacles \[m\].
@@ -66,12 +56,7 @@ impl Floor {
     /// # Errors
     /// As [`Map::grown`].
     pub fn of_core(&self, pilot: &Pilot) -> Result<Map> {
-        self.of_disc((pilot.core() - self.half_cell()).max(0.0))
-    }
-
-    /// From the middle of a cell to its corners \[m\].
-    pub(super) fn half_cell(&self) -> f64 {
-        self.map.resolution() * FRAC_1_SQRT_2
+        self.of_disc((pilot.core() - self.map.half_diagonal()).max(0.0))
     }
 
     /// Whether all within a radius of a place \[m\] keeps away from obstacles, for sure: where this says no there may yet be room.
@@ -80,7 +65,7 @@ impl Floor {
         let ends = [own.x, self.map.columns() as f64 - own.x, own.y, self.map.rows() as f64 - own.y];
         let border = ends.into_iter().fold(f64::INFINITY, f64::min) * self.map.resolution();
         // From the cell's middle to the place.
-        let off = self.half_cell();
+        let off = self.map.half_diagonal();
         border > radius && self.map.cell_at(place).is_ok_and(|cell| self.clearances[cell] - off > radius + self.apart)
     }
 

@@ -141,7 +141,7 @@ impl<'p> Journey<'p> {
     /// Takes the next step along a course; false where it has arrived, with its feet side by side.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where no step leads on, with the last reason; [`ErrorKind::Budget`] for a way that takes too many steps or too long a search; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] where no step leads on, with the last reason, also after searches of many footprints; [`ErrorKind::Budget`] for too many steps; [`Watch::check`].
     pub fn step(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<bool> {
         if self.walk.schedule.route.steps.len() >= MAX_STEPS {
             return Err(Error::new(ErrorKind::Budget, format!("the walk takes more than {MAX_STEPS} steps")));
@@ -297,7 +297,8 @@ fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Po
         for side in [Side::Left, Side::Right] {
             let poses = [before, sample].map(|sample| walk.references[sample].world_from_soles[side as usize]);
             let stood = sample > 0 && reference.stands[side as usize];
-            if stood || is_sole_far(pilot, floor, side, &poses[1]) {
+            let middle: Point2<f64> = poses[1].translation.vector.xy().into();
+            if stood || floor.is_far(&middle, pilot.sole_reach(side)) {
                 continue;
             }
             if let Some(at) = floor.under_sole(&both(poses.map(|pose| sole(pilot, side, &pose)))) {
@@ -320,13 +321,6 @@ fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Po
 /// What two outlines and all between them cover.
 fn both(outlines: [Polygon; 2]) -> Polygon {
     Polygon::hull(&outlines.iter().flat_map(|outline| outline.corners()).copied().collect::<Vec<_>>())
-}
-
-/// Whether nothing is near to a sole, for sure.
-fn is_sole_far(pilot: &Pilot, floor: &Floor, side: Side, world_from_sole: &Pose) -> bool {
-    let corners = &pilot.walker().biped.feet[side as usize].corners;
-    let reach = corners.iter().map(|corner| corner.coords.norm()).fold(0.0, f64::max);
-    floor.is_far(&world_from_sole.translation.vector.xy().into(), reach)
 }
 
 /// A sole from above.

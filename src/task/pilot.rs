@@ -23,6 +23,10 @@ pub struct Pilot {
     outline: Polygon,
     /// How far the body always reaches, whichever way it looks \[m\].
     core: f64,
+    /// How far body and soles reach at most \[m\].
+    radius: f64,
+    /// How far a sole reaches from its origin, left and right \[m\].
+    soles: [f64; 2],
 }
 
 impl Pilot {
@@ -42,7 +46,17 @@ impl Pilot {
         }
         let reach = Reach::of(&walker, &crouched, watch)?;
         let usual = if is_upright { usual.from_upright(&walker.biped) } else { crouched };
-        let mut pilot = Pilot { walker, usual, body, reach, outline: Polygon::hull(&[Point2::origin()]), core: 0.0 };
+        let soles = walker.biped.feet.each_ref().map(|foot| farthest(&foot.corners));
+        let mut pilot = Pilot {
+            walker,
+            usual,
+            body,
+            reach,
+            outline: Polygon::hull(&[Point2::origin()]),
+            core: 0.0,
+            radius: 0.0,
+            soles,
+        };
         let stand = pilot.stand(Footprint::default().feet(pilot.half_width()), Action::Rest, watch)?;
         let posture = &stand.motion.postures[0];
         let outline = pilot.body.outline(&pilot.walker.biped, posture)?;
@@ -50,6 +64,9 @@ impl Pilot {
         let sway = pilot.usual.amplitude;
         let aside = |y: f64| outline.corners().iter().map(move |corner| corner + Vector2::new(0.0, y));
         pilot.outline = Polygon::hull(&aside(sway).chain(aside(-sway)).collect::<Vec<_>>());
+        let feet = Footprint::default().feet(pilot.half_width());
+        let soles = [Side::Left, Side::Right].map(|side| pilot.walker.biped.sole_at(side, &feet[side as usize]));
+        pilot.radius = soles.iter().chain([&pilot.outline]).map(|own| farthest(own.corners())).fold(0.0, f64::max);
         Ok(pilot)
     }
 
@@ -85,10 +102,12 @@ impl Pilot {
 
     /// How far from the middle of its feet it reaches at most, with its body and the soles side by side \[m\].
     pub fn radius(&self) -> f64 {
-        let feet = Footprint::default().feet(self.half_width());
-        let soles = [Side::Left, Side::Right].map(|side| self.walker.biped.sole_at(side, &feet[side as usize]));
-        let corners = soles.iter().chain([&self.outline]).flat_map(|polygon| polygon.corners());
-        corners.map(|corner| corner.coords.norm()).fold(0.0, f64::max)
+        self.radius
+    }
+
+    /// How far the sole of a side reaches from its origin \[m\].
+    pub(super) fn sole_reach(&self, side: Side) -> f64 {
+        self.soles[side as usize]
     }
 
     /// How far from the middle of its feet its body reaches on every side while it rests: no way that is narrower lets it through \[m\].
@@ -121,4 +140,9 @@ impl Pilot {
         let request = self.usual.request(&self.walker.biped, route, self.reach.hip_height);
         Request { slowest: SLOWEST, ..request }
     }
+}
+
+/// How far points are from the origin at most.
+fn farthest(points: &[Point2<f64>]) -> f64 {
+    points.iter().map(|point| point.coords.norm()).fold(0.0, f64::max)
 }

@@ -14,8 +14,6 @@ use crate::{Result, Watch};
 pub struct Plan {
     /// The way.
     pub course: Course,
-    /// The floor.
-    pub floor: Floor,
     /// The walk.
     pub walk: Walk,
     /// The steps that were planned and not taken.
@@ -42,7 +40,7 @@ impl Plan {
         let mut journey = Journey::new(pilot, floor, feet, watch)?;
         while journey.step(floor, &course, watch)? {}
         let refusals = journey.refusals().to_vec();
-        Ok(Ok(Plan { course, floor: floor.clone(), walk: journey.finish(watch)?, refusals }))
+        Ok(Ok(Plan { course, walk: journey.finish(watch)?, refusals }))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A* over the steps of a walker with a field's time of arrival as heuristic (A. Hornung, A. Dornbush, M. Likhachev and M. Bennewitz, Anytime search-based footstep planning with suboptimality bounds, Humanoids 2012).
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use nalgebra::Point2;
@@ -42,12 +42,6 @@ struct Node {
     steps: f64,
 }
 
-/// A node that waits, the one with the fewest steps first.
-struct Waiting {
-    total: f64,
-    node: usize,
-}
-
 impl<'a> Search<'a> {
     /// A search on a map that holds the places of the body's middle.
     ///
@@ -71,8 +65,9 @@ impl<'a> Search<'a> {
     pub(super) fn steps(&self, feet: [Footprint; 2], first: Side, watch: &Watch) -> Result<Option<Vec<Footstep>>> {
         let mut nodes = vec![Node { feet, landed: first.other(), from: None, steps: 0.0 }];
         let mut best: HashMap<Key, f64> = HashMap::new();
-        let mut waiting = BinaryHeap::from([Waiting { total: 0.0, node: 0 }]);
-        while let Some(Waiting { node, .. }) = waiting.pop() {
+        // Bits of numbers that are not below nought have their order.
+        let mut waiting = BinaryHeap::from([Reverse((0, 0))]);
+        while let Some(Reverse((_, node))) = waiting.pop() {
             let own = key(self.pilot, nodes[node].landed, &nodes[node].feet[nodes[node].landed as usize]);
             if node > 0 && best.get(&own).is_some_and(|steps| *steps < nodes[node].steps) {
                 continue;
@@ -94,7 +89,7 @@ impl<'a> Search<'a> {
                     continue;
                 }
                 best.insert(key, steps);
-                waiting.push(Waiting { total: steps + left, node: nodes.len() });
+                waiting.push(Reverse(((steps + left).to_bits(), nodes.len())));
                 nodes.push(Node { from: Some(node), steps, ..next });
             }
         }
@@ -170,23 +165,3 @@ fn way_to(nodes: &[Node], last: usize) -> Vec<Footstep> {
     steps.reverse();
     steps
 }
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.total.total_cmp(&self.total).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Waiting {}
