@@ -1,9 +1,12 @@
 //! Walks around obstacles, of known robots by all methods, and through a passage in which they cannot turn.
 
+use groebot::Watch;
 use groebot::gait::Footprint;
-use groebot::task::Method;
+use groebot::nav::Way;
+use groebot::task::{Course, Floor, Journey, Method};
+use nalgebra::Point2;
 
-use super::{ROOM, arrives, goal, is_walked, keeps_away, pilot, plan, room};
+use super::{APART, ROOM, arrives, goal, is_walked, keeps_away, pilot, plan, room};
 
 #[test]
 fn rh0_walks_around_a_wall() {
@@ -64,4 +67,33 @@ at = [1.35, 1.4]
     arrives(&pilot, &found.walk, &goal);
     is_walked(&pilot, &found.walk);
     keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
+}
+
+/// A course that was made by hand leads along a box where soles have room and the body has not: as far as the robot gets, it leaves it, and where it does not get on it says why.
+#[test]
+fn a_body_keeps_away_where_its_course_does_not() {
+    let (robot, pilot) = pilot("rh0");
+    let map =
+        room("size = [3.0, 2.2]\nwall = 0.05\n[[furniture]]\nname = \"box\"\nbox = [1.2, 0.6]\nat = [1.5, 0.5]\n");
+    let (floor, watch) = (Floor::new(&map, APART).unwrap(), Watch::none());
+    let goal = goal(2.5, 1.0, None);
+    let start = Footprint { x: 0.5, y: 1.0, yaw: 0.0 };
+    let soles = |y: f64| map.is_free(map.cell_at(&Point2::new(1.5, y - pilot.half_width() - 0.06)).unwrap());
+    assert!(soles(1.0));
+    let course = Course { goal, way: Way { points: vec![start.point(), goal.place] }, is_wide: true };
+    let mut journey = Journey::new(&pilot, &floor, start.feet(pilot.half_width()), &watch).unwrap();
+    let end = loop {
+        match journey.step(&floor, &course, &watch) {
+            Ok(true) => {}
+            end => break end,
+        }
+    };
+    if let Err(error) = end {
+        assert!(error.message().contains("leads on from (") || error.message().contains("lead on from ("), "{error}");
+    }
+    let walk = journey.walk();
+    is_walked(&pilot, walk);
+    keeps_away(&robot, &pilot, walk, &map, 0..walk.references.len());
+    // It passed by the near side of the box.
+    assert!(walk.schedule.route.rests.iter().any(|rest| rest.x > 1.2 && rest.y > 1.02));
 }
