@@ -24,6 +24,11 @@ pub const DYNAMICS: &str = "7_dynamics.json";
 /// So many bytes of a certificate tell that it is one of ours.
 const HEAD: usize = 200;
 
+/// Whether a file is JSON by its name.
+pub fn is_json(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"))
+}
+
 /// Whether this is a folder with a stored certificate.
 pub fn is_derived(folder: &Path) -> bool {
     let mut head = [0; HEAD];

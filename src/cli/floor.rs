@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use nalgebra::Point2;
+use serde_json::{Value, json};
 
 use crate::document::{TEXT_LIMIT, read_text};
-use crate::nav::{Map, Room};
+use crate::nav::{Enclosure, Map, Room, Way};
 use crate::{Error, ErrorKind, Result};
 
 /// How a map is read, and what of its furniture is moved.
@@ -55,6 +56,20 @@ impl FloorArguments {
             }
         })
     }
+}
+
+/// The corners of a way \[m\].
+pub fn points(way: &Way) -> Value {
+    way.points.iter().map(|point| json!([point.x, point.y])).collect()
+}
+
+/// The middles of the cells that no way leaves \[m\].
+pub fn enclosure(map: &Map, enclosure: &Enclosure) -> Value {
+    let middle = |cell: &usize| {
+        let at = map.centre(*cell);
+        json!([at.x, at.y])
+    };
+    enclosure.cells.iter().map(middle).collect()
 }
 
 fn bad(text: &str) -> Error {

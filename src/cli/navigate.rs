@@ -5,15 +5,18 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use nalgebra::Point2;
+use serde_json::{Value, json};
 
-use super::floor::FloorArguments;
+use super::files::is_json;
+use super::floor::{self, FloorArguments};
+use super::json::FORMAT;
 use super::progress::{Limits, Session};
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::files::write_atomically;
-use crate::gait::{Footprint, Summary, Usual};
+use crate::gait::{Footprint, Footstep, Summary, Usual};
 use crate::robots::Outline;
-use crate::task::{Blocked, Body, Floor, Goal, Method, Pilot, Plan};
+use crate::task::{Blocked, Body, Floor, Goal, Method, Pilot, Plan, Refusal};
 use crate::{Error, ErrorKind, Result, Watch};
 
 const EXAMPLES: &str = "Examples:
@@ -26,7 +29,7 @@ const EXAMPLES: &str = "Examples:
 Metres, and degrees for headings; radians in files. The way is that of the middle of the feet: first with room for the robot however it is turned, where there is none with room for
 the core of its body. Steps follow it as far as legs and limits reach, or are searched where that fails; each is a walk of its own by one step goal,
 checked at every sample: soles on free cells, the body so far from obstacles, joints within limits and speeds, the zero moment point within its margin.
-Where there is no way the exit status is 4.";
+Where there is no way the exit status is 4, and picture and JSON show the cells that enclose start or goal.";
 
 /// Finds the way of a humanoid over a map, its footsteps, and the joint angles of the walk
 #[derive(clap::Args)]
@@ -73,6 +76,9 @@ pub struct Arguments {
     /// Where the picture of map, way and footsteps goes, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
+    /// Way, footsteps and refused steps as JSON instead of the summary
+    #[arg(long)]
+    json: bool,
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
@@ -97,12 +103,29 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let map = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.apart)?;
+    let (start, goal) = (arguments.start()?, arguments.goal()?);
     let begun = Instant::now();
-    let found = arguments.found(&pilot, &floor, &session.watch)?;
+    let feet = start.feet(pilot.half_width());
+    let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
+    match &found {
+        Ok(plan) => arguments.write(&pilot, &floor, plan)?,
+        Err(blocked) => {
+            if let Some(file) = &arguments.plot {
+                write_atomically(file, blocked.to_svg(&floor, &start.point(), &goal.place).as_bytes())?;
+            }
+        }
+    }
+    if arguments.json {
+        console::print(&super::json::text(&arguments.told(&pilot, &found, milliseconds)))?;
+    }
     match found {
-        Ok(plan) => arguments.tell((&pilot, &floor), &plan, milliseconds),
+        Ok(_) if arguments.json || arguments.quiet => Ok(()),
+        Ok(plan) => {
+            console::print(&Summary::of(&pilot.walker().biped, &plan.walk).to_string())?;
+            console::print(&format!("{plan}  planned in       {milliseconds:.1} ms\n"))
+        }
         Err(blocked) => {
             eprintln!("error: {blocked}");
             Err(Halt::NoWay)
@@ -121,41 +144,73 @@ impl Arguments {
         Pilot::new(named.walker, usual, body, !self.crouched, watch)
     }
 
-    fn found(&self, pilot: &Pilot, floor: &Floor, watch: &Watch) -> Result<std::result::Result<Plan, Blocked>> {
-        let start = match self.start[..] {
-            [x, y] => Footprint { x, y, yaw: 0.0 },
-            [x, y, heading] => Footprint { x, y, yaw: heading.to_radians() },
-            _ => return Err(bad("--start takes two or three numbers: --start 0,0,90")),
-        };
-        let goal = match self.goal[..] {
-            [x, y] => Goal { place: Point2::new(x, y), heading: None },
-            [x, y, heading] => Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) },
-            _ => return Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
-        };
-        let method = match self.method {
+    fn start(&self) -> Result<Footprint> {
+        match self.start[..] {
+            [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
+            [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
+            _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
+        }
+    }
+
+    fn goal(&self) -> Result<Goal> {
+        match self.goal[..] {
+            [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+            [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
+            _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
+        }
+    }
+
+    fn write(&self, pilot: &Pilot, floor: &Floor, plan: &Plan) -> Result<()> {
+        let biped = &pilot.walker().biped;
+        if let Some(file) = &self.out {
+            let text = if is_json(file) { plan.walk.to_json(biped) } else { plan.walk.to_csv(biped) };
+            write_atomically(file, text.as_bytes())?;
+        }
+        match &self.plot {
+            Some(file) => write_atomically(file, plan.to_svg(pilot, floor).as_bytes()),
+            None => Ok(()),
+        }
+    }
+
+    fn told(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
+        let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
+        let biped = &pilot.walker().biped;
+        let mut told = json!({ "format": FORMAT, "robot": biped.name, "method": method, "milliseconds": milliseconds });
+        let step = |Footstep { side, print }: &Footstep| json!({ "foot": side.name(), "x": print.x, "y": print.y, "yaw": print.yaw });
+        match found {
+            Ok(plan) => {
+                let summary = Summary::of(biped, &plan.walk);
+                told["points"] = floor::points(&plan.course.way);
+                told["length"] = plan.course.way.length().into();
+                told["wide"] = plan.course.is_wide.into();
+                told["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
+                told["seconds"] = summary.duration.into();
+                told["margin"] = summary.margin.value.into();
+                let refused = |refusal: &Refusal| {
+                    let mut value = step(&refusal.footstep);
+                    value["step"] = refusal.step.into();
+                    value["reason"] = refusal.to_string().into();
+                    value
+                };
+                told["refused"] = plan.refusals.iter().map(refused).collect();
+            }
+            Err(blocked) => {
+                told["points"] = Value::Null;
+                told["enclosure"] = floor::enclosure(&blocked.map, &blocked.enclosure);
+            }
+        }
+        told
+    }
+}
+
+impl MethodName {
+    fn method(self) -> Method {
+        match self {
             MethodName::Exact => Method::Exact,
             MethodName::Fmm => Method::FastMarching,
             MethodName::M3r => Method::M3r,
             MethodName::Potential => Method::Potential,
-        };
-        Plan::find(pilot, floor, start.feet(pilot.half_width()), goal, method, watch)
-    }
-
-    fn tell(&self, (pilot, floor): (&Pilot, &Floor), plan: &Plan, milliseconds: f64) -> Outcome {
-        let biped = &pilot.walker().biped;
-        if let Some(file) = &self.out {
-            let is_json = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
-            let text = if is_json { plan.walk.to_json(biped) } else { plan.walk.to_csv(biped) };
-            write_atomically(file, text.as_bytes())?;
         }
-        if let Some(file) = &self.plot {
-            write_atomically(file, plan.to_svg(pilot, floor).as_bytes())?;
-        }
-        if self.quiet {
-            return Ok(());
-        }
-        console::print(&Summary::of(biped, &plan.walk).to_string())?;
-        console::print(&format!("{plan}  planned in       {milliseconds:.1} ms\n"))
     }
 }
 

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use nalgebra::Point2;
 use serde_json::{Value, json};
 
-use super::floor::FloorArguments;
+use super::floor::{self, FloorArguments};
 use super::json::FORMAT;
 use super::progress::{Limits, Session};
 use super::{Halt, Outcome, console};
@@ -138,18 +138,14 @@ impl Arguments {
         let mut told = json!({ "format": FORMAT, "method": method, "milliseconds": milliseconds });
         match &found.way {
             Ok(way) => {
-                told["points"] = way.points.iter().map(|point| json!([point.x, point.y])).collect();
+                told["points"] = floor::points(way);
                 told["length"] = way.length().into();
                 told["seconds"] = found.time.into();
                 told["bound"] = found.bound.into();
             }
             Err(enclosure) => {
-                let middle = |cell: &usize| {
-                    let at = map.centre(*cell);
-                    json!([at.x, at.y])
-                };
                 told["points"] = Value::Null;
-                told["enclosure"] = enclosure.cells.iter().map(middle).collect();
+                told["enclosure"] = floor::enclosure(map, enclosure);
             }
         }
         told

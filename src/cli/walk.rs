@@ -1,9 +1,10 @@
 //! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use nalgebra::Point2;
 
+use super::files::is_json;
 use super::progress::{Limits, Session};
 use super::walker::{self, SoleArguments};
 use super::{Outcome, console};
@@ -323,7 +324,6 @@ impl Arguments {
     }
 
     fn write(&self, biped: &Biped, walk: &Walk, forces: Option<&[Forces]>, chains: Option<&[Chains]>) -> Result<()> {
-        let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
         let mut trajectory =
             forces.map_or_else(|| walk.trajectory(biped), |forces| walk.trajectory_with_forces(biped, forces));
         if let Some(chains) = chains {

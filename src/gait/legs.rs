@@ -8,7 +8,7 @@ use crate::kinematics::{InverseKinematics, Target};
 use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result};
 
-/// A knee that is bent less than this against its sense counts as straight \[rad\].
+/// A knee that is bent less than this against its sense is straight \[rad\]: there it is known to the root of what lengths are rounded by.
 const STRAIGHT: f64 = 1e-6;
 
 /// A configuration of a whole biped.
@@ -149,7 +149,11 @@ impl Leg {
         let before = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
         let answers = self.answers(torso_from_sole)?.into_iter().map(|answer| (rank(&answer), answer));
         let best = answers.min_by(|(a, _), (b, _)| before(a, b));
-        let (_, answer) = best.ok_or_else(|| self.out_of_reach(torso_from_sole))?;
+        let (_, mut answer) = best.ok_or_else(|| self.out_of_reach(torso_from_sole))?;
+        let (knee, sense) = self.knee;
+        if (-STRAIGHT..0.0).contains(&(answer[knee] * sense)) {
+            answer[knee] = 0.0;
+        }
         for (joint, value) in self.joints.iter().zip(answer) {
             q[*joint] = value;
         }

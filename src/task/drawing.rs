@@ -1,7 +1,10 @@
 //! A plan as a picture, SVG: the map from above with the way, the footsteps, the body at its rests and the path of the centre of mass.
 
+use std::collections::HashSet;
+
 use nalgebra::{Point2, Vector2};
 
+use super::course::Blocked;
 use super::floor::Floor;
 use super::pilot::Pilot;
 use super::plan::Plan;
@@ -20,36 +23,23 @@ const TOP: f64 = 60.0;
 const STYLE: &str = "<style>
 .wall { fill: #555; stroke: #555; stroke-width: 0.6 } .near { fill: #e4dccf; stroke: #e4dccf; stroke-width: 0.6 }
 .way { stroke: #2a7d46; stroke-width: 2; stroke-dasharray: 7 4 } .body { fill: none; stroke: #999; stroke-width: 0.8 }
-.goal { fill: #2a7d46 }
+.goal { fill: #2a7d46 } .start { fill: #444 } .closed { fill: #f0b8a8; stroke: #f0b8a8; stroke-width: 0.6 }
 </style>";
 
 impl Plan {
     /// The plan of a pilot on its floor as SVG, in the axes of the map's world. Metres.
     pub fn to_svg(&self, pilot: &Pilot, floor: &Floor) -> String {
-        let mut svg = Svg::default();
-        svg.add(format_args!("{STYLE}"));
-        let route = &self.walk.schedule.route;
-        let title = format!(
-            "{}: {} steps to ({:.2}, {:.2})",
-            pilot.walker().biped.name,
-            route.steps.len(),
-            self.course.goal.place.x,
-            self.course.goal.place.y
-        );
-        svg.text("title", (LEFT, 24.0), &title);
+        let place = self.course.goal.place;
+        let steps = self.walk.schedule.route.steps.len();
+        let title = format!("{}: {steps} steps to ({:.2}, {:.2})", pilot.walker().biped.name, place.x, place.y);
         let legend = [
-            (Swatch::Area, "wall", "occupied"),
-            (Swatch::Area, "near", "too near for the body"),
             (Swatch::Line, "way", "way"),
             (Swatch::Area, "left", "left sole"),
             (Swatch::Area, "right", "right sole"),
             (Swatch::Line, "body", "body at rest"),
             (Swatch::Line, "com", "centre of mass"),
         ];
-        svg.legend((LEFT, 46.0), &legend);
-        let frame = around(floor.map());
-        draw_floor(floor, &frame, &mut svg);
-        frame.draw(("m", "m"), &mut svg);
+        let (frame, mut svg) = begun(&title, &legend, floor, &[]);
         self.draw_walk(pilot, &frame, &mut svg);
         svg.finish(WIDTH, frame.end() + 18.0)
     }
@@ -71,13 +61,43 @@ impl Plan {
         }
         svg.line("way", line(&mut self.course.way.points.iter().copied()));
         svg.line("com", line(&mut self.walk.motion.centres.iter().map(|centre| centre.xy())));
-        let (x, y) = page(frame, &self.course.goal.place);
-        svg.add(format_args!(r#"<circle class="goal" cx="{x:.1}" cy="{y:.1}" r="4"/>"#));
+        dot("goal", frame, &self.course.goal.place, svg);
     }
 }
 
-/// What is occupied, and what is too near to that for the body.
-fn draw_floor(floor: &Floor, frame: &Frame, svg: &mut Svg) {
+impl Blocked {
+    /// Why there is no way over a floor as SVG, in the axes of the map's world: the cells that enclose start or goal. Metres.
+    pub fn to_svg(&self, floor: &Floor, start: &Point2<f64>, goal: &Point2<f64>) -> String {
+        let legend =
+            [(Swatch::Area, "closed", "enclosed"), (Swatch::Area, "start", "start"), (Swatch::Area, "goal", "goal")];
+        let title = format!("no way from ({:.2}, {:.2}) to ({:.2}, {:.2})", start.x, start.y, goal.x, goal.y);
+        let (frame, mut svg) = begun(&title, &legend, floor, &self.enclosure.cells);
+        dot("start", &frame, start, &mut svg);
+        dot("goal", &frame, goal, &mut svg);
+        svg.finish(WIDTH, frame.end() + 18.0)
+    }
+}
+
+/// A picture of a floor with some of its cells marked, ready for more.
+fn begun(title: &str, legend: &[(Swatch, &str, &str)], floor: &Floor, closed: &[usize]) -> (Frame, Svg) {
+    let mut svg = Svg::default();
+    svg.add(format_args!("{STYLE}"));
+    svg.text("title", (LEFT, 24.0), title);
+    let own = [(Swatch::Area, "wall", "occupied"), (Swatch::Area, "near", "too near for the body")];
+    svg.legend((LEFT, 46.0), &[&own[..], legend].concat());
+    let frame = around(floor.map());
+    draw_floor(floor, closed, &frame, &mut svg);
+    frame.draw(("m", "m"), &mut svg);
+    (frame, svg)
+}
+
+fn dot(class: &str, frame: &Frame, at: &Point2<f64>, svg: &mut Svg) {
+    let (x, y) = page(frame, at);
+    svg.add(format_args!(r#"<circle class="{class}" cx="{x:.1}" cy="{y:.1}" r="4"/>"#));
+}
+
+/// What is occupied, what is too near to that for the body, and what is closed.
+fn draw_floor(floor: &Floor, closed: &[usize], frame: &Frame, svg: &mut Svg) {
     let map = floor.map();
     let drawn = |class: &str, holds: &dyn Fn(usize) -> bool, svg: &mut Svg| {
         for (row, columns) in runs(map, holds) {
@@ -89,6 +109,8 @@ fn draw_floor(floor: &Floor, frame: &Frame, svg: &mut Svg) {
     if let Ok(far) = floor.of_disc(map.half_diagonal()) {
         drawn("near", &|cell| !far.is_free(cell) && map.is_free(cell), svg);
     }
+    let closed: HashSet<usize> = closed.iter().copied().collect();
+    drawn("closed", &|cell| closed.contains(&cell), svg);
     drawn("wall", &|cell| map.cells()[cell] == Cell::Occupied, svg);
 }
 

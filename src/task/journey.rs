@@ -16,8 +16,9 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many steps ahead on its course a search looks for a place at first.
 const STEPS_AHEAD: f64 = 6.0;
-/// How often steps are searched anew on one journey.
+/// How often steps are searched anew on one journey at least, and once more for so many steps that were taken.
 const MOST_SEARCHES: usize = 12;
+const STEPS_A_SEARCH: usize = 4;
 
 /// What meets an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,16 +237,17 @@ impl<'p> Journey<'p> {
 
     /// Searches for steps around what is in the way: to a place some steps ahead on the course, or where none lead there to the goal.
     fn search(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<()> {
-        if self.searches >= MOST_SEARCHES {
+        if self.searches >= MOST_SEARCHES + self.walk.schedule.route.steps.len() / STEPS_A_SEARCH {
             return self.stuck("steps were searched too often; none leads on");
         }
         self.searches += 1;
         let map = floor.of_core(self.pilot)?;
         let last = course.way.points.len().saturating_sub(1);
-        let near = ahead(course, self.corner, &self.lead, STEPS_AHEAD * self.pilot.reach().ahead);
+        let near = self.near(floor, course);
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
         // A way along a border of cells is beside obstacles: what is near may be none of the core's places.
-        let targets = [near, (last, course.goal.place)].into_iter().filter(|(_, at)| map.free_cell_at(at).is_ok());
+        let targets = near.into_iter().chain([(last, course.goal.place)]);
+        let targets = targets.filter(|(_, at)| map.free_cell_at(at).is_ok());
         for (corner, target) in targets {
             let search = Search::new((self.pilot, floor), &map, &target, &self.forbidden, watch)?;
             for first in sides {
@@ -259,6 +261,19 @@ impl<'p> Journey<'p> {
         self.stuck("no steps of this robot lead on")
     }
 
+    /// The first place some steps ahead on the course where the body has room looking along it, and the corner behind that.
+    fn near(&self, floor: &Floor, course: &Course) -> Option<(usize, Point2<f64>)> {
+        let stride = self.pilot.reach().ahead;
+        let has_room = |(corner, at): &(usize, Point2<f64>)| {
+            let [from, to] = [corner - 1, *corner].map(|corner| course.way.points[corner]);
+            let looks = Footprint { x: at.x, y: at.y, yaw: (to.y - from.y).atan2(to.x - from.x) };
+            floor.beside_body(&self.pilot.outline_at(&looks)).is_none()
+        };
+        let steps = std::iter::successors(Some(STEPS_AHEAD), |steps| Some(steps + 1.0));
+        let mut places = steps.map_while(|steps| ahead(course, self.corner, &self.lead, steps * stride));
+        places.find(has_room)
+    }
+
     /// That there is no next step, with the last reason.
     fn stuck(&self, text: &str) -> Result<()> {
         let (at, turned) = (self.middle(), self.lead.yaw.to_degrees());
@@ -268,17 +283,17 @@ impl<'p> Journey<'p> {
     }
 }
 
-/// The place so far ahead on a course \[m\], and the corner that comes behind it.
-fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) -> (usize, Point2<f64>) {
+/// The place so far ahead on a course \[m\], and the corner that comes behind it; `None` beyond its end.
+fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) -> Option<(usize, Point2<f64>)> {
     let mut at = lead.point();
     for (place, point) in course.way.points.iter().enumerate().skip(corner) {
         let piece = (point - at).norm();
         if piece >= distance {
-            return (place, at + (point - at) * (distance / piece));
+            return Some((place, at + (point - at) * (distance / piece)));
         }
         (at, distance) = (*point, distance - piece);
     }
-    (course.way.points.len().saturating_sub(1), course.goal.place)
+    None
 }
 
 /// The middle of the feet if the other one came to the side of a step.
