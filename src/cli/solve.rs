@@ -12,7 +12,7 @@ use super::{Outcome, console};
 use crate::derive::input::COUPLED_NAME;
 use crate::derive::{Proved, Source};
 use crate::document::read_text;
-use crate::solver::Program;
+use crate::solver::{Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest program that is read, in bytes.
@@ -79,9 +79,14 @@ pub(super) fn read_program(path: &Path) -> Result<Program> {
     Program::from_json(&text).map_err(|error| error.in_file(&file))
 }
 
-fn answer<'a>(program: &'a Program, forms: &Forms, numbers: Vec<f64>, angles: Angles) -> Result<Answer<'a>> {
+fn answer<'a>(
+    (program, solver): (&'a Program, &Solver),
+    forms: &Forms,
+    numbers: Vec<f64>,
+    angles: Angles,
+) -> Result<Answer<'a>> {
     let target = forms.inputs(numbers)?;
-    let solutions = program.solve_numbers(&angles.to_radians(program, &target))?;
+    let solutions = solver.solve_numbers(&angles.to_radians(program, &target))?;
     Ok(Answer { program, target, solutions, reason: None, angles })
 }
 
@@ -103,13 +108,13 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
 /// Targets from the command line: a page of text, or JSON.
 fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
-    let forms = Forms::new(program);
+    let (solver, forms) = (program.solver(), Forms::new(program));
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
         let lists = forms.names();
         let names = lists.iter().find(|names| names.len() == count).unwrap_or(&lists[0]);
         let mut answer = targets::parse(names, target)
-            .and_then(|numbers| answer(program, &forms, numbers, angles))
+            .and_then(|numbers| answer((program, &solver), &forms, numbers, angles))
             .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
         if answer.solutions.is_empty() {
             answer.reason = reason(&arguments.derivation, &angles.to_radians(program, &answer.target))?;
@@ -128,7 +133,7 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
 fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let forms = Forms::new(program);
+    let (solver, forms) = (program.solver(), Forms::new(program));
     let mut rows = targets::Reader::of_forms(forms.names(), io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
         write(&csv_header(program))?;
@@ -138,7 +143,7 @@ fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
         let solved = match rows.next() {
             None => break Ok(()),
             Some(row) => row.and_then(|Row { line, target }| {
-                answer(program, &forms, target, angles)
+                answer((program, &solver), &forms, target, angles)
                     .map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
             }),
         };

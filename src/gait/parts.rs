@@ -36,7 +36,8 @@ pub(super) fn in_parts<T: Send, I: Iterator<Item = Result<T>>>(
         told.collect::<Result<Vec<T>>>()
     };
     let starts = (0..count).step_by(size);
-    if count < FEW {
+    // In the browser there are no threads.
+    if count < FEW || cfg!(target_family = "wasm") {
         return Ok(starts.map(part).collect::<Result<Vec<_>>>()?.into_iter().flatten().collect());
     }
     let parts: Vec<Result<Vec<T>>> = std::thread::scope(|scope| {

@@ -13,8 +13,8 @@ pub(super) const MOST_ANSWERS: usize = 4096;
 const MOST_BLOCKS: usize = 64;
 /// The most unknowns.
 const MOST_UNKNOWNS: usize = 1024;
-/// Branch numbers stay below this: a double holds them all.
-const MOST_BRANCHES: usize = 1 << 53;
+/// Branch numbers stay below this, 2^53 - 1: a double holds them all.
+const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 
 impl Program {
     /// Checks that every index is in range, registers are written once and before they are read, every unknown is set once along

@@ -71,9 +71,17 @@ fn where_there_is_no_way_the_exit_status_is_four() {
         assert!(told["points"].is_null() && told["enclosure"].as_array().unwrap().len() == 4, "{told}");
     }
     let asked = ["navigate", "rh0", "--map", text(&room), "--start", "1,1", "--goal", "3.5,1", "--resolution", "0.6"];
-    let output = run(&asked);
+    let plot = folder.path().join("plan.svg");
+    let output = run(&[&asked[..], &["--json", "--plot", text(&plot)]].concat());
     assert_eq!(output.code, 4, "{}", output.err);
     assert!(output.err.contains("there is no way: "), "{}", output.err);
+    // The two cells of that side with room for a body, or one of them and what of them is nearer to the walls.
+    let told: Value = serde_json::from_str(&output.out).unwrap();
+    let cells = told["enclosure"].as_array().unwrap();
+    assert!(told["points"].is_null() && !cells.is_empty() && cells.len() <= 4, "{told}");
+    assert!(cells.iter().all(|at| at[0].as_f64().unwrap() < 1.8 || at[0].as_f64().unwrap() > 2.4), "{told}");
+    let drawn = fs::read_to_string(&plot).unwrap();
+    assert!(drawn.contains("no way from (1.00, 1.00) to (3.50, 1.00)") && drawn.contains("class=\"closed\""));
 }
 
 #[test]
@@ -95,6 +103,15 @@ fn a_humanoid_walks_over_a_map() {
     let middle = (last("left") + last("right")) / 2.0;
     assert!((middle.x - 0.9).abs() < 2e-3 && (middle.y - 1.3).abs() < 2e-3, "{middle}");
     assert!(fs::read_to_string(&svg).unwrap().contains("too near for the body"));
+    let told: Value = serde_json::from_str(&succeed(&[&asked.concat()[..], &["--json"]].concat())).unwrap();
+    assert_eq!((&told["robot"], &told["method"], &told["wide"]), (&"rh0".into(), &"exact".into(), &true.into()));
+    let steps = told["steps"].as_array().unwrap();
+    let end = |foot: &str| steps.iter().rfind(|step| step["foot"] == foot).unwrap();
+    let middle = (end("left")["x"].as_f64().unwrap() + end("right")["x"].as_f64().unwrap()) / 2.0;
+    assert!((middle - 0.9).abs() < 2e-3 && told["margin"].as_f64().unwrap() > 0.0);
+    assert!((told["length"].as_f64().unwrap() - 0.4f64.hypot(0.8)).abs() < 1e-9);
+    let seconds = walk.times[walk.times.len() - 1];
+    assert!((told["seconds"].as_f64().unwrap() - seconds).abs() < 0.05, "{} {seconds}", told["seconds"]);
 }
 
 /// Any description with two legs: they are derived on the spot, and its body's size is that of its shapes or given.

@@ -35,7 +35,8 @@ pub struct Report {
 pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
     program.validate().unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let expected: Vec<_> = targets.iter().map(|target| program.solve_numbers(target)).collect();
+    let solver = program.solver();
+    let expected: Vec<_> = targets.iter().map(|target| solver.solve_numbers(target)).collect();
     let mut report = Report::default();
     for solution in &expected {
         match solution {

@@ -100,6 +100,7 @@ fn compare(stored: &Stored, count: usize) -> Option<usize> {
     assert_eq!(free, chain.given().first().map_or(-1, |&joint| joint as i64), "{}", stored.name);
     assert!(kind > 0x2000_0000, "{}", stored.name);
     let mut total = 0;
+    let solver = program.solver();
     for (index, ((target, line), answers)) in targets.iter().zip(&lines).zip(&answers).enumerate() {
         let place = format!("{} at {:?}", stored.name, joints[index]);
         assert!(!answers.is_empty(), "{place}: no solution");
@@ -114,7 +115,7 @@ fn compare(stored: &Stored, count: usize) -> Option<usize> {
         if index % 3 == 2 {
             continue;
         }
-        let expected = program.solve_numbers(target).unwrap();
+        let expected = solver.solve_numbers(target).unwrap();
         assert_eq!(answers.len(), expected.len(), "{place}");
         for (answer, expected) in answers.iter().zip(&expected) {
             assert_eq!(answer.branch, expected.branch, "{place}");

@@ -15,10 +15,11 @@ use super::{odd, random};
 fn targets(program: &Program) -> Vec<Vec<f64>> {
     let mut next = random();
     let mut targets = odd(program.inputs.len());
+    let solver = program.solver();
     for count in 0..400 {
         let joint = |_| if count < 300 { next(-3.0, 3.0) } else { next(-2.0, 2.0).round() * FRAC_PI_2 };
         let q: Vec<f64> = (0..program.joints.len()).map(joint).collect();
-        targets.push(program.reached(&q).unwrap());
+        targets.push(solver.reached(&q).unwrap());
     }
     targets
 }

@@ -36,9 +36,9 @@ fn build(program: &Program, folder: &Path) -> Option<()> {
 pub fn compare(program: &Program, count: usize) -> Option<Seen> {
     let folder = tempfile::tempdir().unwrap();
     build(program, folder.path())?;
-    let joints = joint_values(program, count, random());
+    let (solver, joints) = (program.solver(), joint_values(program, count, random()));
     let targets: Vec<Vec<f64>> =
-        joints.iter().enumerate().filter(|(k, _)| k % 3 < 2).map(|(_, q)| program.reached(q).unwrap()).collect();
+        joints.iter().enumerate().filter(|(k, _)| k % 3 < 2).map(|(_, q)| solver.reached(q).unwrap()).collect();
     let mut text = format!("{}\n", targets.len());
     for target in &targets {
         let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
@@ -51,14 +51,14 @@ pub fn compare(program: &Program, count: usize) -> Option<Seen> {
         let count = numbers.next().unwrap() as usize;
         let answers: Vec<Vec<f64>> =
             (0..count).map(|_| program.joints.iter().map(|_| numbers.next().unwrap()).collect()).collect();
-        let expected = program.solve_numbers(target).unwrap();
+        let expected = solver.solve_numbers(target).unwrap();
         let turn = |a: f64, b: f64| (a - b - std::f64::consts::TAU * ((a - b) / std::f64::consts::TAU).round()).abs();
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| turn(*a, *b) <= 2e-2);
         seen.answers += answers.len();
         seen.expected += expected.len();
         seen.found += expected.iter().filter(|e| answers.iter().any(|answer| near(answer, &e.q))).count();
         for answer in &answers {
-            let reached = program.reached(answer).unwrap();
+            let reached = solver.reached(answer).unwrap();
             let off = reached.iter().zip(target).map(|(a, b)| turn(*a, *b)).fold(0.0, f64::max);
             seen.farthest = seen.farthest.max(off / program.scale.max(1.0));
         }

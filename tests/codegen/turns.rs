@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use groebot::codegen::c99::Pair;
 use groebot::codegen::rust;
 use groebot::kinematics::Solution;
-use groebot::solver::{About, JointValue, Program};
+use groebot::solver::{About, JointValue, Program, Solver};
 
 use super::harness::{SANITIZERS, c_sources, compile_c, feed, has_sanitizers, rustc, write_c};
 use super::random;
@@ -69,8 +69,8 @@ fn assert_close(a: &[f64], b: &[f64], place: &str) {
     assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-11), "{place}: {a:?} {b:?}");
 }
 
-fn check(program: &Program, question: &Question, output: &mut Output<'_>, place: &str) {
-    let answers = program.solve_numbers(&question.target).unwrap();
+fn check((program, solver): (&Program, &Solver), question: &Question, output: &mut Output<'_>, place: &str) {
+    let answers = solver.solve_numbers(&question.target).unwrap();
     let joints = program.joints.len();
     let turned = |answer: &Solution| -> Vec<Vec<i32>> {
         (0..joints).map(|joint| turns(program, joint, answer.q[joint], question.limits[joint])).collect()
@@ -100,7 +100,7 @@ fn check(program: &Program, question: &Question, output: &mut Output<'_>, place:
             assert_close(&output.joints(), &expected, place);
         }
         let reached: Vec<f64> = program.inputs.iter().map(|_| output.next()).collect();
-        assert_close(&reached, &program.reached(&answer.q).unwrap(), place);
+        assert_close(&reached, &solver.reached(&answer.q).unwrap(), place);
     }
     let within: Vec<&Solution> =
         answers.iter().filter(|answer| turned(answer).iter().all(|list| !list.is_empty())).collect();
@@ -213,13 +213,18 @@ fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
         let program = stored.program;
         let folder = tempfile::tempdir().unwrap();
         let Some(executables) = executables(&program, folder.path()) else { return };
-        let questions = questions(&program);
+        let (solver, questions) = (program.solver(), questions(&program));
         for (language, executable) in executables {
             let output = feed(&executable, text(&questions));
             let numbers = Box::new(output.split_whitespace().map(|word| word.parse::<f64>().unwrap()));
             let mut output = Output { numbers, joints: program.joints.len() };
             for (index, question) in questions.iter().enumerate() {
-                check(&program, question, &mut output, &format!("{} in {language}, question {index}", stored.name));
+                check(
+                    (&program, &solver),
+                    question,
+                    &mut output,
+                    &format!("{} in {language}, question {index}", stored.name),
+                );
             }
         }
     }

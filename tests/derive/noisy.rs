@@ -46,6 +46,7 @@ fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
     let derived = Derived::of_chain(&ideal, &Watch::none()).unwrap();
     let derived = if report.is_same() { derived } else { derived.polished_on(described, report).unwrap() };
     let (mut lost, mut ordinary) = (0, 0);
+    let solver = derived.program.solver();
     for _ in 0..POSES {
         let q: Vec<f64> = described.joints().iter().map(|_| std::f64::consts::PI * draw()).collect();
         if sigma(described.task_jacobian(&q, &[])) <= ORDINARY {
@@ -55,7 +56,7 @@ fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
         let rotation = pose.rotation.to_rotation_matrix();
         let rows = (0..9).map(|entry| rotation[(entry / 3, entry % 3)]);
         let target: Vec<f64> = pose.translation.vector.iter().copied().chain(rows).collect();
-        let answers = derived.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         let near =
             |a: f64, b: f64| ((a - b) / std::f64::consts::TAU - ((a - b) / std::f64::consts::TAU).round()).abs() < 1e-9;
         let found = answers.iter().filter(|answer| answer.q.iter().zip(&q).all(|(a, b)| near(*a, *b))).count();

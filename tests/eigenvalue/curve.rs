@@ -41,9 +41,10 @@ fn answers_beside_a_self_motion_are_found() {
 #[test]
 fn a_self_motion_is_told() {
     let (program, mut random) = (arm(), Random::new(25));
+    let solver = program.solver();
     for _ in 0..40 {
         let q = folded(&mut random, 0.0);
-        let answers = program.solve_numbers(&program.reached(&q).unwrap()).unwrap();
+        let answers = solver.solve_numbers(&solver.reached(&q).unwrap()).unwrap();
         let told = answers.iter().filter(|answer| !answer.free.is_empty());
         assert!(told.clone().count() > 0 && told.clone().all(|answer| (answer.q[5] - q[5]).abs() < 1e-6), "{q:?}");
     }

@@ -93,10 +93,11 @@ fn an_angle_that_hardly_matters_is_found() {
     let (_, chain) = chains().into_iter().find(|(name, _)| name == "rh0_arm").unwrap();
     let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
     let screws = ByScrews::new(&chain).unwrap();
+    let solver = derived.program.solver();
     for q in [[2.9299499523295327, -0.5595037167059775, -2.730454790267445], [-2.744637149732931, 1.99631, -2.73045479]]
     {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = solver.solve_numbers(&target).unwrap();
         // The second joint moves the hand by 1e-10 m a radian, and rounding leaves 1e-16 m of the target.
         let near = |a: &Solution, q: &[f64]| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-5);
         assert!(found.iter().any(|answer| near(answer, &q)), "{q:?}: {found:?}");
@@ -120,9 +121,10 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
     let straight = [-1.7449671303623484, -FRAC_PI_2, 1.6596867378555082, PI, 1.04472323442393, 2.0882958610197297];
     let bent =
         [-1.1416860189863716, FRAC_PI_2, 2.7271525371587795, 2.6300492957661383, 0.025887027639579507, 2.3680767039];
+    let solver = derived.program.solver();
     for q in [straight, bent] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = solver.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
         assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
@@ -137,6 +139,7 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
 fn answers_beside_a_self_motion_are_told_from_it() {
     let (chain, derived) = named("nao_left_arm");
     let screws = ByScrews::new(&chain).unwrap();
+    let solver = derived.program.solver();
     for q in [
         [-2.1181439729666236, -1.1153124227434787, 3.054851516480267, PI, 1.3995036173656856],
         [-2.4952264818136127, -1.712693381399061, -2.7778912204222905, 3.0028530738514303, 0.05311130956628407],
@@ -145,7 +148,7 @@ fn answers_beside_a_self_motion_are_told_from_it() {
         [1.9704230982243562, -1.712693381399061, -0.6801266552832805, PI, 0.6853713977081761],
     ] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = solver.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let isolated = |list: &[Solution]| list.iter().filter(|answer| answer.free.is_empty()).count();
         assert_eq!(isolated(&found), isolated(&expected), "{q:?}: {found:?}\n{expected:?}");
@@ -159,6 +162,7 @@ fn answers_beside_a_self_motion_are_told_from_it() {
 fn a_self_motion_next_to_a_folded_knee_is_found() {
     let (chain, derived) = named("nao_left_leg");
     let screws = ByScrews::new(&chain).unwrap();
+    let solver = derived.program.solver();
     for q in [
         [
             0.45451946273238164,
@@ -186,7 +190,7 @@ fn a_self_motion_next_to_a_folded_knee_is_found() {
         ],
     ] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = solver.solve_numbers(&target).unwrap();
         let expected = screws.solve(&target).unwrap();
         let self_motions = |list: &[Solution]| list.iter().filter(|answer| answer.free == [0]).count();
         assert!(self_motions(&found) >= self_motions(&expected).min(4), "{q:?}: {found:?}\n{expected:?}");
@@ -231,12 +235,13 @@ fn answers_that_rounding_tells_apart_are_two() {
 #[test]
 fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     let (chain, derived) = named("ur5");
+    let solver = derived.program.solver();
     for q in [
         [1.7831333503075366, 1.7935589547926682, 0.0, -1.596449081918493, PI, 2.6668881695581392],
         [1.9718164955569466, 2.150909511394738, 0.0, -1.574327778109324, PI, -2.0946209055636196],
         [0.014418844465883485, -2.013769168566549, 0.0, -1.5713535665710783, PI, -0.41288617615122725],
     ] {
-        let found = derived.program.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
+        let found = solver.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
         assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
         let beside = |a: &Solution| a.free.is_empty() && (a.q[4].abs() - PI).abs() < 1e-6;
         assert!(!found.iter().any(beside), "{q:?}: {found:?}");
@@ -252,9 +257,10 @@ fn a_self_motion_along_a_part_of_the_circle_is_found() {
     let (_, derived) = named("offset_wrist");
     let bent = [-2.3196916176, -2.0761626803, 0.0983141029, -1.5544591030, -FRAC_PI_2, 2.1506580949];
     let stretched = [1.5756778981, -0.2200531633, 0.0, -1.2689545032, -FRAC_PI_2, 1.8006871953];
+    let solver = derived.program.solver();
     for q in [bent, stretched] {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = solver.solve_numbers(&target).unwrap();
         assert!(found.iter().any(|answer| answer.free == [5]), "{q:?}: {found:?}");
         for answer in found {
             let reached = derived.reached(&answer.q).unwrap();
@@ -307,13 +313,14 @@ fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
     };
     // The wrist lies 0.96 m ahead of axis 3 and 0.175 m above it, axis 2 right below.
     let stretched = 0.175_f64.atan2(0.96) - FRAC_PI_2;
+    let solver = derived.program.solver();
     for (straight, width) in [(stretched, 1e-3), (stretched, 1e-2), (stretched + PI, 1e-3), (stretched + PI, 1e-2)] {
         let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(250) });
         let run = |mut q: [f64; 6]| {
             q[2] = straight + width * q[2] / 3.0;
             // Next to a straight wrist as well, joints 4 and 6 are hardly determined.
             prop_assume!(q[4].sin().abs() > 0.05);
-            let found = derived.program.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
+            let found = solver.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
             // Where both answers all but meet, what rounding leaves of the target tells the joints less well.
             let singular_values = derived.measured().spatial_jacobian(&q).unwrap().singular_values();
             let known = f64::max(1e-6, 1e-13 / singular_values.min());

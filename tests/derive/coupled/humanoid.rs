@@ -91,11 +91,12 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
     let screws = [&left, &right].map(|chain| ScrewSolver::new(chain).unwrap());
     let mut random = Random(11);
     let (mut running, mut most) = (Duration::ZERO, 0);
+    let solver = LEGS.program.solver();
     for pose in 0..200 {
         let q = random.angles(11);
         let target = LEGS.reached(&q).unwrap();
         let start = Instant::now();
-        let answers = LEGS.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         running += start.elapsed();
         let place = format!("pose {pose} {q:?}");
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{place}: {answers:?}");
@@ -118,10 +119,11 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
 fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()];
     let mut random = Random(12);
+    let solver = BOTH_POSES.program.solver();
     for pose in 0..40 {
         let q = random.angles(11);
         let target = BOTH_POSES.reached(&q).unwrap();
-        let answers = BOTH_POSES.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "pose {pose} {q:?}: {answers:?}");
         for (member, chain) in [(1, &legs[0]), (0, &legs[1])] {
             let asked = BOTH_POSES.joints_of(member, &q).unwrap();
@@ -140,6 +142,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
 fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
     let mut random = Random(13);
     let mut exact = 0;
+    let solver = BOTH_POSES.program.solver();
     for _ in 0..8 {
         let q = random.angles(11);
         let mut other = q.clone();
@@ -147,7 +150,7 @@ fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
         let mut target = BOTH_POSES.reached(&q).unwrap();
         // The right foot's pose stands first.
         target[12..].copy_from_slice(&BOTH_POSES.reached(&other).unwrap()[12..]);
-        assert!(BOTH_POSES.program.solve_numbers(&target).unwrap().is_empty());
+        assert!(solver.solve_numbers(&target).unwrap().is_empty());
         let explained = BOTH_POSES.explain(&target, &Watch::none()).unwrap().unwrap();
         assert_eq!((explained.member.as_str(), explained.before), ("left", 8));
         assert!(explained.to_string().contains("chain `left` needs `HipYawPitch` at"), "{explained}");
@@ -173,13 +176,14 @@ fn the_standing_robot_is_found() {
 fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {
     let mut random = Random(15);
     // The first and the third axis are in line where the roll turns the third into the first: by 45 and 135 degrees to either side.
+    let solver = BOTH_POSES.program.solver();
     for (member, roll) in [(1, 2.356_194_490_192_345), (0, -2.356_194_490_192_345)] {
         let roll_place = BOTH_POSES.stages.iter().find(|stage| stage.member == member).unwrap().joints[1];
         for _ in 0..10 {
             let mut q = random.angles(11);
             q[roll_place] = roll;
             let target = BOTH_POSES.reached(&q).unwrap();
-            let answers = BOTH_POSES.program.solve_numbers(&target).unwrap();
+            let answers = solver.solve_numbers(&target).unwrap();
             let near = |answer: &Solution| distance(&answer.q, &q) < 1e-6;
             assert!(answers.iter().any(near), "{q:?}: {answers:?}");
         }

@@ -61,9 +61,10 @@ fn an_actuator_of_three_chains_stands_once() {
     let members = [member("a", 2, POSITION), member("b", 2, POSITION), member("c", 3, POSITION)];
     let arms = derive("[[\"a.j0\", \"c.j0\", \"b.j0\"]]", &members).unwrap();
     assert_eq!(arms.program.joints.len(), 5);
+    let solver = arms.program.solver();
     for q in [[0.3, 0.7, -1.1, 0.4, 0.9], [-2.0, 1.0, 2.0, -1.5, 0.5]] {
         let target = arms.reached(&q).unwrap();
-        let answers = arms.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{q:?}: {answers:?}");
         // b has one joint for two numbers: only the hip that made the target fits.
         assert!(answers.iter().all(|answer| distance(&answer.q[..1], &q[..1]) < 1e-12), "{answers:?}");
@@ -77,14 +78,15 @@ fn an_actuator_of_three_chains_stands_once() {
 fn two_arms_that_must_agree_on_the_shoulder() {
     let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[member("a", 2, POSITION), member("b", 2, POSITION)]).unwrap();
     assert!(arms.simultaneous.is_some() && arms.dimension() == 2);
+    let solver = arms.program.solver();
     for q in [[0.3, 0.7, -1.1], [-2.0, 1.0, 2.0], [0.0, std::f64::consts::PI, 0.5]] {
-        let answers = arms.program.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
+        let answers = solver.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
     }
     // The second arm's shoulder at 0.25, or mirrored at the line to its tip at 0.85; the first one's at 0 or a right angle.
     let (near, far) = (0.25_f64, 0.85_f64);
     let target = [1.0, 1.0, near.cos() + far.cos(), near.sin() + far.sin()];
-    assert!(arms.program.solve_numbers(&target).unwrap().is_empty());
+    assert!(solver.solve_numbers(&target).unwrap().is_empty());
     let explained = arms.explain(&target, &Watch::none()).unwrap().unwrap();
     let disagreement = explained.disagreement.unwrap();
     assert_eq!((explained.member.as_str(), disagreement.actuator.as_str()), ("b", "j0"));

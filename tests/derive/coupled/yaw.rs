@@ -58,11 +58,12 @@ fn the_solver_asks_for_both_feet_and_the_torso_s_tilt() {
 fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
     let mut random = Random(21);
     let (mut running, mut most) = (Duration::ZERO, 0);
+    let solver = STANDING.program.solver();
     for _ in 0..12 {
         let q = random.angles(14);
         let target = STANDING.reached(&q).unwrap();
         let start = Instant::now();
-        let answers = STANDING.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         running += start.elapsed();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{q:?}: {answers:?}");
         let asked = feet(&q);
@@ -80,11 +81,12 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
 /// Both feet below the hips, soles level, knees bent, upright or bowed; one foot ahead, and turned out.
 #[test]
 fn the_standing_robot_is_found() {
+    let solver = STANDING.program.solver();
     for (pitch, hip) in [(0.0, 0.0), (0.1, 0.0), (0.0, -0.3), (0.1, -0.3)] {
         for (ahead, knee) in [(-0.4, 0.8), (-0.2, 0.9)] {
             let leg = |thigh: f64| [0.0, thigh - pitch, knee, -thigh - knee, 0.0];
             let q = [&[0.0, pitch, 0.0, hip][..], &leg(-0.4), &leg(ahead)].concat();
-            let answers = STANDING.program.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
+            let answers = solver.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
             assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
         }
     }
@@ -145,9 +147,10 @@ fn going_round_with_the_yaw_finds_the_same_answers() {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()].map(|leg| ScrewSolver::new(&leg).unwrap());
     let mut random = Random(22);
     let (mut ours, mut theirs) = (0, 0);
+    let solver = STANDING.program.solver();
     for _ in 0..6 {
         let q = random.angles(14);
-        let answers = STANDING.program.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
+        let answers = solver.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
         let found = meetings(&legs, &feet(&q), &q[1..3]);
         for (yaw, [left, right]) in &found {
             let is_ours = |other: &Vec<f64>| {

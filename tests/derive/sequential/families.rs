@@ -22,10 +22,11 @@ fn check(name: &str, chain: &Chain) -> Derived {
     println!("{name}: {} solutions, {forms:?}, {:?}", derived.plan.dimension, start.elapsed());
     let screws = ScrewSolver::new(chain);
     let mut random = Random(11);
+    let solver = derived.program.solver();
     for pose in 0..POSES {
         let q = random.joints(chain);
         let target = derived.reached(&q).unwrap();
-        let answers = derived.program.solve_numbers(&target).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
         let place = format!("{name} pose {pose} {q:?}: {answers:?}");
         assert!(answers.iter().any(|answer| distance(chain, &answer.q, &q, &answer.free) < 1e-7), "{place}");
         assert!(answers.iter().all(|answer| miss(&derived, &target, answer) <= 1e-12), "{place}");

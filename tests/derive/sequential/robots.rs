@@ -17,6 +17,7 @@ fn answers_are_complete_exact_and_as_many_as_the_screw_solver_s() {
         let start = Instant::now();
         let derived = derive(&chain);
         let time = start.elapsed();
+        let solver = derived.program.solver();
         let screws = ScrewSolver::new(&chain).unwrap();
         let mut random = Random(7);
         let mut running = Duration::ZERO;
@@ -24,7 +25,7 @@ fn answers_are_complete_exact_and_as_many_as_the_screw_solver_s() {
             let q = random.joints(&chain);
             let target = derived.reached(&q).unwrap();
             let start = Instant::now();
-            let answers = derived.program.solve_numbers(&target).unwrap();
+            let answers = solver.solve_numbers(&target).unwrap();
             running += start.elapsed();
             let place = format!("{} pose {pose} {q:?}: {answers:?}", robot.name());
             assert!(answers.iter().any(|answer| distance(&chain, &answer.q, &q, &answer.free) < 1e-9), "{place}");
