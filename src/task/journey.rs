@@ -1,5 +1,6 @@
 //! A walk that grows step by step along a course. Main type: [`Journey`].
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt;
 
@@ -69,7 +70,7 @@ impl fmt::Display for Refusal {
 /// A walk that grows step by step. Between two steps the robot rests on both feet: floor and course may change there.
 #[derive(Clone, Debug)]
 pub struct Journey<'p> {
-    pilot: &'p Pilot,
+    pilot: Cow<'p, Pilot>,
     walk: Walk,
     /// Where the middle of the feet would be if the one behind came to the side of the other.
     lead: Footprint,
@@ -98,7 +99,7 @@ impl<'p> Journey<'p> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(Journey {
-            pilot,
+            pilot: Cow::Borrowed(pilot),
             walk,
             lead: feet[0].middle(&feet[1]),
             side: None,
@@ -139,6 +140,32 @@ impl<'p> Journey<'p> {
         self.forbidden.clear();
     }
 
+    /// To be said when the robot is to walk otherwise from the next step on: other lengths, another pace, or another height, which it takes at once.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for the pilot of another robot, or one with samples another time apart; as [`crate::gait::plan`].
+    pub fn walk_as(&mut self, pilot: Pilot, watch: &Watch) -> Result<()> {
+        let [own, other] = [&*self.pilot, &pilot].map(|pilot| &pilot.walker().biped);
+        if own.name != other.name || own.joints != other.joints {
+            let text = format!("{} walks here; {} cannot go on for it", own.name, other.name);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let height = self.walk.motion.postures.last().map(|posture| posture.world_from_torso.translation.z);
+        self.walk.append(pilot.stand_from(self.feet(), height, Action::Lower, watch)?)?;
+        self.pilot = Cow::Owned(pilot);
+        let last = self.walk.schedule.route.steps.last();
+        self.lead = last.filter(|_| self.side.is_some()).map_or(self.middle(), |step| beside(&self.pilot, step));
+        self.turn_to_new_course();
+        Ok(())
+    }
+
+    /// The same journey with a pilot of its own.
+    pub fn into_owned(self) -> Journey<'static> {
+        let Journey { pilot, walk, lead, side, corner, searched, searches, forbidden, refusals } = self;
+        let pilot = Cow::Owned(pilot.into_owned());
+        Journey { pilot, walk, lead, side, corner, searched, searches, forbidden, refusals }
+    }
+
     /// Takes the next step along a course; false where it has arrived, with its feet side by side.
     ///
     /// # Errors
@@ -151,13 +178,13 @@ impl<'p> Journey<'p> {
             if !self.searched.is_empty() {
                 let step = self.searched.remove(0);
                 if self.take(floor, step, watch)? {
-                    self.lead = beside(self.pilot, &step);
+                    self.lead = beside(&self.pilot, &step);
                     return Ok(true);
                 }
                 self.searched.clear();
             } else {
                 let open = self.open();
-                let leads = match (next(self.pilot, &self.lead, course, &mut self.corner), open) {
+                let leads = match (next(&self.pilot, &self.lead, course, &mut self.corner), open) {
                     // From feet side by side more can be stepped than from others.
                     (Next::Lead(leads), Some(_)) => leads.into_iter().chain([self.lead]).collect(),
                     (Next::Lead(leads), None) => leads,
@@ -206,7 +233,7 @@ impl<'p> Journey<'p> {
             let step = Footstep { side, print: lead.feet(self.pilot.half_width())[side as usize] };
             let mut feet = self.feet();
             feet[side as usize] = step.print;
-            if fits(self.pilot, floor, &feet, side) && self.take(floor, step, watch)? {
+            if fits(&self.pilot, floor, &feet, side) && self.take(floor, step, watch)? {
                 self.lead = *lead;
                 return Ok(true);
             }
@@ -217,7 +244,7 @@ impl<'p> Journey<'p> {
     /// Takes a step, or notes why not.
     fn take(&mut self, floor: &Floor, footstep: Footstep, watch: &Watch) -> Result<bool> {
         let reason = match self.pilot.step(self.feet(), footstep, watch) {
-            Ok(walk) => match met(self.pilot, floor, &walk)? {
+            Ok(walk) => match met(&self.pilot, floor, &walk)? {
                 None => {
                     self.walk.append(walk)?;
                     self.side = Some(footstep.side.other());
@@ -229,8 +256,8 @@ impl<'p> Journey<'p> {
             Err(error) => return Err(error),
         };
         let stance = footstep.side.other();
-        let from = key(self.pilot, stance, &self.feet()[stance as usize]);
-        self.forbidden.insert((from, key(self.pilot, footstep.side, &footstep.print)));
+        let from = key(&self.pilot, stance, &self.feet()[stance as usize]);
+        self.forbidden.insert((from, key(&self.pilot, footstep.side, &footstep.print)));
         self.refusals.push(Refusal { step: self.walk.schedule.route.steps.len() + 1, footstep, reason });
         Ok(false)
     }
@@ -241,7 +268,7 @@ impl<'p> Journey<'p> {
             return self.stuck("steps were searched too often; none leads on");
         }
         self.searches += 1;
-        let map = floor.of_core(self.pilot)?;
+        let map = floor.of_core(&self.pilot)?;
         let last = course.way.points.len().saturating_sub(1);
         let near = self.near(floor, course);
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
@@ -249,7 +276,7 @@ impl<'p> Journey<'p> {
         let targets = near.into_iter().chain([(last, course.goal.place)]);
         let targets = targets.filter(|(_, at)| map.free_cell_at(at).is_ok());
         for (corner, target) in targets {
-            let search = Search::new((self.pilot, floor), &map, &target, &self.forbidden, watch)?;
+            let search = Search::new((&self.pilot, floor), &map, &target, &self.forbidden, watch)?;
             for first in sides {
                 let steps = search.steps(self.feet(), first, watch)?.unwrap_or_default();
                 if !steps.is_empty() {

@@ -132,6 +132,21 @@ impl Pilot {
         self.walk(Route::standing(feet), &[action], watch)
     }
 
+    /// The same with the trunk at another height before it is lowered or when it has risen \[m\].
+    pub(super) fn stand_from(
+        &self,
+        feet: [Footprint; 2],
+        height: Option<f64>,
+        action: Action,
+        watch: &Watch,
+    ) -> Result<Walk> {
+        let mut request = self.request(Route::standing(feet));
+        if let Gait::OneStep(one_step) = &mut request.gait {
+            one_step.upright = height;
+        }
+        plan_actions(&self.walker.biped, &self.walker.legs, &request, &[action], watch)
+    }
+
     fn walk(&self, route: Route, actions: &[Action], watch: &Watch) -> Result<Walk> {
         plan_actions(&self.walker.biped, &self.walker.legs, &self.request(route), actions, watch)
     }
