@@ -75,6 +75,7 @@ pub mod derive;
 
 pub mod codegen;
 
+pub mod sim;
 pub mod witness;
 
 #[cfg(feature = "cli")]

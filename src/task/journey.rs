@@ -111,6 +111,11 @@ impl<'p> Journey<'p> {
         })
     }
 
+    /// Who walks.
+    pub fn pilot(&self) -> &Pilot {
+        &self.pilot
+    }
+
     /// The walk up to now.
     pub fn walk(&self) -> &Walk {
         &self.walk

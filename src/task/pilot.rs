@@ -40,10 +40,7 @@ impl Pilot {
             let text = "steps are planned one by one, so that goal and obstacles may change between them: that takes a gait by one step goal";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
-        let mut crouched = usual.clone();
-        if let Gait::OneStep(one_step) = &mut crouched.gait {
-            one_step.upright = None;
-        }
+        let crouched = crouched(&usual);
         let reach = Reach::of(&walker, &crouched, watch)?;
         let usual = if is_upright { usual.from_upright(&walker.biped) } else { crouched };
         let soles = walker.biped.feet.each_ref().map(|foot| farthest(&foot.corners));
@@ -68,6 +65,15 @@ impl Pilot {
         let soles = [Side::Left, Side::Right].map(|side| pilot.walker.biped.sole_at(side, &feet[side as usize]));
         pilot.radius = soles.iter().chain([&pilot.outline]).map(|own| farthest(own.corners())).fold(0.0, f64::max);
         Ok(pilot)
+    }
+
+    /// The same with steps that are no longer than `ahead` \[m\] and turn by no more than `turn` \[rad\].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] where steps of these measures cannot be walked, with the reason; [`Watch::check`].
+    pub fn within(mut self, ahead: f64, turn: f64, watch: &Watch) -> Result<Self> {
+        self.reach.bounded(&self.walker, &crouched(&self.usual), (ahead, turn), watch)?;
+        Ok(self)
     }
 
     /// The walker.
@@ -155,6 +161,15 @@ impl Pilot {
         let request = self.usual.request(&self.walker.biped, route, self.reach.hip_height);
         Request { slowest: SLOWEST, ..request }
     }
+}
+
+/// The same figures without lowering and rising.
+fn crouched(usual: &Usual) -> Usual {
+    let mut usual = usual.clone();
+    if let Gait::OneStep(one_step) = &mut usual.gait {
+        one_step.upright = None;
+    }
+    usual
 }
 
 /// How far points are from the origin at most.

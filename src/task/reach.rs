@@ -52,6 +52,26 @@ impl Reach {
     }
 }
 
+impl Reach {
+    /// Bounds how far it steps ahead \[m\] and turns \[rad\], where such steps can be walked.
+    ///
+    /// # Errors
+    /// As [`Reach::of`].
+    pub(super) fn bounded(
+        &mut self,
+        walker: &Walker,
+        usual: &Usual,
+        (ahead, turn): (f64, f64),
+        watch: &Watch,
+    ) -> Result<()> {
+        let trials = Trials { walker, usual, hip_height: self.hip_height, watch };
+        trials.steps(ahead, 0.0, 0.0)?;
+        trials.steps(0.0, 0.0, turn)?;
+        (self.ahead, self.back, self.turn) = (self.ahead.min(ahead), self.back.min(ahead), self.turn.min(turn));
+        Ok(())
+    }
+}
+
 /// Trial walks at a height of the hip.
 struct Trials<'a> {
     walker: &'a Walker,

@@ -1,12 +1,19 @@
 //! Requests and their answers. Main type: [`Desk`].
 
+use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
+use groebot::model::Meshes;
+use groebot::nav::Room;
+use groebot::robots::{self, Outline};
+use groebot::sim::{FIGURES, Next, PRESETS, Run, Start};
 use groebot::solver::{Program, Solver};
-use groebot::{Error, ErrorKind, Result};
+use groebot::task::{Body, Goal, Method};
+use groebot::{Error, ErrorKind, Result, Watch};
+use nalgebra::Point2;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// What a page asks for.
+/// What a page asks for. Metres, radians; figures in their own units.
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -19,12 +26,44 @@ enum Request {
         /// One number an input.
         target: Vec<f64>,
     },
+    /// Let a robot of groebot stand ready in a room: what [`Desk::told`] tells, with the samples of its lowering.
+    Run {
+        /// `nao`, `rh0` or `teo`.
+        robot: String,
+        /// The room, TOML.
+        room: String,
+        /// Where the middle of the feet is, and where it looks.
+        start: [f64; 3],
+        /// Where it is to get, and where it is to look if that is asked for.
+        goal: Vec<f64>,
+        /// How far the body keeps away from obstacles.
+        apart: f64,
+    },
+    /// Take the next step: its samples, none where it has arrived.
+    Step,
+    /// Another goal.
+    Goal(Vec<f64>),
+    /// A piece of furniture elsewhere: x, y, yaw; or without it.
+    Furniture {
+        /// Its name.
+        name: String,
+        /// Where; nowhere takes it away.
+        at: Option<[f64; 3]>,
+    },
+    /// Another value of a figure of the gait.
+    Set {
+        /// Its name.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
 }
 
-/// What was taken, by numbers.
+/// What was taken, and the run.
 #[derive(Default)]
 pub struct Desk {
     solvers: Vec<Solver>,
+    run: Option<Run>,
 }
 
 impl Desk {
@@ -36,22 +75,129 @@ impl Desk {
     }
 
     fn take(&mut self, request: Request) -> Result<Value> {
+        let watch = Watch::none();
         match request {
-            Request::Open(program) => {
-                let program = Program::from_json(&program)?;
-                self.solvers.push(program.solver());
-                Ok(json!({
-                    "solver": self.solvers.len() - 1,
-                    "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
-                    "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
-                }))
-            }
+            Request::Open(program) => self.open(&program),
             Request::Solve { solver, target } => {
                 let unknown = || Error::new(ErrorKind::UnknownName, format!("there is no solver {solver}"));
-                let solutions: Vec<Solution> =
-                    self.solvers.get(solver).ok_or_else(unknown)?.solve_numbers(&target)?;
+                let solutions: Vec<Solution> = self.solvers.get(solver).ok_or_else(unknown)?.solve_numbers(&target)?;
                 Ok(json!({ "solutions": solutions }))
+            }
+            Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
+                let walker = robots::walker(&robot, Outline::Measured);
+                let described = if robot == "nao" { Some(robots::nao_v5()) } else { robots::robot(&robot) };
+                let unknown = || Error::new(ErrorKind::UnknownName, format!("no robot `{robot}` walks here"));
+                let (walker, described) = (walker.ok_or_else(unknown)??, described.ok_or_else(unknown)?);
+                let body = Body::new(&described, &walker.biped, &Meshes::default())?;
+                let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
+                let start = Start { walker, body, room, apart, middle, goal: place(&goal)?, method: Method::Exact };
+                let run = self.run.insert(Run::new(start, &watch)?);
+                let samples = run.walk().references.len();
+                Ok(told(run, 0..samples))
+            }
+            Request::Step => {
+                let run = self.running()?;
+                match run.step(&watch)? {
+                    Next::Step(samples) => Ok(samples_of(run, samples)),
+                    Next::Arrived => Ok(json!({ "arrived": true })),
+                }
+            }
+            Request::Goal(goal) => {
+                let run = self.running()?;
+                run.go_to(place(&goal)?, &watch)?;
+                Ok(told(run, 0..0))
+            }
+            Request::Furniture { name, at } => {
+                let run = self.running()?;
+                let room = run.room().clone();
+                let room = match at {
+                    Some([x, y, yaw]) => room.with_moved(&name, Point2::new(x, y), yaw)?,
+                    None => room.without(&name)?,
+                };
+                run.refurnish(room, &watch)?;
+                Ok(told(run, 0..0))
+            }
+            Request::Set { name, value } => {
+                let run = self.running()?;
+                let samples = run.set(&name, value, &watch)?;
+                Ok(told(run, samples))
             }
         }
     }
+
+    fn open(&mut self, program: &str) -> Result<Value> {
+        let program = Program::from_json(program)?;
+        self.solvers.push(program.solver());
+        Ok(json!({
+            "solver": self.solvers.len() - 1,
+            "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
+            "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
+        }))
+    }
+
+    fn running(&mut self) -> Result<&mut Run> {
+        self.run.as_mut().ok_or_else(|| Error::new(ErrorKind::MissingKey, "nothing runs yet; ask for a run first"))
+    }
+}
+
+fn place(goal: &[f64]) -> Result<Goal> {
+    match *goal {
+        [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+        [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading) }),
+        _ => Err(Error::new(ErrorKind::BadValue, "a goal has two or three numbers: x, y, heading")),
+    }
+}
+
+/// Figures with their presets, way, furniture, and samples.
+fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
+    let mut told = samples_of(run, samples);
+    let figure = |(figure, value): (&groebot::sim::Figure, &f64)| json!({ "name": figure.name, "what": figure.what, "unit": figure.unit, "value": value });
+    told["figures"] = FIGURES.iter().zip(&run.figures().values).map(figure).collect();
+    told["presets"] =
+        PRESETS.iter().map(|preset| json!({ "name": preset.name, "values": preset.figures.values })).collect();
+    match run.course() {
+        Ok(course) => {
+            told["way"] = course.way.points.iter().map(|at| json!([at.x, at.y])).collect();
+            told["wide"] = course.is_wide.into();
+        }
+        Err(blocked) => {
+            let middle = |cell: &usize| {
+                let at = blocked.map.centre(*cell);
+                json!([at.x, at.y])
+            };
+            told["way"] = Value::Null;
+            told["blocked"] = blocked.to_string().into();
+            told["enclosure"] = blocked.enclosure.cells.iter().map(middle).collect();
+        }
+    }
+    let piece =
+        |piece: &groebot::nav::Piece| json!({ "name": piece.name, "at": [piece.place.x, piece.place.y, piece.yaw] });
+    told["furniture"] = run.room().pieces.iter().map(piece).collect();
+    told
+}
+
+/// Samples of the walk: times, joints, torso and soles (position and quaternion xyzw), which soles stand, centre of mass, zero moment point, margin.
+fn samples_of(run: &Run, samples: std::ops::Range<usize>) -> Value {
+    let walk: &Walk = run.walk();
+    let sample = |sample: usize| {
+        let (reference, balance) = (&walk.references[sample], &walk.balances[sample]);
+        let posture = &walk.motion.postures[sample];
+        let sole = |side: Side| numbers(&reference.world_from_soles[side as usize]);
+        json!({
+            "time": walk.time(sample),
+            "q": posture.q,
+            "torso": numbers(&posture.world_from_torso),
+            "soles": [sole(Side::Left), sole(Side::Right)],
+            "stands": reference.stands,
+            "com": walk.motion.centres[sample].coords.as_slice(),
+            "zmp": [balance.zmp.x, balance.zmp.y],
+            "margin": balance.margin,
+        })
+    };
+    json!({ "samples": samples.map(sample).collect::<Vec<_>>() })
+}
+
+fn numbers(pose: &groebot::spatial::Pose) -> Value {
+    let (at, turn) = (pose.translation.vector, pose.rotation.coords);
+    json!([at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w])
 }
