@@ -22,6 +22,7 @@ mod poly;
 mod real;
 mod robots;
 mod roots;
+mod sim;
 mod solver;
 mod spatial;
 mod task;
