@@ -1,10 +1,26 @@
 //! Numbers as text that loses no bit: base64 (RFC 4648, section 4) of little-endian doubles.
 
+use super::data::Column;
+
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Doubles in base64.
 pub fn doubles(numbers: impl IntoIterator<Item = f64>) -> String {
     base64(&numbers.into_iter().flat_map(f64::to_le_bytes).collect::<Vec<u8>>())
+}
+
+/// Numbers of all samples: one where all are the same to the last bit, else doubles in base64.
+pub fn column(numbers: impl Iterator<Item = f64> + Clone) -> Column {
+    let mut bits = numbers.clone().map(f64::to_bits);
+    match bits.next() {
+        Some(first) if bits.all(|other| other == first) => Column::Constant(f64::from_bits(first)),
+        _ => Column::Varying(doubles(numbers)),
+    }
+}
+
+/// The same for each of `N` numbers of a sample.
+pub fn columns<const N: usize>(rows: &[[f64; N]]) -> Vec<Column> {
+    (0..N).map(|place| column(rows.iter().map(|row| row[place]))).collect()
 }
 
 /// Singles in base64.

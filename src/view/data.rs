@@ -81,16 +81,23 @@ pub struct Follows {
     pub offset: f64,
 }
 
-/// Texts without a remark are doubles in base64, sample by sample.
+/// A number for each sample: the same for all, or doubles in base64.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum Column {
+    Constant(f64),
+    Varying(String),
+}
+
 #[derive(Clone, Debug, Serialize)]
 pub struct Motion {
-    pub times: String,
+    pub times: Column,
     /// The joint of each column of `q`, by its place.
     pub joints: Vec<usize>,
-    pub q: String,
+    pub q: Vec<Column>,
     /// Position and quaternion xyzw.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub base: Option<String>,
+    pub base: Option<Vec<Column>>,
     pub contacts: Vec<Contact>,
     pub points: Vec<Point>,
     pub figures: Vec<Figure>,
@@ -105,7 +112,8 @@ pub struct Motion {
 #[derive(Clone, Debug, Serialize)]
 pub struct Contact {
     pub name: String,
-    pub poses: String,
+    /// Position and quaternion xyzw.
+    pub poses: Vec<Column>,
     /// `1` where it stands, else `0`: a letter a sample.
     pub stands: String,
     /// What of it touches the floor, in its frame.
@@ -116,19 +124,21 @@ pub struct Contact {
 #[derive(Clone, Debug, Serialize)]
 pub struct Point {
     pub name: String,
-    pub at: String,
+    pub at: Vec<Column>,
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Figure {
     pub name: String,
     pub unit: String,
-    pub values: String,
+    pub values: Column,
 }
 
-/// Polygons on the floor, one a sample.
+/// Polygons on the floor. Doubles in base64.
 #[derive(Clone, Debug, Serialize)]
 pub struct Support {
+    /// The sample from which on each holds, until the next one does.
+    pub starts: String,
     /// How many corners each has.
     pub counts: String,
     /// The corners of all of them: x and y.

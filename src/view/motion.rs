@@ -29,7 +29,7 @@ pub fn motion(robot: &Robot, trajectory: &Trajectory, record: Option<&WalkRecord
         let sole = told.iter().chain(soles).find(|sole| sole.contact == name);
         sole.map_or(&[], |sole| &sole.corners)
     };
-    let poses = |poses: &[Pose]| bytes::doubles(poses.iter().flat_map(pose_numbers));
+    let poses = |poses: &[Pose]| bytes::columns(&poses.iter().map(pose_numbers).collect::<Vec<_>>());
     let contact = |own: &crate::motion::Contact| Contact {
         name: own.name.clone(),
         poses: poses(&own.poses),
@@ -38,21 +38,23 @@ pub fn motion(robot: &Robot, trajectory: &Trajectory, record: Option<&WalkRecord
     };
     let point = |own: &crate::motion::Track| Point {
         name: own.name.clone(),
-        at: bytes::doubles(own.at.iter().flat_map(|at| [at.x, at.y, at.z])),
+        at: bytes::columns(&own.at.iter().map(|at| at.coords.into()).collect::<Vec<[f64; 3]>>()),
     };
     let figure = |own: &crate::motion::Figure| Figure {
         name: own.name.clone(),
         unit: own.unit.clone(),
-        values: bytes::doubles(own.values.iter().copied()),
+        values: bytes::column(own.values.iter().copied()),
     };
     let support = match record {
         Some(record) => Some(record.support.clone()),
         None => supports(trajectory, &corners),
     };
     Ok(Motion {
-        times: bytes::doubles(trajectory.times.iter().copied()),
+        times: bytes::column(trajectory.times.iter().copied()),
         joints: trajectory.joints.iter().map(|track| place(robot, track)).collect::<Result<_>>()?,
-        q: bytes::doubles(trajectory.q.iter().flatten().copied()),
+        q: (0..trajectory.joints.len())
+            .map(|joint| bytes::column(trajectory.q.iter().map(move |q| q[joint])))
+            .collect(),
         base: (!trajectory.base.is_empty()).then(|| poses(&trajectory.base)),
         contacts: trajectory.contacts.iter().map(contact).collect(),
         points: trajectory.points.iter().map(point).collect(),
@@ -98,8 +100,11 @@ fn supports<'s>(trajectory: &Trajectory, corners: &impl Fn(&str) -> &'s [Point2<
 }
 
 fn polygons(support: &[Vec<[f64; 2]>]) -> Support {
+    let is_new = |sample: &usize| sample.checked_sub(1).is_none_or(|before| support[before] != support[*sample]);
+    let starts: Vec<usize> = (0..support.len()).filter(is_new).collect();
     Support {
-        counts: bytes::doubles(support.iter().map(|polygon| polygon.len() as f64)),
-        corners: bytes::doubles(support.iter().flatten().flatten().copied()),
+        starts: bytes::doubles(starts.iter().map(|sample| *sample as f64)),
+        counts: bytes::doubles(starts.iter().map(|sample| support[*sample].len() as f64)),
+        corners: bytes::doubles(starts.iter().flat_map(|sample| &support[*sample]).flatten().copied()),
     }
 }
