@@ -14,6 +14,9 @@ const VIEWS = {
   follow: [0.85, -1.1, 0.55],
 } as const;
 
+/** How much more is seen than the robot. */
+const ROOM = 1.15;
+
 export type View = keyof typeof VIEWS;
 export const VIEW_NAMES = Object.keys(VIEWS) as View[];
 
@@ -21,11 +24,17 @@ export class Eye {
   private readonly controls: OrbitControls;
   private followed: Vector | undefined;
 
-  /** `middle` is what is looked at, from the robot's root; `radius` that of a ball about the robot [m]. */
-  constructor(private readonly stage: Stage, canvas: HTMLCanvasElement, private readonly middle: Vector, private readonly radius: number) {
+  /** `middle` is what is looked at, from the robot's root; `[radius, height]` are those of an upright cylinder about the robot [m]. */
+  constructor(
+    private readonly stage: Stage,
+    canvas: HTMLCanvasElement,
+    private readonly middle: Vector,
+    private readonly extent: [number, number],
+  ) {
     this.controls = new OrbitControls(stage.camera, canvas);
-    this.controls.minDistance = 0.3 * radius;
-    this.controls.maxDistance = 25 * radius;
+    const size = Math.max(...extent);
+    this.controls.minDistance = 0.2 * size;
+    this.controls.maxDistance = 25 * size;
     this.controls.addEventListener("change", () => stage.draw());
   }
 
@@ -33,13 +42,21 @@ export class Eye {
   look(view: View, root: Vector): void {
     this.followed = view === "follow" ? root : undefined;
     const { camera } = this.stage;
-    const half = (camera.fov / 360) * Math.PI;
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * camera.aspect));
     this.controls.target.set(root[0] + this.middle[0], root[1] + this.middle[1], root[2] + this.middle[2]);
-    const away = new Vector3(...VIEWS[view]).setLength((1.12 * this.radius) / Math.sin(narrow));
+    const away = new Vector3(...VIEWS[view]).normalize();
+    away.multiplyScalar(this.distance(away.z));
     camera.position.copy(this.controls.target).add(away);
     this.controls.update();
     this.stage.draw();
+  }
+
+  /** How far away the cylinder is seen as a whole, from so far above as the sine says. */
+  private distance(sine: number): number {
+    const { fov, aspect } = this.stage.camera;
+    const [radius, height] = this.extent;
+    const tangent = Math.tan((fov / 360) * Math.PI);
+    const upright = 0.5 * height * Math.sqrt(1 - sine * sine) + radius * sine;
+    return ROOM * Math.max(upright / tangent, radius / (tangent * aspect)) + radius;
   }
 
   /** Goes with the root, where it follows. */

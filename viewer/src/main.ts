@@ -5,6 +5,7 @@ import { read } from "./data";
 import { Desk, element, message, Theme } from "./desk";
 import { Picture } from "./picture";
 import type { Vector } from "./pose";
+import { NoPicture } from "./stage";
 
 export interface Groebot {
   /** Settled when the robot has been drawn; rejected, with the reason, where the page cannot be shown. */
@@ -34,13 +35,13 @@ function start(): App {
   const theme = new Theme();
   try {
     picture = new Picture(element<HTMLCanvasElement>("canvas"), app);
-  } catch {
+  } catch (error) {
+    if (!(error instanceof NoPicture)) throw error;
     element("canvas").hidden = true;
     message("No picture here", "This browser gives the page no WebGL, by which the robot is drawn. Joint values, plots and the timeline work.");
   }
   new Desk(app, picture, theme);
   if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shape, and no joint away from another one.`);
-  picture?.render();
   return app;
 }
 
@@ -48,7 +49,7 @@ let app: App | undefined;
 const ready = new Promise<void>((resolve, reject) => {
   try {
     app = start();
-    // Behind the next frame what has been drawn is on the screen.
+    // What the next frame draws is on the screen behind it.
     requestAnimationFrame(() => setTimeout(resolve));
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);

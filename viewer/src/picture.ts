@@ -18,7 +18,7 @@ export class Picture {
   private readonly overlays: Overlays | undefined;
   private readonly eye: Eye;
 
-  /** Throws where the browser gives no WebGL. */
+  /** Throws NoPicture where the browser gives no WebGL. */
   constructor(canvas: HTMLCanvasElement, private readonly app: App) {
     const { robot, motion } = app.data;
     this.body = new Body(robot, app.values);
@@ -30,9 +30,10 @@ export class Picture {
     this.overlays = motion && new Overlays(motion, size);
     this.stage.scene.add(this.body.group);
     if (this.overlays) this.stage.scene.add(this.overlays.group);
-    this.layers = [...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
+    this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
     const middle = this.isSeen ? box.getCenter(new Vector3()) : new Vector3();
-    this.eye = new Eye(this.stage, canvas, middle.toArray(), 0.5 * size);
+    const sides = this.isSeen ? box.getSize(new Vector3()) : new Vector3(1, 1, 1);
+    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z]);
     this.paint();
     this.stage.resize();
     this.look(motion?.base ? "follow" : "iso");
@@ -66,9 +67,5 @@ export class Picture {
     this.body.paint();
     this.overlays?.paint();
     this.stage.paint();
-  }
-
-  render(): void {
-    this.stage.render();
   }
 }

@@ -44,6 +44,7 @@ export class Sliders {
     input.disabled = !moved || joint.follows !== undefined;
     input.addEventListener("input", () => moved?.(place, Number(input.value)));
     name.textContent = joint.name;
+    input.ariaLabel = joint.name;
     label.htmlFor = input.id;
     output.htmlFor.add(input.id);
     const leader = joint.follows && this.robot.joints[joint.follows.joint]!.name;

@@ -2,7 +2,7 @@
 
 import {
   AxesHelper, Color, DirectionalLight, Group, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial,
-  ShadowMaterial, Vector3, WebGLRenderer,
+  ShadowMaterial, Vector2, Vector3, WebGLRenderer,
 } from "three";
 
 /** A colour of the page, as its style sheet says for the theme that is on; `faint` is how far it goes to the ground's, from 0 to 1. */
@@ -45,6 +45,9 @@ export function roundLength(length: number): number {
   return power * (length / power < 1.5 ? 1 : length / power < 3.5 ? 2 : length / power < 7.5 ? 5 : 10);
 }
 
+/** That the browser gives no WebGL. */
+export class NoPicture extends Error {}
+
 export class Stage {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
@@ -58,9 +61,13 @@ export class Stage {
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
   private asked = false;
 
-  /** Throws where the browser gives no WebGL. `size` is that of the robot [m], `floor` the height of the floor. */
+  /** Throws NoPicture where the browser gives no WebGL. `size` is that of the robot [m], `floor` the height of the floor. */
   constructor(canvas: HTMLCanvasElement, private readonly size: number, floor: number) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    try {
+      this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    } catch {
+      throw new NoPicture();
+    }
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -70,8 +77,8 @@ export class Stage {
       fine: { value: new Color() }, coarse: { value: new Color() },
     };
     const material = new ShaderMaterial({ vertexShader: GRID_VERTEX, fragmentShader: GRID_FRAGMENT, uniforms, transparent: true, depthWrite: false });
-    this.grid = new Mesh(new PlaneGeometry(20 * size, 20 * size), material);
-    this.shade = new Mesh(new PlaneGeometry(20 * size, 20 * size), new ShadowMaterial({ opacity: 0.16, depthWrite: false }));
+    this.grid = new Mesh(new PlaneGeometry(14 * size, 14 * size), material);
+    this.shade = new Mesh(new PlaneGeometry(4 * size, 4 * size), new ShadowMaterial({ opacity: 0.16, depthWrite: false }));
     this.shade.receiveShadow = true;
     for (const [order, mesh] of [this.grid, this.shade].entries()) {
       mesh.position.z = floor;
@@ -114,7 +121,8 @@ export class Stage {
   /** Fits the picture to the canvas. */
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
-    if (width === 0 || height === 0) return;
+    const { x, y } = this.renderer.getSize(new Vector2());
+    if (width === 0 || height === 0 || (x === width && y === height)) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -127,12 +135,8 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.render();
+      this.renderer.render(this.scene, this.camera);
     });
   }
 
-  /** Draws now. */
-  render(): void {
-    this.renderer.render(this.scene, this.camera);
-  }
 }
