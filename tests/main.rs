@@ -25,6 +25,7 @@ mod roots;
 mod solver;
 mod spatial;
 mod task;
+mod view;
 mod watch;
 mod witness;
 

@@ -83,6 +83,9 @@ export class Desk {
     if (motion) this.addTimeline();
     addEventListener("keydown", (event) => this.key(event));
     this.openJoints(!motion && robot.joints.some(moves));
+    this.keepClear();
+    new ResizeObserver(() => this.keepClear()).observe(element("stage"));
+    picture?.look(motion?.base ? "follow" : "iso");
     app.watchers.push(() => this.show());
     this.show();
     this.showPlaying();
@@ -156,6 +159,13 @@ export class Desk {
 
   private mark(view: View): void {
     for (const other of element("views").children) other.ariaPressed = String((other as HTMLElement).dataset["view"] === view);
+  }
+
+  /** Title and buttons cover a narrow picture at its top, the layers any at its bottom. */
+  private keepClear(): void {
+    const [header, layers] = [document.querySelector("header")!, element("layers")];
+    const isNarrow = header.clientWidth <= 640;
+    this.picture?.keepClear(isNarrow ? header.offsetHeight : 20, layers.offsetHeight + 16);
   }
 
   private openJoints(isOpen: boolean): void {

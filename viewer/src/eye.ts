@@ -15,7 +15,7 @@ const VIEWS = {
 } as const;
 
 /** How much more is seen than the robot. */
-const ROOM = 1.15;
+const ROOM = 1.06;
 
 export type View = keyof typeof VIEWS;
 export const VIEW_NAMES = Object.keys(VIEWS) as View[];
@@ -56,7 +56,7 @@ export class Eye {
     const [radius, height] = this.extent;
     const tangent = Math.tan((fov / 360) * Math.PI);
     const upright = 0.5 * height * Math.sqrt(1 - sine * sine) + radius * sine;
-    return ROOM * Math.max(upright / tangent, radius / (tangent * aspect)) + radius;
+    return ROOM * Math.max(upright / (tangent * this.stage.clear), radius / (tangent * aspect)) + radius;
   }
 
   /** Goes with the root, where it follows. */

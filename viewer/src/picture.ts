@@ -36,7 +36,6 @@ export class Picture {
     this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z]);
     this.paint();
     this.stage.resize();
-    this.look(motion?.base ? "follow" : "iso");
     this.show();
     new ResizeObserver(() => this.stage.resize()).observe(canvas);
   }
@@ -60,6 +59,11 @@ export class Picture {
   toggle(layer: Layer): void {
     layer.group.visible = !layer.group.visible;
     this.stage.draw();
+  }
+
+  /** Keeps clear of what covers the picture at the top and at the bottom [pixels]. */
+  keepClear(top: number, bottom: number): void {
+    this.stage.keepClear(top, bottom);
   }
 
   /** Takes the colours of the theme. */

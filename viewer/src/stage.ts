@@ -60,6 +60,7 @@ export class Stage {
   private readonly grid: Mesh<PlaneGeometry, ShaderMaterial>;
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
   private asked = false;
+  private covered: [number, number] = [0, 0];
 
   /** Throws NoPicture where the browser gives no WebGL. `size` is that of the robot [m], `floor` the height of the floor. */
   constructor(canvas: HTMLCanvasElement, private readonly size: number, floor: number) {
@@ -125,8 +126,21 @@ export class Stage {
     if (width === 0 || height === 0 || (x === width && y === height)) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.keepClear(...this.covered);
+  }
+
+  /** Moves the middle of the picture to that of what is not covered: so much at the top and at the bottom is [pixels]. */
+  keepClear(top: number, bottom: number): void {
+    this.covered = [top, bottom];
+    const { x: width, y: height } = this.renderer.getSize(new Vector2());
+    this.camera.setViewOffset(width, height, 0, 0.5 * (bottom - top), width, height);
     this.draw();
+  }
+
+  /** The share of the picture's height that is not covered. */
+  get clear(): number {
+    const { y: height } = this.renderer.getSize(new Vector2());
+    return Math.max(1 - (this.covered[0] + this.covered[1]) / height, 0.3);
   }
 
   /** Draws at the next frame. */
