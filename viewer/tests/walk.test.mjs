@@ -1,8 +1,9 @@
 // A walk in the page: numbers against its CSV and the robot's URDF, and what a person does with it.
 import assert from "node:assert/strict";
-import { statSync } from "node:fs";
+import { statSync, writeFileSync } from "node:fs";
+import path from "node:path";
 import { after, before, test } from "node:test";
-import { browse, groebot, inFolder, open, page, picture, rows } from "./page.mjs";
+import { browse, groebot, inFolder, open, page, picture, root, rows } from "./page.mjs";
 import { apart, joints, links } from "./urdf.mjs";
 
 const POSE = ["x", "y", "z", "qx", "qy", "qz", "qw"];
@@ -72,6 +73,34 @@ test("a time is held within the motion, and lies on the line between two samples
   const [now, value] = await at(a.time + 0.25 * (b.time - a.time));
   close(now, a.time + 0.25 * (b.time - a.time), 1e-12);
   close(value, 0.75 * a["q:LKneePitch"] + 0.25 * b["q:LKneePitch"], 1e-9);
+});
+
+test("a base may be turned in any way", async () => {
+  const names = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+  const ur5 = path.join(root, "tests/corpus/urdf/ur5.urdf");
+  const arm = joints(ur5);
+  assert.deepEqual(arm.filter(({ type }) => type === "revolute").map(({ name }) => name), names);
+  const lines = Array.from({ length: 7 }, (_, sample) => {
+    const wave = (place) => Math.sin(1.3 * sample + 2.1 * place);
+    const quaternion = [0, 1, 2, 3].map(wave);
+    // A quaternion and its negative are one rotation: every other one is told by the negative.
+    const length = Math.hypot(...quaternion);
+    return [0.1 * sample, ...names.map((_, place) => 2 * wave(place + 5)), wave(11), wave(12), wave(13), ...quaternion.map((x) => (sample % 2 ? -x : x) / length)];
+  });
+  const head = `time [s],${names.map((name) => `q:${name} [rad]`)},${POSE.map((end) => `base_${end} [${end.startsWith("q") ? 1 : "m"}]`)}`;
+  writeFileSync(inFolder("tumble.csv"), `# groebot trajectory 1\n# robot: ur5\n${head}\n${lines.map((line) => line.join()).join("\n")}\n`);
+  const opened = await open(browser, page("tumble.html", inFolder("tumble.csv"), "--robot", ur5));
+  for (const row of rows(inFolder("tumble.csv"))) {
+    const pose = await opened.evaluate((time) => (groebot.seek(time), groebot.pose()), row.time);
+    const off = apart(pose.links, links(arm, Object.fromEntries(names.map((name) => [name, row[`q:${name}`]])), POSE.map((end) => row[`base_${end}`])));
+    assert.ok(off < 1e-9, `links are ${off} off`);
+  }
+  // Half way between two samples the quaternion is that of the middle of the arc: their sum, of length one, the second one turned to the first.
+  const [a, b] = lines.slice(2, 4).map((line) => line.slice(-4));
+  const sign = a.reduce((sum, x, place) => sum + x * b[place], 0) < 0 ? -1 : 1;
+  const sum = a.map((x, place) => x + sign * b[place]);
+  const between = await opened.evaluate((time) => (groebot.seek(time), groebot.pose().base), 0.5 * (lines[2][0] + lines[3][0]));
+  sum.forEach((x, place) => close(between[3 + place], x / Math.hypot(...sum), 1e-9));
 });
 
 test("keys play, step and jump", async () => {
@@ -144,7 +173,8 @@ test("dark and light follow the system until they are switched", async () => {
   const [bright, dim] = [await ground(light), await ground(dark)];
   assert.notEqual(bright, dim);
   await light.emulateMedia({ colorScheme: "dark" });
-  assert.equal(await ground(light), dim);
+  // Pages hear of the system's change a little later.
+  await light.waitForFunction((dim) => getComputedStyle(document.body).backgroundColor === dim, dim);
   await light.getByRole("button", { name: "Dark or light" }).click();
   assert.equal(await ground(light), bright);
 });
