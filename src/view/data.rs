@@ -81,7 +81,7 @@ pub struct Follows {
     pub offset: f64,
 }
 
-/// A number for each sample: the same for all, or doubles in base64.
+/// A number for each sample: the same for all, or doubles packed.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum Column {
@@ -134,7 +134,7 @@ pub struct Figure {
     pub values: Column,
 }
 
-/// Polygons on the floor. Doubles in base64.
+/// Polygons on the floor. Doubles, packed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Support {
     /// The sample from which on each holds, until the next one does.

@@ -7,7 +7,9 @@ mod data;
 mod motion;
 mod page;
 mod robot;
+mod sole;
 mod walk;
 
-pub use page::{Page, Sole};
+pub use page::Page;
+pub use sole::Sole;
 pub use walk::WalkRecord;

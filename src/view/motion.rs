@@ -4,7 +4,7 @@ use nalgebra::{Point2, Point3};
 
 use super::bytes;
 use super::data::{Contact, Figure, Motion, Point, Robot, Support};
-use super::page::Sole;
+use super::sole::Sole;
 use super::walk::WalkRecord;
 use crate::document::{did_you_mean, shown};
 use crate::gait::Polygon;
@@ -103,8 +103,8 @@ fn polygons(support: &[Vec<[f64; 2]>]) -> Support {
     let is_new = |sample: &usize| sample.checked_sub(1).is_none_or(|before| support[before] != support[*sample]);
     let starts: Vec<usize> = (0..support.len()).filter(is_new).collect();
     Support {
-        starts: bytes::doubles(starts.iter().map(|sample| *sample as f64)),
-        counts: bytes::doubles(starts.iter().map(|sample| support[*sample].len() as f64)),
-        corners: bytes::doubles(starts.iter().flat_map(|sample| &support[*sample]).flatten().copied()),
+        starts: bytes::packed(starts.iter().map(|sample| *sample as f64)),
+        counts: bytes::packed(starts.iter().map(|sample| support[*sample].len() as f64)),
+        corners: bytes::packed(starts.iter().flat_map(|sample| &support[*sample]).flatten().copied()),
     }
 }

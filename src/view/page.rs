@@ -1,10 +1,9 @@
 //! The page as a file. Main type: [`Page`].
 
-use nalgebra::Point2;
-
 use super::data::{Data, FORMAT};
 use super::motion::motion;
 use super::robot::described;
+use super::sole::Sole;
 use super::walk::WalkRecord;
 use crate::Result;
 use crate::model::{Meshes, Robot};
@@ -14,15 +13,6 @@ use crate::motion::Trajectory;
 const SHELL: &str = include_str!("../../viewer/dist/page.html");
 /// The program of the page.
 const SCRIPT: &str = include_str!("../../viewer/dist/viewer.js");
-
-/// What of a contact touches the floor.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sole {
-    /// The name of the contact, such as `left`.
-    pub contact: String,
-    /// The corners, in the frame of the contact \[m\].
-    pub corners: Vec<Point2<f64>>,
-}
 
 /// A page that shows a robot, and how it moves.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use nalgebra::{Point2, Point3};
 use serde::Deserialize;
 
 use super::data::{Phase, Step};
-use super::page::Sole;
+use super::sole::Sole;
 use crate::motion::Trajectory;
 use crate::{Error, ErrorKind, Result};
 

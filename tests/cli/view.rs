@@ -1,7 +1,7 @@
 //! `groebot view`; and its pages in Chromium, by the tests of `viewer/tests`.
 
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::Command;
 
 use tempfile::tempdir;
@@ -78,15 +78,12 @@ fn what_is_no_walk_and_no_robot_is_refused() {
 #[test]
 fn pages_work_in_chromium() {
     let viewer = root("viewer");
-    let missing = [
-        ("/usr/bin/chromium", "install Debian's chromium"),
-        (text(&viewer.join("node_modules/playwright-core")), "run `npm ci` in viewer/"),
+    let tools = [
+        (PathBuf::from("/usr/bin/chromium"), "install Debian's chromium"),
+        (viewer.join("node_modules/playwright-core"), "run `npm ci` in viewer/"),
     ];
-    let mut missing: Vec<String> = missing
-        .iter()
-        .filter(|(file, _)| !Path::new(file).exists())
-        .map(|(file, cure)| format!("{file}: {cure}"))
-        .collect();
+    let missing = tools.iter().filter(|(file, _)| !file.exists());
+    let mut missing: Vec<String> = missing.map(|(file, cure)| format!("{}: {cure}", text(file))).collect();
     if Command::new("node").arg("--version").output().is_err() {
         missing.push("node: install nodejs".to_owned());
     }

@@ -3,7 +3,10 @@
  * Rust. Metres, radians, seconds; frames are the twelve numbers of a 3x4 matrix by rows; poses are position and quaternion xyzw.
  */
 
-/** A number for each sample: the same for all, or little-endian doubles in base64. */
+/**
+ * A number for each sample: the same for all, or doubles packed. Packed are the little-endian doubles' first bytes, then their second ones and so on, as
+ * zlib in base64: no bit is lost.
+ */
 export type Column = number | string;
 
 export type Solid =
@@ -63,15 +66,17 @@ export interface Phase {
   to: number;
 }
 
-interface WrittenMotion {
-  times: Column;
+/** `C` is Column as it is written, and number or Track when it is unpacked. */
+interface WrittenMotion<C> {
+  times: C;
   joints: number[];
-  q: Column[];
-  base?: Column[];
-  contacts: { name: string; poses: Column[]; stands: string; outline?: [number, number][] }[];
-  points: { name: string; at: Column[] }[];
-  figures: { name: string; unit: string; values: Column }[];
-  support?: { starts: string; counts: string; corners: string };
+  q: C[];
+  base?: C[];
+  contacts: { name: string; poses: C[]; stands: string; outline?: [number, number][] }[];
+  points: { name: string; at: C[] }[];
+  figures: { name: string; unit: string; values: C }[];
+  /** The sample from which on each polygon holds, its number of corners, and x and y of the corners of all. */
+  support?: { starts: C; counts: C; corners: C };
   steps?: Step[];
   phases?: Phase[];
 }
@@ -113,8 +118,8 @@ export interface Data {
 
 const FORMAT = 1;
 
-/** The data that `text` holds; throws an Error that says what is wrong with them. */
-export function read(text: string): Data {
+/** The data that `text` holds; rejected with an Error that says what is wrong with them. */
+export async function read(text: string): Promise<Data> {
   let data;
   try {
     data = JSON.parse(text);
@@ -124,7 +129,8 @@ export function read(text: string): Data {
   if (data?.format !== FORMAT) throw new Error(`its data have the format ${data?.format}; this page reads ${FORMAT}`);
   try {
     checkRobot(data.robot);
-    return { title: String(data.title), robot: data.robot, motion: data.motion && readMotion(data.motion, data.robot) };
+    const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
+    return { title: String(data.title), robot: data.robot, motion };
   } catch (error) {
     throw new Error(`its data are damaged: ${error instanceof Error ? error.message : error}`);
   }
@@ -141,15 +147,34 @@ function checkRobot(robot: Robot): void {
   }
 }
 
-function readMotion(written: WrittenMotion, robot: Robot): Motion {
-  const times = typeof written.times === "number" ? Float64Array.of(written.times) : doubles(written.times);
+type Unpacked = number | Track;
+
+/** The motion with all its columns unpacked. */
+async function unpacked(written: WrittenMotion<Column>): Promise<WrittenMotion<Unpacked>> {
+  const one = async (column: Column) => (typeof column === "number" ? column : doubles(await inflated(column)));
+  const all = (columns: Column[]) => Promise.all(columns.map(one));
+  const { base, support } = written;
+  return {
+    ...written,
+    times: await one(written.times),
+    q: await all(written.q),
+    base: base && (await all(base)),
+    contacts: await Promise.all(written.contacts.map(async (own) => ({ ...own, poses: await all(own.poses) }))),
+    points: await Promise.all(written.points.map(async (own) => ({ ...own, at: await all(own.at) }))),
+    figures: await Promise.all(written.figures.map(async (own) => ({ ...own, values: await one(own.values) }))),
+    support: support && { starts: await one(support.starts), counts: await one(support.counts), corners: await one(support.corners) },
+  };
+}
+
+function readMotion(written: WrittenMotion<Unpacked>, robot: Robot): Motion {
+  const times = typeof written.times === "number" ? Float64Array.of(written.times) : written.times;
   const count = times.length;
-  const track = (column: Column) => {
-    const values = typeof column === "number" ? new Float64Array(count).fill(column) : doubles(column);
+  const track = (column: Unpacked) => {
+    const values = typeof column === "number" ? new Float64Array(count).fill(column) : column;
     if (values.length !== count) throw new Error(`a track has ${values.length} of ${count} samples`);
     return values;
   };
-  const tracks = (columns: Column[], width: number) => {
+  const tracks = (columns: Unpacked[], width: number) => {
     if (columns.length !== width) throw new Error(`${columns.length} tracks where ${width} belong`);
     return columns.map(track);
   };
@@ -173,8 +198,8 @@ function readMotion(written: WrittenMotion, robot: Robot): Motion {
   };
 }
 
-function polygons({ starts, counts, corners }: { starts: string; counts: string; corners: string }, count: number): Polygon[] {
-  const [from, sizes, numbers] = [starts, counts, corners].map(doubles) as [Track, Track, Track];
+function polygons(written: { starts: Unpacked; counts: Unpacked; corners: Unpacked }, count: number): Polygon[] {
+  const [from, sizes, numbers] = [written.starts, written.counts, written.corners].map((each) => (typeof each === "number" ? Float64Array.of(each) : each)) as [Track, Track, Track];
   const found: Polygon[] = [];
   let first = 0;
   from.forEach((start, place) => {
@@ -193,10 +218,18 @@ function bytes(base64: string): ArrayBuffer {
   return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
 }
 
-function doubles(base64: string): Float64Array {
+async function inflated(base64: string): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytes(base64)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+}
+
+/** Doubles of which the first bytes stand first, then the second ones and so on. */
+function doubles(buffer: ArrayBuffer): Track {
+  const planes = new Uint8Array(buffer);
+  const count = planes.length / 8;
+  const view = new DataView(new ArrayBuffer(planes.length));
+  planes.forEach((byte, place) => view.setUint8(8 * (place % count) + Math.floor(place / count), byte));
   // Read through a view: the order of bytes is the file's, not the machine's.
-  const view = new DataView(bytes(base64));
-  return Float64Array.from({ length: view.byteLength / 8 }, (_, place) => view.getFloat64(8 * place, true));
+  return Float64Array.from({ length: count }, (_, sample) => view.getFloat64(8 * sample, true));
 }
 
 /** Points and triangles of a mesh. */

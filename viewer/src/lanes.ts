@@ -4,6 +4,9 @@ import type { Motion } from "./data";
 import { at, nearestSample, phaseAt, placeOf, type Place } from "./time";
 import { named, quantity } from "./words";
 
+/** So many figures of one unit are told one by one beside their plot. */
+const MOST_TOLD = 3;
+
 interface Figure {
   name: string;
   unit: string;
@@ -136,18 +139,29 @@ export class Lanes {
     const text = ordered
       .map(({ name, unit, values }) => `${named(name)} from ${extremes(values).map((value) => quantity(value, unit)).join(" to ")}`)
       .join("; ");
-    const [lane, said] = this.add(ordered.map(({ name }) => named(name)).join(", "), 64, text, (pen, width, height) => {
+    const [lane, said] = this.add(ordered.map(({ name }) => named(name)).join(", "), ordered.length > MOST_TOLD ? 56 : 64, text, (pen, width, height) => {
       const y = (value: number) => height - 4 - ((value - bottom) / (top - bottom)) * (height - 8);
       pen.strokeStyle = tone("line");
       for (const level of bottom <= 0 && top >= 0 ? [0] : []) line(pen, [[0, y(level)], [width, y(level)]]);
       for (const { values } of [...ordered].reverse()) {
-        pen.strokeStyle = tone(values === first.values ? "accent" : "trace");
+        pen.strokeStyle = tone(values === first.values && ordered.length <= MOST_TOLD ? "accent" : "trace");
         pen.lineWidth = values === first.values ? 1.75 : 1.25;
         pen.lineJoin = "round";
         line(pen, Array.from(values, (value, sample) => [this.x(times[sample]!, width), y(value)]));
       }
     });
-    lane.canvas.parentElement!.firstElementChild!.replaceChildren(...ordered.map(({ name }, place) => item(named(name), place === 0)));
+    const label = lane.canvas.parentElement!.firstElementChild!;
+    if (ordered.length > MOST_TOLD) {
+      // Of many the greatest one is told.
+      label.replaceChildren(item(`${ordered.length} in ${first.unit}`, false));
+      lane.tell = (place) => {
+        const size = (figure: Figure) => Math.abs(at(figure.values, place));
+        const greatest = ordered.reduce((a, b) => (size(b) > size(a) ? b : a));
+        write(said, [quantity(at(greatest.values, place), first.unit), greatest.name]);
+      };
+      return;
+    }
+    label.replaceChildren(...ordered.map(({ name }, place) => item(named(name), place === 0)));
     const most = Math.max(Math.abs(low), Math.abs(high));
     lane.tell = (place) => {
       const values = ordered.map(({ values }) => at(values, place));

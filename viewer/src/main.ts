@@ -28,8 +28,8 @@ declare global {
   }
 }
 
-function start(): App {
-  const app = new App(read(element("groebot-data").textContent ?? ""));
+async function start(): Promise<App> {
+  const app = new App(await read(element("groebot-data").textContent ?? ""));
   let picture: Picture | undefined;
   // The theme comes before the picture, which takes its colours.
   const theme = new Theme();
@@ -46,23 +46,24 @@ function start(): App {
 }
 
 let app: App | undefined;
-const ready = new Promise<void>((resolve, reject) => {
-  try {
-    app = start();
+const ready = start().then(
+  (started) => {
+    app = started;
     // What the next frame draws is on the screen behind it.
-    requestAnimationFrame(() => setTimeout(resolve));
-  } catch (error) {
+    return new Promise<void>((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+  },
+  (error: unknown) => {
     const reason = error instanceof Error ? error.message : String(error);
     element("canvas").hidden = true;
     element("dock").hidden = true;
     message("This page cannot be shown", `${reason}. Write it anew by groebot view.`);
-    reject(error);
-  }
-});
+    throw error;
+  },
+);
 ready.catch(() => {});
 
 const shown = (): App => {
-  if (!app) throw new Error("the page cannot be shown");
+  if (!app) throw new Error("nothing is shown yet, or ever: wait for ready");
   return app;
 };
 
