@@ -124,15 +124,15 @@ export async function read(text: string): Promise<Data> {
   try {
     data = JSON.parse(text);
   } catch {
-    throw new Error("its data are no JSON; the file is cut off or changed");
+    throw new Error("Its data are no JSON; the file is cut off or changed");
   }
-  if (data?.format !== FORMAT) throw new Error(`its data have the format ${data?.format}; this page reads ${FORMAT}`);
+  if (data?.format !== FORMAT) throw new Error(`Its data have the format ${data?.format}; this page reads ${FORMAT}`);
   try {
     checkRobot(data.robot);
     const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
     return { title: String(data.title), robot: data.robot, motion };
   } catch (error) {
-    throw new Error(`its data are damaged: ${error instanceof Error ? error.message : error}`);
+    throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
   }
 }
 

@@ -25,6 +25,7 @@ export class Lanes {
   private readonly playhead = document.createElement("div");
   private readonly from: number;
   private readonly span: number;
+  private shown: Place | undefined;
 
   constructor(private readonly root: HTMLElement, private readonly motion: Motion, private readonly seek: (time: number) => void) {
     this.from = motion.times[0]!;
@@ -35,10 +36,14 @@ export class Lanes {
     for (const unit of units) this.addPlot(motion.figures.filter((figure) => figure.unit === unit));
     this.playhead.id = "playhead";
     root.append(this.playhead);
-    new ResizeObserver(() => this.paint()).observe(root);
+    new ResizeObserver(() => {
+      this.paint();
+      if (this.shown) this.show(this.shown);
+    }).observe(root);
   }
 
   show(place: Place): void {
+    this.shown = place;
     const share = (place.time - this.from) / this.span;
     this.playhead.style.transform = `translateX(${share * (this.lanes[0]?.canvas.clientWidth ?? 0)}px)`;
     this.playhead.hidden = this.lanes.length === 0;

@@ -29,10 +29,10 @@ declare global {
 }
 
 async function start(): Promise<App> {
-  const app = new App(await read(element("groebot-data").textContent ?? ""));
-  let picture: Picture | undefined;
   // The theme comes before the picture, which takes its colours.
   const theme = new Theme();
+  const app = new App(await read(element("groebot-data").textContent ?? ""));
+  let picture: Picture | undefined;
   try {
     picture = new Picture(element<HTMLCanvasElement>("canvas"), app);
   } catch (error) {
@@ -54,8 +54,7 @@ const ready = start().then(
   },
   (error: unknown) => {
     const reason = error instanceof Error ? error.message : String(error);
-    element("canvas").hidden = true;
-    element("dock").hidden = true;
+    for (const useless of document.querySelectorAll<HTMLElement>("#canvas, #dock, nav")) useless.hidden = true;
     message("This page cannot be shown", `${reason}. Write it anew by groebot view.`);
     throw error;
   },
