@@ -69,6 +69,8 @@ pub mod nav;
 
 pub mod task;
 
+pub mod view;
+
 pub mod robots;
 
 pub mod derive;

@@ -26,6 +26,7 @@ mod sim;
 mod solver;
 mod spatial;
 mod task;
+mod view;
 mod watch;
 mod witness;
 

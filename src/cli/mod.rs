@@ -39,6 +39,7 @@ mod solve;
 mod strata;
 mod targets;
 mod track;
+mod view;
 mod walk;
 mod walker;
 
@@ -65,6 +66,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot path map.pgm --start 1,1 --goal 8,5
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
+  groebot view walk.csv -o walk.html
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
@@ -98,6 +100,7 @@ enum Command {
     Identify(identify::Arguments),
     Export(export::Arguments),
     Follow(follow::Arguments),
+    View(view::Arguments),
 }
 
 /// Why a subcommand ends early.
@@ -154,6 +157,7 @@ pub fn run() -> ExitCode {
         Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Follow(arguments) => follow::run(arguments),
+        Command::View(arguments) => view::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,

@@ -12,6 +12,15 @@ use crate::{Error, ErrorKind, Result};
 /// The longest file that is read, in bytes.
 pub const MESH_LIMIT: u64 = 100_000_000;
 
+/// The triangles of a mesh, as places among its points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The points \[m\].
+    pub points: Vec<Point3<f64>>,
+    /// The corners of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
 /// The folders in which the files of meshes are looked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Meshes {
@@ -47,7 +56,17 @@ impl Meshes {
     /// [`ErrorKind::Io`] for a file that is not there or cannot be read; [`ErrorKind::Unsupported`] for another format than STL;
     /// [`ErrorKind::Syntax`] for a file that is no STL; [`ErrorKind::BadValue`] beyond a hundred megabytes.
     pub fn points(&self, solid: &Solid) -> Result<Vec<Point3<f64>>> {
-        let Solid::Mesh { path, scale } = solid else { return Ok(solid.points()) };
+        if let Solid::Mesh { .. } = solid { Ok(self.triangles(solid)?.points) } else { Ok(solid.points()) }
+    }
+
+    /// The triangles of a mesh, in its frame; those of another solid, which has none, are empty.
+    ///
+    /// # Errors
+    /// As [`Meshes::points`].
+    pub fn triangles(&self, solid: &Solid) -> Result<Surface> {
+        let Solid::Mesh { path, scale } = solid else {
+            return Ok(Surface { points: Vec::new(), triangles: Vec::new() });
+        };
         let missing = || {
             let text =
                 format!("the mesh `{}` is not found; its folder must be above the description's file", shown(path));
@@ -58,7 +77,7 @@ impl Meshes {
     }
 }
 
-fn read_stl(file: &Path, [x, y, z]: [f64; 3]) -> Result<Vec<Point3<f64>>> {
+fn read_stl(file: &Path, [x, y, z]: [f64; 3]) -> Result<Surface> {
     if !file.extension().is_some_and(|end| end.eq_ignore_ascii_case("stl")) {
         return Err(Error::new(ErrorKind::Unsupported, "only meshes in STL are read; convert it, or give boxes"));
     }
@@ -76,7 +95,9 @@ fn read_stl(file: &Path, [x, y, z]: [f64; 3]) -> Result<Vec<Point3<f64>>> {
     };
     let points: Vec<Point3<f64>> = mesh.vertices.iter().map(point).collect();
     if points.iter().all(|point| point.iter().all(|x| x.is_finite())) {
-        return Ok(points);
+        // A file of at most a hundred megabytes has fewer corners than 2^32.
+        let triangles = mesh.faces.iter().map(|face| face.vertices.map(|corner| corner as u32)).collect();
+        return Ok(Surface { points, triangles });
     }
     Err(Error::new(ErrorKind::BadValue, "a corner of a triangle is not finite"))
 }

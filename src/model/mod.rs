@@ -21,7 +21,7 @@ pub mod urdf;
 pub(crate) use check::{is_plain, listing, some_among};
 pub use joint::{Actuator, Joint, JointType, Mimic, Origin};
 pub use link::{Link, Mass, Shape, Solid};
-pub use mesh::{MESH_LIMIT, Meshes};
+pub use mesh::{MESH_LIMIT, Meshes, Surface};
 pub use parts::RobotParts;
 pub use robot::Robot;
 pub use unit::LengthUnit;

@@ -10,6 +10,8 @@ mod states;
 pub mod table;
 mod trajectory;
 
+pub(crate) use table::pose_numbers;
+
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
 pub use follow::{Followed, Jump, Pace, follow};
 pub use states::{StateRow, StateTable};

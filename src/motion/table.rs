@@ -247,7 +247,7 @@ fn named(cell: &str) -> Result<(&str, &str)> {
 }
 
 /// Position and quaternion xyzw.
-pub(super) fn pose_numbers(pose: &Pose) -> [f64; 7] {
+pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     let (p, q) = (pose.translation.vector, pose.rotation.coords);
     [p.x, p.y, p.z, q.x, q.y, q.z, q.w]
 }

@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 24] = [
+const TABLE: [(&str, Uses); 25] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -33,6 +33,7 @@ const TABLE: [(&str, Uses); 24] = [
     ("nav", Uses::Only(&["spatial"])),
     ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
+    ("view", Uses::Only(&["spatial", "model", "motion", "gait", "task"])),
     ("serve", Uses::Only(&["sim"])),
     ("cli", Uses::AllAbove),
 ];

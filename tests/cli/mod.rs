@@ -20,6 +20,7 @@ mod plan;
 mod refused;
 mod solve;
 mod track;
+mod view;
 mod walk;
 
 use std::collections::BTreeMap;

@@ -1,0 +1,71 @@
+//! The page as a file. Main type: [`Page`].
+
+use super::data::{Data, FORMAT};
+use super::motion::motion;
+use super::robot::described;
+use super::sole::Sole;
+use super::walk::WalkRecord;
+use crate::Result;
+use crate::model::{Meshes, Robot};
+use crate::motion::Trajectory;
+
+/// The frame of the page, with its style; title, data and script are put in.
+const SHELL: &str = include_str!("../../viewer/dist/page.html");
+/// The program of the page.
+const SCRIPT: &str = include_str!("../../viewer/dist/viewer.js");
+
+/// A page that shows a robot, and how it moves.
+#[derive(Clone, Debug)]
+pub struct Page {
+    data: Data,
+}
+
+impl Page {
+    /// A page of `robot` at rest, its joints moved by hand. Meshes are shown where their folders are given; what cannot be read of them is told in the page.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
+    pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>) -> Result<Self> {
+        let shown = described(robot, meshes)?;
+        Ok(Page { data: Data { format: FORMAT, title: robot.name().to_owned(), robot: shown, motion: None } })
+    }
+
+    /// The same page under another title.
+    #[must_use]
+    pub fn titled(mut self, title: &str) -> Self {
+        title.clone_into(&mut self.data.title);
+        self
+    }
+
+    /// The same robot moved by `trajectory`, whose joints are found by their names. Support polygons come from `record`, else from `soles`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::UnknownName`] for a joint that the robot does not have; [`crate::ErrorKind::BadValue`] for one that does not turn or slide as
+    /// the trajectory says, no sample, or a record of another number of samples; as [`Trajectory::check`].
+    pub fn with_motion(mut self, trajectory: &Trajectory, record: Option<&WalkRecord>, soles: &[Sole]) -> Result<Self> {
+        self.data.motion = Some(motion(&self.data.robot, trajectory, record, soles)?);
+        Ok(self)
+    }
+
+    /// The data of the page, as JSON that may stand in HTML.
+    pub fn data(&self) -> String {
+        let text = serde_json::to_string(&self.data).expect("the data hold nothing that JSON cannot say");
+        text.replace('<', "\\u003c")
+    }
+
+    /// The page: one HTML file.
+    pub fn to_html(&self) -> String {
+        let title = self.data.title.replace('&', "&amp;").replace('<', "&lt;");
+        let parts = [("{{title}}", title.as_str()), ("{{data}}", &self.data()), ("{{script}}", SCRIPT)];
+        let mut html = String::with_capacity(SHELL.len() + SCRIPT.len());
+        let mut rest = SHELL;
+        for (place, text) in parts {
+            let (before, behind) =
+                rest.split_once(place).expect("the page's frame has a place for each, in this order");
+            html.push_str(before);
+            html.push_str(text);
+            rest = behind;
+        }
+        html + rest
+    }
+}

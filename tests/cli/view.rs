@@ -1,0 +1,100 @@
+//! `groebot view`; and its pages in Chromium, by the tests of `viewer/tests`.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use tempfile::tempdir;
+
+use super::{refused, root, run, succeed, text};
+
+const ARM: &str = "tests/corpus/urdf/ur5.urdf";
+
+#[test]
+fn walks_and_robots_become_pages() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let [csv, json, page] = ["walk.csv", "walk.json", "page.html"].map(at);
+    succeed(&["walk", "nao", "--steps", "2", "-o", text(&csv), "--json", text(&json), "--quiet"]);
+    let html = |arguments: &[&str]| {
+        assert_eq!(succeed(&[&["view"], arguments, &["-o", text(&page)]].concat()), format!("{}\n", text(&page)));
+        fs::read_to_string(&page).unwrap()
+    };
+    let has = |html: &str, keys: [bool; 3]| {
+        assert_eq!(
+            ["\"motion\":", "\"support\":", "\"phases\":"]
+                .map(|key| html.contains(&format!("{key}{{")) || html.contains(&format!("{key}["))),
+            keys
+        );
+    };
+    let walk = html(&[text(&csv)]);
+    assert!(walk.contains("<title>walk.csv</title>"));
+    has(&walk, [true, true, false]);
+    has(&html(&[text(&json)]), [true, true, true]);
+    for robot in ["nao", "nao_v5", "rh0", "teo", text(&root(ARM)), text(&root("src/robots/data/teo.toml"))] {
+        has(&html(&[robot]), [false, false, false]);
+    }
+    // A walk whose robot is given by name, and by a file.
+    let foreign = fs::read_to_string(&csv).unwrap().replace("# robot: nao_v5", "# robot: somebody");
+    fs::write(&csv, foreign).unwrap();
+    assert_eq!(html(&[text(&csv), "--robot", "nao"]), walk);
+    has(&html(&[text(&csv), "--robot", text(&root("src/robots/data/nao_v5.toml"))]), [true, true, false]);
+    let error = refused(&["view", text(&csv), "-o", text(&page)]);
+    assert!(
+        error.contains("walk.csv: its robot `somebody` is none of groebot's") && error.contains("--robot"),
+        "{error}"
+    );
+    let error = refused(&["view", text(&csv), "--robot", text(&root(ARM)), "-o", text(&page)]);
+    assert!(error.contains("joint `HeadYaw`: the robot `ur5` has no such joint"), "{error}");
+}
+
+#[test]
+fn what_is_no_walk_and_no_robot_is_refused() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str, content: &str| {
+        let file = folder.path().join(name);
+        fs::write(&file, content).unwrap();
+        file.to_str().unwrap().to_owned()
+    };
+    let page = folder.path().join("page.html");
+    let says = |arguments: &[&str], words: &str| {
+        let error = refused(&[&["view"], arguments, &["-o", text(&page)]].concat());
+        assert!(error.contains(words), "{error}");
+        assert!(!page.exists());
+    };
+    says(&["nobody"], "`nobody` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo");
+    says(&[&at("a.csv", "x,y\n1,2\n")], "a.csv: line 1: the first line is `x,y`; a trajectory begins with");
+    says(&[&at("b.json", "{\"format\": 1, \"walk\": 3}")], "b.json: line 1: this is no trajectory in JSON");
+    says(&[&at("c.json", "[]")], "c.json");
+    says(&[&at("d.csv", "# groebot trajectory 1\n# robot: teo\ntime [s]\n")], "d.csv: the trajectory has no sample");
+    says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to see");
+    says(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
+    says(&[text(&root("derivations/puma/0_chain.toml"))], "this describes no robot with links");
+    says(&["nao", "--robot", "teo"], "--robot says who walks, but this is no walk");
+    assert_eq!(run(&["view", "nao"]).code, 2);
+}
+
+/// The tests of the page; a tool that is missing is told.
+#[test]
+fn pages_work_in_chromium() {
+    let viewer = root("viewer");
+    let tools = [
+        (PathBuf::from("/usr/bin/chromium"), "install Debian's chromium"),
+        (viewer.join("node_modules/playwright-core"), "run `npm ci` in viewer/"),
+    ];
+    let missing = tools.iter().filter(|(file, _)| !file.exists());
+    let mut missing: Vec<String> = missing.map(|(file, cure)| format!("{}: {cure}", text(file))).collect();
+    if Command::new("node").arg("--version").output().is_err() {
+        missing.push("node: install nodejs".to_owned());
+    }
+    if !missing.is_empty() {
+        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
+        assert!(!required, "{}", missing.join("; "));
+        return println!("skipped, a tool is missing: {}", missing.join("; "));
+    }
+    let mut command = Command::new("node");
+    command.args(["--test", "--test-concurrency=1"]).current_dir(&viewer).env("GROEBOT", env!("CARGO_BIN_EXE_groebot"));
+    command.args(["walk", "robot", "trouble"].map(|name| format!("tests/{name}.test.mjs")));
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}

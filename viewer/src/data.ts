@@ -1,0 +1,238 @@
+/**
+ * What the page shows, as `groebot view` writes it into `<script type="application/json" id="groebot-data">`; src/view/data.rs says the same in
+ * Rust. Metres, radians, seconds; frames are the twelve numbers of a 3x4 matrix by rows; poses are position and quaternion xyzw.
+ */
+
+/**
+ * A number for each sample: the same for all, or doubles packed. Packed are the little-endian doubles' first bytes, then their second ones and so on, as
+ * zlib in base64: no bit is lost.
+ */
+export type Column = number | string;
+
+export type Solid =
+  | { kind: "box"; size: [number, number, number] }
+  | { kind: "cylinder" | "capsule"; radius: number; length: number }
+  | { kind: "sphere"; radius: number }
+  /** Singles and whole numbers of 32 bits, little-endian in base64. */
+  | { kind: "mesh"; positions: string; triangles: string };
+
+export type Shape = Solid & { pose: number[]; colour?: [number, number, number, number] };
+
+export interface Link {
+  name: string;
+  shapes: Shape[];
+  /** Whether it has a shape that is not shown. */
+  hidden?: boolean;
+}
+
+export interface Joint {
+  name: string;
+  kind: "fixed" | "revolute" | "continuous" | "prismatic" | "floating" | "planar";
+  /** Places of links. */
+  parent: number;
+  child: number;
+  /** Its frame in the parent's, at the value zero. */
+  origin: number[];
+  /** A unit vector in its own frame. */
+  axis: [number, number, number];
+  limits?: [number, number];
+  speed?: number;
+  /** value = factor * value of `joint` + offset, where no column of the motion says another. */
+  follows?: { joint: number; factor: number; offset: number };
+}
+
+export interface Robot {
+  name: string;
+  /** The root, whose pose is the motion's base. */
+  base: number;
+  links: Link[];
+  /** Parents before children. */
+  joints: Joint[];
+  /** What could not be shown, and why. */
+  notes: string[];
+}
+
+export interface Step {
+  foot: string;
+  x: number;
+  y: number;
+  yaw: number;
+}
+
+export interface Phase {
+  action: string;
+  step?: number;
+  from: number;
+  to: number;
+}
+
+/** `C` is Column as it is written, and number or Track when it is unpacked. */
+interface WrittenMotion<C> {
+  times: C;
+  joints: number[];
+  q: C[];
+  base?: C[];
+  contacts: { name: string; poses: C[]; stands: string; outline?: [number, number][] }[];
+  points: { name: string; at: C[] }[];
+  figures: { name: string; unit: string; values: C }[];
+  /** The sample from which on each polygon holds, its number of corners, and x and y of the corners of all. */
+  support?: { starts: C; counts: C; corners: C };
+  steps?: Step[];
+  phases?: Phase[];
+}
+
+/** Numbers of all samples, exactly as they were written. */
+export type Track = Float64Array;
+
+export interface Contact {
+  name: string;
+  poses: Track[];
+  /** `1` where it stands: a letter a sample. */
+  stands: string;
+  outline: [number, number][];
+}
+
+/** A polygon on the floor: x and y of its corners. */
+export type Polygon = Float64Array;
+
+export interface Motion {
+  times: Track;
+  /** The joint of each track of `q`, by its place. */
+  joints: number[];
+  q: Track[];
+  base?: Track[];
+  contacts: Contact[];
+  points: { name: string; at: Track[] }[];
+  figures: { name: string; unit: string; values: Track }[];
+  /** One a sample. */
+  support?: Polygon[];
+  steps: Step[];
+  phases: Phase[];
+}
+
+export interface Data {
+  title: string;
+  robot: Robot;
+  motion?: Motion;
+}
+
+const FORMAT = 1;
+
+/** The data that `text` holds; rejected with an Error that says what is wrong with them. */
+export async function read(text: string): Promise<Data> {
+  let data;
+  try {
+    data = JSON.parse(text);
+  } catch {
+    throw new Error("Its data are no JSON; the file is cut off or changed");
+  }
+  if (data?.format !== FORMAT) throw new Error(`Its data have the format ${data?.format}; this page reads ${FORMAT}`);
+  try {
+    checkRobot(data.robot);
+    const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
+    return { title: String(data.title), robot: data.robot, motion };
+  } catch (error) {
+    throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
+  }
+}
+
+function checkRobot(robot: Robot): void {
+  const isLink = (place: number) => robot.links[place] !== undefined;
+  if (!isLink(robot.base)) throw new Error("the robot has no base");
+  const placed = new Set([robot.base]);
+  for (const { name, parent, child, origin, axis } of robot.joints) {
+    if (!placed.has(parent) || !isLink(child) || placed.has(child)) throw new Error(`joint ${name} is out of order`);
+    if (origin.length !== 12 || axis.length !== 3) throw new Error(`joint ${name} has no frame`);
+    placed.add(child);
+  }
+}
+
+type Unpacked = number | Track;
+
+/** The motion with all its columns unpacked. */
+async function unpacked(written: WrittenMotion<Column>): Promise<WrittenMotion<Unpacked>> {
+  const one = async (column: Column) => (typeof column === "number" ? column : doubles(await inflated(column)));
+  const all = (columns: Column[]) => Promise.all(columns.map(one));
+  const { base, support } = written;
+  return {
+    ...written,
+    times: await one(written.times),
+    q: await all(written.q),
+    base: base && (await all(base)),
+    contacts: await Promise.all(written.contacts.map(async (own) => ({ ...own, poses: await all(own.poses) }))),
+    points: await Promise.all(written.points.map(async (own) => ({ ...own, at: await all(own.at) }))),
+    figures: await Promise.all(written.figures.map(async (own) => ({ ...own, values: await one(own.values) }))),
+    support: support && { starts: await one(support.starts), counts: await one(support.counts), corners: await one(support.corners) },
+  };
+}
+
+function readMotion(written: WrittenMotion<Unpacked>, robot: Robot): Motion {
+  const times = typeof written.times === "number" ? Float64Array.of(written.times) : written.times;
+  const count = times.length;
+  const track = (column: Unpacked) => {
+    const values = typeof column === "number" ? new Float64Array(count).fill(column) : column;
+    if (values.length !== count) throw new Error(`a track has ${values.length} of ${count} samples`);
+    return values;
+  };
+  const tracks = (columns: Unpacked[], width: number) => {
+    if (columns.length !== width) throw new Error(`${columns.length} tracks where ${width} belong`);
+    return columns.map(track);
+  };
+  if (count === 0) throw new Error("the motion has no sample");
+  if (!written.joints.every((joint) => robot.joints[joint])) throw new Error("the motion moves a joint that is not there");
+  const contacts = written.contacts.map(({ name, poses, stands, outline = [] }) => {
+    if (stands.length !== count) throw new Error(`contact ${name} has ${stands.length} of ${count} samples`);
+    return { name, poses: tracks(poses, 7), stands, outline };
+  });
+  return {
+    times,
+    joints: written.joints,
+    q: tracks(written.q, written.joints.length),
+    base: written.base && tracks(written.base, 7),
+    contacts,
+    points: written.points.map(({ name, at }) => ({ name, at: tracks(at, 3) })),
+    figures: written.figures.map(({ name, unit, values }) => ({ name, unit, values: track(values) })),
+    support: written.support && polygons(written.support, count),
+    steps: written.steps ?? [],
+    phases: written.phases ?? [],
+  };
+}
+
+function polygons(written: { starts: Unpacked; counts: Unpacked; corners: Unpacked }, count: number): Polygon[] {
+  const [from, sizes, numbers] = [written.starts, written.counts, written.corners].map((each) => (typeof each === "number" ? Float64Array.of(each) : each)) as [Track, Track, Track];
+  const found: Polygon[] = [];
+  let first = 0;
+  from.forEach((start, place) => {
+    const next = first + 2 * sizes[place]!;
+    const polygon = numbers.subarray(first, next);
+    const end = from[place + 1] ?? count;
+    if (end > count) throw new Error("a support polygon lasts beyond the motion");
+    for (let sample = start; sample < end; sample++) found[sample] = polygon;
+    first = next;
+  });
+  if (found.length !== count || first !== numbers.length) throw new Error("support polygons are missing");
+  return found;
+}
+
+function bytes(base64: string): ArrayBuffer {
+  return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
+}
+
+async function inflated(base64: string): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytes(base64)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+}
+
+/** Doubles of which the first bytes stand first, then the second ones and so on. */
+function doubles(buffer: ArrayBuffer): Track {
+  const planes = new Uint8Array(buffer);
+  const count = planes.length / 8;
+  const view = new DataView(new ArrayBuffer(planes.length));
+  planes.forEach((byte, place) => view.setUint8(8 * (place % count) + Math.floor(place / count), byte));
+  // Read through a view: the order of bytes is the file's, not the machine's.
+  return Float64Array.from({ length: count }, (_, sample) => view.getFloat64(8 * sample, true));
+}
+
+/** Points and triangles of a mesh. */
+export function surface(mesh: { positions: string; triangles: string }): { positions: Float32Array; triangles: Uint32Array } {
+  return { positions: new Float32Array(bytes(mesh.positions)), triangles: new Uint32Array(bytes(mesh.triangles)) };
+}

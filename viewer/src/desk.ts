@@ -1,0 +1,268 @@
+/** What is read and pressed: title, buttons, keys, timeline, messages, and the same in words for those who do not see. */
+
+import type { App } from "./app";
+import { VIEW_NAMES, type View } from "./eye";
+import { moves } from "./kinematics";
+import { Lanes } from "./lanes";
+import type { Picture } from "./picture";
+import { Player } from "./player";
+import { Sliders } from "./sliders";
+import { nearestSample, phaseAt } from "./time";
+import { named, number, phaseName, quantity } from "./words";
+
+const KEYS: [string, string][] = [
+  ["Space", "play, pause"],
+  ["\u2190 \u2192", "a sample back, on; with Shift ten"],
+  ["Home End", "first, last sample"],
+  ["1 \u2013 5", "front, side, top, iso, follow"],
+  ["J", "joints"],
+  ["T", "dark, light"],
+  ["?", "these keys"],
+];
+const PLAY = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4.500 2.8v10.4L13 8z" fill="currentColor"/></svg>';
+const PAUSE = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4 3h3v10H4zM9 3h3v10H9z" fill="currentColor"/></svg>';
+/** So often at most words are read out [ms]. */
+const SAY_EVERY = 700;
+
+export function element<E extends HTMLElement>(id: string): E {
+  return document.getElementById(id) as E;
+}
+
+/** A message over the stage. */
+export function message(head: string, text: string): void {
+  const box = element("message");
+  box.replaceChildren(worded("strong", head), text);
+  box.hidden = false;
+}
+
+/** The theme follows the system until it is switched by hand. */
+export class Theme {
+  /** Hear of every change. */
+  readonly watchers: (() => void)[] = [];
+  private readonly system = matchMedia("(prefers-color-scheme: dark)");
+  private chosen: boolean | undefined;
+
+  constructor() {
+    this.apply();
+    this.system.addEventListener("change", () => this.apply());
+  }
+
+  toggle(): void {
+    this.chosen = !this.isDark;
+    this.apply();
+  }
+
+  private get isDark(): boolean {
+    return this.chosen ?? this.system.matches;
+  }
+
+  private apply(): void {
+    document.documentElement.dataset["theme"] = this.isDark ? "dark" : "light";
+    this.watchers.forEach((watcher) => watcher());
+  }
+}
+
+export class Desk {
+  private readonly player: Player;
+  private readonly lanes: Lanes | undefined;
+  private readonly sliders: Sliders;
+  private saying: number | undefined;
+
+  constructor(private readonly app: App, private readonly picture: Picture | undefined, private readonly theme: Theme) {
+    const { motion, robot } = app.data;
+    this.player = new Player(app, () => this.showPlaying());
+    element("dock").hidden = !motion;
+    this.lanes = motion && new Lanes(element("lanes"), motion, (time) => this.go(() => app.seek(time)));
+    this.sliders = new Sliders(element("joints"), robot, motion ? undefined : (joint, value) => app.move(joint, value));
+    theme.watchers.push(() => {
+      picture?.paint();
+      this.lanes?.paint();
+    });
+    this.writeTitle();
+    this.addButtons();
+    if (motion) this.addTimeline();
+    addEventListener("keydown", (event) => this.key(event));
+    this.openJoints(!motion && robot.joints.some(moves));
+    this.keepClear();
+    new ResizeObserver(() => this.keepClear()).observe(element("stage"));
+    picture?.look(motion?.base ? "follow" : "iso");
+    app.watchers.push(() => this.show());
+    this.show();
+    this.showPlaying();
+  }
+
+  private writeTitle(): void {
+    const { title, robot, motion } = this.app.data;
+    const count = robot.joints.filter(moves).length;
+    const facts = [`${count} ${count === 1 ? "joint" : "joints"}`];
+    if (motion) facts.unshift(...(title === robot.name ? [] : [robot.name]), `${motion.times.length} samples`);
+    if (this.picture) facts.push(`grid ${quantity(this.picture.cell, "m", 1).replace(/\.?0+ m$/, " m")}`);
+    element("title").textContent = title;
+    element("subtitle").textContent = facts.join(" \u00b7 ");
+    const seconds = motion ? `, moving for ${number(motion.times.at(-1)! - motion.times[0]!, 2)} seconds` : "";
+    element("canvas").setAttribute("aria-label", `${robot.name} in three dimensions: ${robot.links.length} links, ${count} joints${seconds}`);
+    const notes = element("notes");
+    notes.hidden = robot.notes.length === 0;
+    notes.querySelector("summary")!.textContent = robot.notes.length === 1 ? "1 note" : `${robot.notes.length} notes`;
+    notes.querySelector("ul")!.replaceChildren(...robot.notes.map((note) => worded("li", note)));
+  }
+
+  private addButtons(): void {
+    for (const view of VIEW_NAMES) {
+      const made = button(view.charAt(0).toUpperCase() + view.slice(1), () => this.look(view));
+      made.dataset["view"] = view;
+      made.disabled = !this.picture;
+      element("views").append(made);
+    }
+    if (this.picture) this.mark(this.app.data.motion?.base ? "follow" : "iso");
+    for (const layer of this.picture?.layers ?? []) {
+      const made = button(layer.name, () => {
+        this.picture?.toggle(layer);
+        made.ariaPressed = String(layer.group.visible);
+      });
+      made.style.setProperty("--tone", `var(--${layer.tone})`);
+      made.ariaPressed = String(layer.group.visible);
+      made.classList.toggle("flat", layer.isFlat);
+      element("layers").append(made);
+    }
+    element("joints-button").onclick = () => this.openJoints(element("joints").hidden !== false);
+    element("rest-button").hidden = this.app.data.motion !== undefined;
+    element("rest-button").onclick = () => this.app.rest();
+    element("theme-button").onclick = () => this.theme.toggle();
+    element("help-button").onclick = () => this.help();
+    element("keys").append(...KEYS.flatMap(([key, what]) => [worded("dt", key), worded("dd", what)]));
+  }
+
+  private addTimeline(): void {
+    const { motion } = this.app.data;
+    const scrub = element<HTMLInputElement>("scrub");
+    scrub.max = String(motion!.times.length - 1);
+    scrub.addEventListener("input", () => this.go(() => this.app.seek(motion!.times[Number(scrub.value)]!)));
+    element("play").onclick = () => this.player.toggle();
+    element("back").onclick = () => this.go(() => this.app.step(-1));
+    element("forward").onclick = () => this.go(() => this.app.step(1));
+    const speed = element<HTMLSelectElement>("speed");
+    speed.onchange = () => (this.player.speed = Number(speed.value));
+  }
+
+  /** Goes to another time by hand, which ends playing. */
+  private go(move: () => void): void {
+    this.player.pause();
+    move();
+  }
+
+  private look(view: View): void {
+    this.picture?.look(view);
+    this.mark(view);
+    this.say(`Camera: ${view}`);
+  }
+
+  private mark(view: View): void {
+    for (const other of element("views").children) other.ariaPressed = String((other as HTMLElement).dataset["view"] === view);
+  }
+
+  /** Title and buttons cover a narrow picture at its top, the layers any at its bottom. */
+  private keepClear(): void {
+    const [header, layers] = [document.querySelector("header")!, element("layers")];
+    const isNarrow = header.clientWidth <= 640;
+    this.picture?.keepClear(isNarrow ? header.offsetHeight : 20, layers.offsetHeight + 16);
+  }
+
+  private openJoints(isOpen: boolean): void {
+    element("joints").hidden = !isOpen;
+    element("joints-button").ariaPressed = String(isOpen);
+    this.sliders.show(this.app.values);
+  }
+
+  private help(): void {
+    const dialog = element<HTMLDialogElement>("help");
+    if (dialog.open) dialog.close();
+    else dialog.showModal();
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target as HTMLElement;
+    const takes = (kinds: string) => target.matches(kinds);
+    const { app } = this;
+    const times = app.data.motion?.times;
+    const actions: Record<string, () => void> = {
+      j: () => this.openJoints(element("joints").hidden !== false),
+      t: () => this.theme.toggle(),
+      "?": () => this.help(),
+    };
+    if (this.picture) VIEW_NAMES.forEach((view, place) => (actions[String(place + 1)] = () => this.look(view)));
+    if (times && !takes("button, select, summary")) actions[" "] = () => this.player.toggle();
+    if (times && !takes("select, #joints input")) {
+      const far = event.shiftKey ? 10 : 1;
+      actions["ArrowLeft"] = () => this.go(() => app.step(-far));
+      actions["ArrowRight"] = () => this.go(() => app.step(far));
+      actions["Home"] = () => this.go(() => app.seek(times[0]!));
+      actions["End"] = () => this.go(() => app.seek(times.at(-1)!));
+    }
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!action || (element<HTMLDialogElement>("help").open && event.key !== "?")) return;
+    event.preventDefault();
+    action();
+  }
+
+  private showPlaying(): void {
+    const play = element("play");
+    play.innerHTML = this.player.isPlaying ? PAUSE : PLAY;
+    play.ariaLabel = this.player.isPlaying ? "Pause" : "Play";
+    if (!this.player.isPlaying) this.say(this.words());
+  }
+
+  private show(): void {
+    const { place, data } = this.app;
+    this.sliders.show(this.app.values);
+    this.picture?.show();
+    if (!place || !data.motion) return;
+    this.lanes?.show(place);
+    const { times } = data.motion;
+    const scrub = element<HTMLInputElement>("scrub");
+    const sample = nearestSample(place);
+    scrub.value = String(sample);
+    scrub.style.setProperty("--share", `${(100 * (place.time - times[0]!)) / (times.at(-1)! - times[0]! || 1)}%`);
+    scrub.setAttribute("aria-valuetext", `${number(place.time, 2)} seconds`);
+    element("clock").replaceChildren(number(place.time, 2), worded("small", ` / ${number(times.at(-1)!, 2)} s`));
+    const phase = phaseAt(data.motion, place.time);
+    element("phase").textContent = phase ? phaseName(phase) : `sample ${sample + 1} of ${times.length}`;
+    if (!this.player.isPlaying) this.say(this.words());
+  }
+
+  /** The state of the motion in words. */
+  private words(): string {
+    const { place, data, base } = this.app;
+    if (!place || !data.motion) return "";
+    const phase = phaseAt(data.motion, place.time);
+    const standing = data.motion.contacts.filter(({ stands }) => stands[place.sample] === "1").map(({ name }) => named(name).toLowerCase());
+    const margin = this.app.figure("margin");
+    const words = [`${number(place.time, 2)} seconds`];
+    if (phase) words.push(phaseName(phase));
+    if (data.motion.contacts.length > 0) words.push(standing.length > 0 ? `standing on ${standing.join(" and ")}` : "nothing stands");
+    if (data.motion.base) words.push(`root at ${base.slice(0, 3).map((value) => number(value, 3)).join(", ")} metres`);
+    if (margin !== null) words.push(`margin ${quantity(margin, "m")}`);
+    return words.join("; ");
+  }
+
+  /** Has a text read out, the last one of those that come quickly. */
+  private say(text: string): void {
+    clearTimeout(this.saying);
+    this.saying = setTimeout(() => (element("live").textContent = text), SAY_EVERY);
+  }
+}
+
+/** A new element that holds a text. */
+function worded<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text: string): HTMLElementTagNameMap[Tag] {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  return made;
+}
+
+function button(text: string, press: () => void): HTMLButtonElement {
+  const made = worded("button", text);
+  made.type = "button";
+  made.addEventListener("click", press);
+  return made;
+}

@@ -1,0 +1,75 @@
+/** The robot in three dimensions, with all that stands about it. */
+
+import { Vector3 } from "three";
+import type { App } from "./app";
+import { Body } from "./body";
+import { Eye, type View } from "./eye";
+import { Overlays, type Layer } from "./overlays";
+import type { Vector } from "./pose";
+import { Stage } from "./stage";
+
+export class Picture {
+  readonly layers: Layer[];
+  readonly isSeen: boolean;
+  /** The side of a cell of the grid [m]. */
+  readonly cell: number;
+  private readonly stage: Stage;
+  private readonly body: Body;
+  private readonly overlays: Overlays | undefined;
+  private readonly eye: Eye;
+
+  /** Throws NoPicture where the browser gives no WebGL. */
+  constructor(canvas: HTMLCanvasElement, private readonly app: App) {
+    const { robot, motion } = app.data;
+    this.body = new Body(robot, app.values);
+    const { box, size } = this.body;
+    this.isSeen = this.body.isSeen;
+    const floor = motion?.base || !this.isSeen ? 0 : Math.min(0, box.min.z);
+    this.stage = new Stage(canvas, size, floor);
+    this.cell = this.stage.cell;
+    this.overlays = motion && new Overlays(motion, size);
+    this.stage.scene.add(this.body.group);
+    if (this.overlays) this.stage.scene.add(this.overlays.group);
+    this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
+    const middle = this.isSeen ? box.getCenter(new Vector3()) : new Vector3();
+    const sides = this.isSeen ? box.getSize(new Vector3()) : new Vector3(1, 1, 1);
+    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z]);
+    this.paint();
+    this.stage.resize();
+    this.show();
+    new ResizeObserver(() => this.stage.resize()).observe(canvas);
+  }
+
+  private get root(): Vector {
+    return this.app.base.slice(0, 3) as Vector;
+  }
+
+  show(): void {
+    this.body.show(this.app.frames);
+    if (this.app.place) this.overlays?.show(this.app.place);
+    this.stage.moveTo(this.root);
+    this.eye.go(this.root);
+    this.stage.draw();
+  }
+
+  look(view: View): void {
+    this.eye.look(view, this.root);
+  }
+
+  toggle(layer: Layer): void {
+    layer.group.visible = !layer.group.visible;
+    this.stage.draw();
+  }
+
+  /** Keeps clear of what covers the picture at the top and at the bottom [pixels]. */
+  keepClear(top: number, bottom: number): void {
+    this.stage.keepClear(top, bottom);
+  }
+
+  /** Takes the colours of the theme. */
+  paint(): void {
+    this.body.paint();
+    this.overlays?.paint();
+    this.stage.paint();
+  }
+}

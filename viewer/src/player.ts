@@ -1,0 +1,40 @@
+/** Lets time go on. */
+
+import type { App } from "./app";
+
+export class Player {
+  speed = 1;
+  private last: number | undefined;
+
+  /** `changed` hears when it starts and stops. */
+  constructor(private readonly app: App, private readonly changed: () => void) {}
+
+  get isPlaying(): boolean {
+    return this.last !== undefined;
+  }
+
+  toggle(): void {
+    if (this.isPlaying) return this.pause();
+    const times = this.app.data.motion?.times;
+    if (!times) return;
+    if (this.app.time >= times.at(-1)!) this.app.seek(times[0]!);
+    this.last = performance.now();
+    this.changed();
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  pause(): void {
+    if (!this.isPlaying) return;
+    this.last = undefined;
+    this.changed();
+  }
+
+  private tick(now: number): void {
+    if (this.last === undefined) return;
+    const passed = Math.max(now - this.last, 0) / 1000;
+    this.last = now;
+    this.app.seek(this.app.time + this.speed * passed);
+    if (this.app.time >= this.app.data.motion!.times.at(-1)!) return this.pause();
+    requestAnimationFrame((next) => this.tick(next));
+  }
+}

@@ -1,0 +1,32 @@
+/** How numbers and names are said. */
+
+import type { Phase } from "./data";
+
+/** A minus sign that is as wide as a plus, and digits after the point. */
+export function number(value: number, digits: number): string {
+  const text = value.toFixed(digits);
+  return /^-0\.?0*$/.test(text) ? text.slice(1) : text.replace("-", "\u2212");
+}
+
+/** A value with its unit; short lengths in millimetres. */
+export function quantity(value: number, unit: string, most = Math.abs(value)): string {
+  if (unit === "m" && most < 1) return `${number(1000 * value, 1)} mm`;
+  return `${number(value, most >= 100 ? 1 : 3)}${unit === "1" ? "" : ` ${unit}`}`;
+}
+
+const NAMES: Record<string, string> = { com: "Centre of mass", zmp: "ZMP", pendulum: "Pendulum ZMP" };
+
+/** The name of a point or figure as a person says it. */
+export function named(name: string): string {
+  return NAMES[name] ?? (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll("_", " ");
+}
+
+/** `swing, step 3`. */
+export function phaseName(phase: Phase): string {
+  return phase.step === undefined ? phase.action : `${phase.action}, step ${phase.step}`;
+}
+
+/** Limits such as `-2.09 to 2.09 rad`. */
+export function range(limits: [number, number] | undefined, unit: string): string {
+  return limits ? `${number(limits[0], 2)} to ${number(limits[1], 2)} ${unit}` : `no limits, ${unit}`;
+}
