@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let map = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.apart)?;
-    let (start, goal) = (arguments.start()?, arguments.goal()?);
+    let (start, goal) = (start(&arguments.start)?, goal(&arguments.goal)?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
     let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;
@@ -142,22 +142,6 @@ impl Arguments {
         };
         let usual = steps(&named.walker.gaits)?;
         Pilot::new(named.walker, usual, body, !self.crouched, watch)
-    }
-
-    fn start(&self) -> Result<Footprint> {
-        match self.start[..] {
-            [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
-            [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
-            _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
-        }
-    }
-
-    fn goal(&self) -> Result<Goal> {
-        match self.goal[..] {
-            [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
-            [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
-            _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
-        }
     }
 
     fn write(&self, pilot: &Pilot, floor: &Floor, plan: &Plan) -> Result<()> {
@@ -211,6 +195,24 @@ impl MethodName {
             MethodName::M3r => Method::M3r,
             MethodName::Potential => Method::Potential,
         }
+    }
+}
+
+/// Where the middle of the feet is at first.
+pub(super) fn start(told: &[f64]) -> Result<Footprint> {
+    match *told {
+        [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
+        [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
+        _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
+    }
+}
+
+/// Where it is to get.
+pub(super) fn goal(told: &[f64]) -> Result<Goal> {
+    match *told {
+        [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+        [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
+        _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
     }
 }
 

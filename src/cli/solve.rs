@@ -16,7 +16,7 @@ use crate::solver::{Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest program that is read, in bytes.
-const PROGRAM_LIMIT: u64 = 64_000_000;
+pub(super) const PROGRAM_LIMIT: u64 = 64_000_000;
 pub(super) const PROGRAM_NAME: &str = "5_program.json";
 
 const EXAMPLES: &str = "Examples:

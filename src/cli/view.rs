@@ -2,15 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Outcome, console, export};
-use crate::document::{read_text, shown};
+use super::files::CERTIFICATE;
+use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
+use super::{Outcome, console, export, navigate};
+use crate::derive::{Ends, InputFile};
+use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::files::write_atomically;
-use crate::gait::Side;
+use crate::gait::{Footprint, Side};
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
 use crate::motion::table::TABLE_LIMIT;
 use crate::robots::{self, Outline};
-use crate::view::{Page, Sole, WalkRecord};
+use crate::task::Goal;
+use crate::view::{Asked, Page, Sole, WalkRecord};
 use crate::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "Examples:
@@ -19,16 +23,18 @@ const EXAMPLES: &str = "Examples:
   groebot view walk.csv --robot talos.urdf --meshes -o walk.html
   groebot view nao -o nao.html
   groebot view robot.urdf -o robot.html
+  groebot view derivations/ur5 -o ur5.html
+  groebot view rh0 --room examples/living_room.toml --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
-The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
+The page of a derivation shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
 Robots of groebot: nao, rh0, teo.";
 
 /// Writes a page to see a robot and its motion in a browser
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A walk in CSV or JSON, a robot of groebot, or a description in URDF or TOML
-    #[arg(value_name = "WALK-or-ROBOT")]
+    /// A walk in CSV or JSON, a robot of groebot, a description in URDF or TOML, or the folder of a derivation
+    #[arg(value_name = "WALK-or-ROBOT-or-DIR")]
     shown: PathBuf,
     /// The robot that walks, where the walk does not name one of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
@@ -36,6 +42,25 @@ pub struct Arguments {
     /// Put the triangles of meshes into the page: STL
     #[arg(long)]
     meshes: bool,
+    /// Let nao, rh0 or teo walk through a room, TOML
+    #[arg(long, value_name = "FILE", requires = "goal")]
+    room: Option<PathBuf>,
+    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
+    #[arg(
+        long,
+        value_name = "X,Y[,HEADING]",
+        value_delimiter = ',',
+        num_args = 1,
+        default_value = "0,0",
+        allow_hyphen_values = true
+    )]
+    start: Vec<f64>,
+    /// Where it is to get, and to look there
+    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    goal: Vec<f64>,
+    /// How far the body keeps away from furniture [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
+    apart: f64,
     /// Where the page goes
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
@@ -63,11 +88,24 @@ impl Arguments {
                 let text = "--robot says who walks, but this is no walk; give a walk in CSV or JSON, or leave it out";
                 Err(Error::new(ErrorKind::BadValue, text).in_file(file))
             }
+            None if file.is_dir() => derivation(file),
             None => {
                 let (robot, meshes) = robot(file)?;
-                Page::of_robot(&robot, self.meshes.then_some(&meshes))
+                let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;
+                self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))
             }
         }
+    }
+
+    /// The robot of a page in a room.
+    fn running(&self, page: Page, room: &Path) -> Result<Page> {
+        let Footprint { x, y, yaw } = navigate::start(&self.start)?;
+        let Goal { place, heading } = navigate::goal(&self.goal)?;
+        let goal: Vec<f64> = [place.x, place.y].into_iter().chain(heading).collect();
+        let text = read_text(room, TEXT_LIMIT)?;
+        let robot = self.shown.to_string_lossy();
+        let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.apart };
+        page.with_run(&asked).map_err(|error| error.in_file(room))
     }
 
     /// The motion of the file, if it is one by its name.
@@ -99,6 +137,21 @@ impl Arguments {
             }),
         }
     }
+}
+
+/// The chain that was derived in a folder, with its solver.
+fn derivation(folder: &Path) -> Result<Page> {
+    let chain = InputFile::read(folder)?.chain(&Ends::default())?;
+    let no_chain = || {
+        let text = "what was derived here is no chain of a robot; give the folder of one";
+        Error::new(ErrorKind::Unsupported, text).in_file(folder)
+    };
+    let chain = chain.ok_or_else(no_chain)?;
+    read_program(folder)?;
+    let program = read_text(&folder.join(PROGRAM_NAME), PROGRAM_LIMIT)?;
+    let certificate = folder.join(CERTIFICATE);
+    let certificate = if certificate.is_file() { Some(read_text(&certificate, PROGRAM_LIMIT)?) } else { None };
+    Ok(Page::of_chain(&chain, program, certificate.as_deref()))
 }
 
 /// A robot of this crate by its name, or the one that a file describes.

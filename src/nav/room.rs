@@ -18,7 +18,12 @@ pub struct Piece {
     pub place: Point2<f64>,
     /// How it is turned anticlockwise \[rad\].
     pub yaw: f64,
+    /// How high it is \[m\]: for pictures; what walks here passes neither over nor under furniture.
+    pub height: f64,
 }
+
+/// The height of furniture that does not tell it \[m\]: a table's.
+const HEIGHT: f64 = 0.75;
 
 impl Piece {
     /// Its outline in the world \[m\].
@@ -48,7 +53,7 @@ pub struct Room {
 
 impl Room {
     /// Reads a room: `size`, and if they are told `resolution` (0.05), `origin` (x, y and yaw in degrees), `wall`; tables `[[furniture]]` and `[[slow]]` (with its `speed`), each with a `name`,
-    /// an outline (`box` of length and width, `circle` by its radius or `polygon` by its corners) and `at` (x, y, and a yaw in degrees).
+    /// an outline (`box` of length and width, `circle` by its radius or `polygon` by its corners), `at` (x, y, and a yaw in degrees) and a `height` (0.75).
     ///
     /// # Errors
     /// Those of [`Document`]; [`ErrorKind::DuplicateName`]; [`ErrorKind::BadValue`] as [`Shape::check`]; with the line.
@@ -135,7 +140,13 @@ impl Room {
         if thick == 0.0 {
             return Vec::new();
         }
-        let room = Piece { name: String::new(), outline: Shape::Polygon(Vec::new()), place: Point2::new(x, y), yaw };
+        let room = Piece {
+            name: String::new(),
+            outline: Shape::Polygon(Vec::new()),
+            place: Point2::new(x, y),
+            yaw,
+            height: HEIGHT,
+        };
         let along = |x0: f64, y0: f64, x1: f64, y1: f64| {
             let corners = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| Point2::new(x, y)).to_vec();
             Piece { outline: Shape::Polygon(corners), ..room.clone() }.shape()
@@ -159,7 +170,7 @@ fn placed(node: &Node<'_>) -> Result<[f64; 3]> {
 }
 
 fn piece(table: &Table<'_>, more: &[&str]) -> Result<Piece> {
-    table.deny_unknown(&[&["name", "box", "circle", "polygon", "at"], more].concat())?;
+    table.deny_unknown(&[&["name", "box", "circle", "polygon", "at", "height"], more].concat())?;
     let outlines = ["box", "circle", "polygon"].map(|key| table.optional(key));
     let outline = match outlines {
         [Some(size), None, None] => {
@@ -175,5 +186,10 @@ fn piece(table: &Table<'_>, more: &[&str]) -> Result<Piece> {
     };
     outline.check().map_err(|error| table.error(error.kind(), error.message()))?;
     let [x, y, yaw] = table.optional("at").map_or(Ok([0.0; 3]), |node| placed(&node))?;
-    Ok(Piece { name: table.required("name")?.text()?.to_owned(), outline, place: Point2::new(x, y), yaw })
+    let height = table.optional("height").map_or(Ok(HEIGHT), |node| node.float())?;
+    if !(height.is_finite() && height > 0.0) {
+        return Err(table.error(ErrorKind::BadValue, format!("a height of {height} m; give a positive number")));
+    }
+    let name = table.required("name")?.text()?.to_owned();
+    Ok(Piece { name, outline, place: Point2::new(x, y), yaw, height })
 }

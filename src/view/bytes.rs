@@ -17,6 +17,11 @@ pub fn packed(numbers: impl IntoIterator<Item = f64>) -> String {
     base64(&compress_to_vec_zlib(&planes, EFFORT))
 }
 
+/// A file, as zlib in base64.
+pub fn file(bytes: &[u8]) -> String {
+    base64(&compress_to_vec_zlib(bytes, EFFORT))
+}
+
 /// Numbers of all samples: one where all are the same to the last bit, else packed.
 pub fn column(numbers: impl Iterator<Item = f64> + Clone) -> Column {
     let mut bits = numbers.clone().map(f64::to_bits);

@@ -15,6 +15,64 @@ pub struct Data {
     pub robot: Robot,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
+    /// Limbs with their solvers.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub limbs: Vec<Limb>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub run: Option<Run>,
+    /// What solves for them, packed: WebAssembly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wasm: Option<String>,
+}
+
+/// A limb whose solutions are shown: the pose of its tip in its base is the target.
+#[derive(Clone, Debug, Serialize)]
+pub struct Limb {
+    pub name: String,
+    /// Links, by their places.
+    pub base: usize,
+    pub tip: usize,
+    /// Joints in the solver's order, by their places.
+    pub joints: Vec<usize>,
+    /// The solver's unit of length.
+    pub metres: f64,
+    /// The text of its `5_program.json`.
+    pub program: String,
+    /// The SHA-256 of its certificate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<String>,
+}
+
+/// A run of the simulator: what it is asked for, and the room as it is drawn.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// A robot of this crate that walks, by its name.
+    pub robot: String,
+    /// TOML.
+    pub room: String,
+    pub start: [f64; 3],
+    pub goal: Vec<f64>,
+    pub apart: f64,
+    pub scene: Scene,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct Scene {
+    pub size: [f64; 2],
+    pub wall: f64,
+    pub origin: [f64; 3],
+    pub pieces: Vec<Piece>,
+}
+
+/// A piece of furniture.
+#[derive(Clone, Debug, Serialize)]
+pub struct Piece {
+    pub name: String,
+    /// Corners about its own origin.
+    pub outline: Vec<[f64; 2]>,
+    pub height: f64,
+    /// Place and yaw.
+    pub at: [f64; 3],
 }
 
 #[derive(Clone, Debug, Serialize)]

@@ -1,11 +1,16 @@
 //! The page as a file. Main type: [`Page`].
 
+use sha2::{Digest, Sha256};
+
 use super::data::{Data, FORMAT};
 use super::motion::motion;
 use super::robot::described;
+use super::run::{Asked, run};
 use super::sole::Sole;
 use super::walk::WalkRecord;
+use super::{bytes, chain, data};
 use crate::Result;
+use crate::kinematics::Chain;
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
 
@@ -13,6 +18,13 @@ use crate::motion::Trajectory;
 const SHELL: &str = include_str!("../../viewer/dist/page.html");
 /// The program of the page.
 const SCRIPT: &str = include_str!("../../viewer/dist/viewer.js");
+
+/// What solves and walks in the page.
+#[cfg(not(target_family = "wasm"))]
+const WASM: &[u8] = include_bytes!("../../viewer/dist/groebot.wasm");
+/// It does not hold itself.
+#[cfg(target_family = "wasm")]
+const WASM: &[u8] = &[];
 
 /// A page that shows a robot, and how it moves.
 #[derive(Clone, Debug)]
@@ -26,8 +38,31 @@ impl Page {
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>) -> Result<Self> {
-        let shown = described(robot, meshes)?;
-        Ok(Page { data: Data { format: FORMAT, title: robot.name().to_owned(), robot: shown, motion: None } })
+        Ok(Page::of(described(robot, meshes)?))
+    }
+
+    /// A page of a chain whose solutions are shown while its target is moved, by the text of its solver, a `5_program.json`, and of its certificate.
+    pub fn of_chain(chain: &Chain, program: String, certificate: Option<&str>) -> Self {
+        let hash = certificate.map(|text| Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect());
+        let mut page = Page::of(chain::described(chain));
+        page.data.limbs.push(chain::limb(chain, program, hash));
+        page.data.wasm = Some(bytes::file(WASM));
+        page
+    }
+
+    /// The same robot, one of this crate that walks, in a room of this text: its goal, the furniture and the figures of its gait may be changed while it walks.
+    ///
+    /// # Errors
+    /// As [`Room::from_toml`]; [`crate::ErrorKind::UnknownName`] for a robot that is none of this crate's.
+    pub fn with_run(mut self, asked: &Asked<'_>) -> Result<Self> {
+        self.data.run = Some(run(asked)?);
+        self.data.wasm = Some(bytes::file(WASM));
+        Ok(self)
+    }
+
+    fn of(robot: data::Robot) -> Self {
+        let title = robot.name.clone();
+        Page { data: Data { format: FORMAT, title, robot, motion: None, limbs: Vec::new(), run: None, wasm: None } }
     }
 
     /// The same page under another title.
