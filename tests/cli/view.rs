@@ -1,7 +1,7 @@
 //! `groebot view`; and its pages in Chromium, by the tests of `viewer/tests`.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use tempfile::tempdir;
@@ -97,4 +97,31 @@ fn pages_work_in_chromium() {
     command.args(["walk", "robot", "trouble"].map(|name| format!("tests/{name}.test.mjs")));
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn derivations_and_rooms_become_pages() {
+    let folder = tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    fn with<'a>(page: &'a Path, arguments: &[&'a str]) -> Vec<&'a str> {
+        [&["view"], arguments, &["-o", text(page)]].concat()
+    }
+    let read = |arguments: &[&str]| {
+        succeed(&with(&page, arguments));
+        fs::read_to_string(&page).unwrap()
+    };
+    let derived = read(&[text(&root("derivations/ur5"))]);
+    assert!(
+        derived.contains("\"limbs\":[{\"name\":\"ur5\"")
+            && derived.contains("\"wasm\":\"")
+            && derived.len() < 2_000_000
+    );
+    let room = root("examples/living_room.toml");
+    let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
+    assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
+    let told = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
+    assert!(told.contains("does not walk in the page"), "{told}");
+    let told = refused(&with(&page, &[text(&root("derivations/nao_legs"))]));
+    assert!(told.contains("no chain of a robot"), "{told}");
+    assert_eq!(run(&with(&page, &["rh0", "--room", text(&room)])).code, 2);
 }

@@ -113,7 +113,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
         ("Lp", 0.9, "out of reach"),
         ("Hcm", 0.9, "out of reach"),
         ("Gcm", 170.0, ""),
-        ("Ca", 8.0, "rpm"),
+        ("Ca", 8.0, "outside the border"),
         ("RAas", -0.1, "give a positive number"),
         ("Hp", f64::NAN, "give a positive number"),
         ("hp", 0.1, "did you mean"),

@@ -1,10 +1,11 @@
 //! The data of a page against what they were made of; how the page shows them is tested in Chromium: `viewer/tests`.
 
 use groebot::ErrorKind;
+use groebot::kinematics::Chain;
 use groebot::model::{Meshes, Robot};
 use groebot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 use groebot::spatial::Pose;
-use groebot::view::{Page, Sole, WalkRecord};
+use groebot::view::{Asked, Page, Sole, WalkRecord};
 use miniz_oxide::inflate::decompress_to_vec_zlib;
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
@@ -218,4 +219,72 @@ fn the_page_is_one_file_that_its_data_cannot_end() {
     // What is bundled stands in the page with its licence.
     assert!(html.contains("three.js authors") && html.contains("Permission is hereby granted, free of charge"));
     assert!(html.len() < 700_000, "{}", html.len());
+}
+
+/// The frames and axes of a chain's page, multiplied in turn by Rodrigues' formula, against the chain's own product of exponentials.
+#[test]
+fn a_chain_stands_with_its_axes_in_turn() {
+    for name in ["ur5", "puma", "scara", "rrp", "nao_left_leg"] {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations").join(name);
+        let chain = Chain::read(&folder.join("0_chain.toml")).unwrap();
+        let told = data(&Page::of_chain(&chain, "{}".to_owned(), Some("abc")));
+        let metres = chain.length_unit().metres();
+        let limb = &told["limbs"][0];
+        // The SHA-256 of "abc": FIPS 180-4, appendix B.1.
+        assert_eq!(limb["certificate"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+        assert_eq!(limb["metres"], metres);
+        for k in 0..5 {
+            let q: Vec<f64> =
+                (0..chain.joints().len()).map(|joint| (1.7 * f64::from(k) + joint as f64).sin()).collect();
+            let mut pose = nalgebra::Matrix4::<f64>::identity();
+            for (place, joint) in told["robot"]["joints"].as_array().unwrap().iter().enumerate() {
+                let numbers: Vec<f64> = serde_json::from_value(joint["origin"].clone()).unwrap();
+                let axis: [f64; 3] = serde_json::from_value(joint["axis"].clone()).unwrap();
+                let mut origin = nalgebra::Matrix4::identity();
+                origin.fixed_view_mut::<3, 4>(0, 0).copy_from(&nalgebra::Matrix3x4::from_row_slice(&numbers));
+                let mut moved = nalgebra::Matrix4::identity();
+                let axis = Vector3::from(axis);
+                match joint["kind"].as_str().unwrap() {
+                    "fixed" => {}
+                    "prismatic" => moved.fixed_view_mut::<3, 1>(0, 3).copy_from(&(axis * q[place] * metres)),
+                    _ => {
+                        let cross = axis.cross_matrix();
+                        let turn = nalgebra::Matrix3::identity()
+                            + cross * q[place].sin()
+                            + cross * cross * (1.0 - q[place].cos());
+                        moved.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
+                    }
+                }
+                pose = pose * origin * moved;
+            }
+            let mut expected = chain.forward(&q).unwrap();
+            expected.translation.vector *= metres;
+            assert!((pose - expected.to_homogeneous()).norm() < 1e-12, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_run_holds_its_room_with_furniture_from_above() {
+    let robot = groebot::robots::robot("rh0").unwrap();
+    let room = "size = [3, 2]\nwall = 0.1\n[[furniture]]\nname = \"ball\"\ncircle = 0.3\nat = [2, 1, 90]\nheight = 0.6\n[[furniture]]\nname = \"box\"\nbox = [0.4, 0.2]\nat = [0.5, 0.5]\n";
+    let page = |robot_name: &str, room: &str| {
+        let asked = Asked { robot: robot_name, room, start: [1.0, 1.0, 0.0], goal: &[2.0, 0.4], apart: 0.02 };
+        Page::of_robot(&robot, None).unwrap().with_run(&asked)
+    };
+    let told = data(&page("rh0", room).unwrap());
+    let scene = &told["run"]["scene"];
+    assert_eq!((&scene["size"], &scene["wall"]), (&json!([3.0, 2.0]), &json!(0.1)));
+    let ball = &scene["pieces"][0];
+    assert_eq!((&ball["at"], &ball["height"]), (&json!([2.0, 1.0, std::f64::consts::FRAC_PI_2]), &json!(0.6)));
+    for corner in ball["outline"].as_array().unwrap() {
+        assert!((corner[0].as_f64().unwrap().hypot(corner[1].as_f64().unwrap()) - 0.3).abs() < 1e-12);
+    }
+    assert_eq!(scene["pieces"][1]["outline"].as_array().unwrap().len(), 4);
+    assert!(told["wasm"].as_str().unwrap().len() > 100_000);
+    assert_eq!(page("ur5", room).unwrap_err().kind(), ErrorKind::UnknownName);
+    assert_eq!(
+        page("rh0", "size = [3, 2]\n[[furniture]]\nname = \"a\"\ncircle = 1\nheight = 0\n").unwrap_err().kind(),
+        ErrorKind::BadValue
+    );
 }
