@@ -6,4 +6,5 @@ out=${1:-../dist/groebot.wasm}
 root=$(cd ../.. && pwd)
 export RUSTFLAGS="--remap-path-prefix=$root=/groebot --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=/cargo --remap-path-prefix=$(rustc --print sysroot)=/rust"
 cargo build --locked --release --target wasm32-unknown-unknown
+[ "$#" -gt 0 ] || rustc --version >../dist/groebot.wasm.txt
 cp "${CARGO_TARGET_DIR:-target}/wasm32-unknown-unknown/release/groebot_page.wasm" "$out"
