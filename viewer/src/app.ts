@@ -62,6 +62,12 @@ export class App {
     this.seek(0);
   }
 
+  /** Moves several joints by hand: pairs of their places and values. */
+  moveAll(moved: [number, number][]): void {
+    moved.forEach(([joint, value]) => this.moved.set(joint, value));
+    this.seek(0);
+  }
+
   /** Brings all joints back. */
   rest(): void {
     this.moved.clear();

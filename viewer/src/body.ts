@@ -26,18 +26,22 @@ export class Body {
   readonly size: number;
   readonly box: Box3;
 
-  constructor(private readonly robot: Robot, values: number[]) {
+  /** With `only`, a copy of those links that throws no shadow. */
+  constructor(private readonly robot: Robot, values: number[], private readonly only?: Set<number>) {
     this.links = robot.links.map(() => {
       const link = new Group();
       link.matrixAutoUpdate = false;
       return link;
     });
     this.group.add(...this.links);
-    robot.links.forEach(({ shapes }, place) => shapes.forEach((shape) => this.links[place]!.add(this.shape(shape))));
+    robot.links.forEach(({ shapes }, place) => {
+      if (this.isIn(place)) shapes.forEach((shape) => this.links[place]!.add(this.shape(shape)));
+    });
     const frames = forward(robot, values, REST);
     this.show(frames);
     const span = this.extent(frames);
     this.addBones(span);
+    if (only) this.group.traverse((part) => (part.castShadow = false));
     this.show(frames);
     this.box = new Box3().setFromObject(this.group);
     this.isSeen = !this.box.isEmpty();
@@ -54,9 +58,19 @@ export class Body {
     this.group.updateMatrixWorld(true);
   }
 
-  paint(): void {
-    this.plain.color.copy(colour("robot"));
-    this.bone.color.copy(colour("bone"));
+  /** Takes the colours of the theme; all of one where it is told. */
+  paint(all?: string): void {
+    this.plain.color.copy(colour(all ?? "robot"));
+    this.bone.color.copy(colour(all ?? "bone"));
+  }
+
+  /** Lets what is behind be seen. */
+  fade(opacity: number): void {
+    for (const material of [this.plain, this.bone]) Object.assign(material, { opacity, transparent: true, depthWrite: false });
+  }
+
+  private isIn(link: number): boolean {
+    return this.only?.has(link) ?? true;
   }
 
   /** The diagonal of the box about all shapes and joints. */
@@ -68,7 +82,7 @@ export class Body {
 
   private shape(shape: Shape): Mesh {
     const [red, green, blue, opacity = 1] = shape.colour ?? [];
-    const material = red === undefined
+    const material = red === undefined || this.only
       ? this.plain
       : new MeshLambertMaterial({ color: new Color().setRGB(red, green!, blue!, "srgb"), transparent: opacity < 1, opacity });
     const solid = mesh(geometry(shape), material);
@@ -94,13 +108,13 @@ export class Body {
       const offset = new Vector3(joint.origin[3], joint.origin[7], joint.origin[11]);
       const isCovered = hasMeshes && links[joint.parent]!.shapes.length > 0;
       if ((!isBare && !matters.has(joint)) || isCovered) continue;
-      if (offset.length() > 1e-3 * span) {
+      if (offset.length() > 1e-3 * span && this.isIn(joint.parent)) {
         const bone = mesh(new CapsuleGeometry(radius, offset.length(), 4, 12).rotateX(Math.PI / 2), this.bone);
         bone.position.copy(offset).multiplyScalar(0.5);
         bone.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), offset.clone().normalize());
         this.links[joint.parent]!.add(bone);
       }
-      if (isBare && moves(joint)) this.links[joint.child]!.add(this.axle(joint, radius));
+      if (isBare && moves(joint) && this.isIn(joint.child)) this.links[joint.child]!.add(this.axle(joint, radius));
     }
   }
 

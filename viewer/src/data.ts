@@ -110,10 +110,29 @@ export interface Motion {
   phases: Phase[];
 }
 
+/** A limb whose solutions are shown. */
+export interface Limb {
+  name: string;
+  /** The links between which the target is: the pose of `tip` in `base`. */
+  base: number;
+  tip: number;
+  /** Joints in the solver's order. */
+  joints: number[];
+  /** The solver's unit of length [m]. */
+  metres: number;
+  /** The text of its 5_program.json. */
+  program: string;
+  /** The SHA-256 of its certificate. */
+  certificate?: string;
+}
+
 export interface Data {
   title: string;
   robot: Robot;
   motion?: Motion;
+  limbs: Limb[];
+  /** The WebAssembly that solves, packed. */
+  wasm?: string;
 }
 
 const FORMAT = 1;
@@ -130,7 +149,9 @@ export async function read(text: string): Promise<Data> {
   try {
     checkRobot(data.robot);
     const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
-    return { title: String(data.title), robot: data.robot, motion };
+    const limbs: Limb[] = data.limbs ?? [];
+    limbs.forEach((limb) => checkLimb(limb, data.robot));
+    return { title: String(data.title), robot: data.robot, motion, limbs, wasm: data.wasm };
   } catch (error) {
     throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
   }
@@ -145,6 +166,11 @@ function checkRobot(robot: Robot): void {
     if (origin.length !== 12 || axis.length !== 3) throw new Error(`joint ${name} has no frame`);
     placed.add(child);
   }
+}
+
+function checkLimb({ name, base, tip, joints }: Limb, robot: Robot): void {
+  const isThere = [base, tip].every((link) => robot.links[link]) && joints.every((joint) => robot.joints[joint]);
+  if (!isThere) throw new Error(`limb ${name} has a link or a joint that is not there`);
 }
 
 type Unpacked = number | Track;
@@ -218,7 +244,8 @@ function bytes(base64: string): ArrayBuffer {
   return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
 }
 
-async function inflated(base64: string): Promise<ArrayBuffer> {
+/** What zlib and base64 have packed. */
+export async function inflated(base64: string): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes(base64)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 

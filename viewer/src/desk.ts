@@ -7,6 +7,7 @@ import { Lanes } from "./lanes";
 import type { Picture } from "./picture";
 import { Player } from "./player";
 import { Sliders } from "./sliders";
+import type { Solutions } from "./solutions";
 import { nearestSample, phaseAt } from "./time";
 import { named, number, phaseName, quantity } from "./words";
 
@@ -16,11 +17,14 @@ const KEYS: [string, string][] = [
   ["Home End", "first, last sample"],
   ["1 \u2013 5", "front, side, top, iso, follow"],
   ["J", "joints"],
+  ["S", "solutions, where the page has them"],
   ["T", "dark, light"],
   ["?", "these keys"],
 ];
 const PLAY = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4.500 2.8v10.4L13 8z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4 3h3v10H4zM9 3h3v10H9z" fill="currentColor"/></svg>';
+const PANELS = ["joints", "solutions"] as const;
+type Panel = (typeof PANELS)[number];
 /** So often at most words are read out [ms]. */
 const SAY_EVERY = 700;
 
@@ -68,12 +72,17 @@ export class Desk {
   private readonly sliders: Sliders;
   private saying: number | undefined;
 
-  constructor(private readonly app: App, private readonly picture: Picture | undefined, private readonly theme: Theme) {
+  constructor(
+    private readonly app: App,
+    private readonly picture: Picture | undefined,
+    private readonly theme: Theme,
+    private readonly solutions?: Solutions,
+  ) {
     const { motion, robot } = app.data;
     this.player = new Player(app, () => this.showPlaying());
     element("dock").hidden = !motion;
     this.lanes = motion && new Lanes(element("lanes"), motion, (time) => this.go(() => app.seek(time)));
-    this.sliders = new Sliders(element("joints"), robot, motion ? undefined : (joint, value) => app.move(joint, value));
+    this.sliders = new Sliders(element("joints"), robot, motion ? undefined : (joint, value) => this.move(joint, value));
     theme.watchers.push(() => {
       picture?.paint();
       this.lanes?.paint();
@@ -82,7 +91,8 @@ export class Desk {
     this.addButtons();
     if (motion) this.addTimeline();
     addEventListener("keydown", (event) => this.key(event));
-    this.openJoints(!motion && robot.joints.some(moves));
+    const hasSliders = !motion && robot.joints.some(moves);
+    this.open(app.data.limbs.length > 0 ? "solutions" : hasSliders ? "joints" : undefined);
     this.keepClear();
     new ResizeObserver(() => this.keepClear()).observe(element("stage"));
     picture?.look(motion?.base ? "follow" : "iso");
@@ -125,9 +135,13 @@ export class Desk {
       made.classList.toggle("flat", layer.isFlat);
       element("layers").append(made);
     }
-    element("joints-button").onclick = () => this.openJoints(element("joints").hidden !== false);
+    for (const panel of PANELS) element(`${panel}-button`).onclick = () => this.toggle(panel);
+    element("solutions-button").hidden = this.app.data.limbs.length === 0;
     element("rest-button").hidden = this.app.data.motion !== undefined;
-    element("rest-button").onclick = () => this.app.rest();
+    element("rest-button").onclick = () => {
+      this.app.rest();
+      this.solutions?.follow();
+    };
     element("theme-button").onclick = () => this.theme.toggle();
     element("help-button").onclick = () => this.help();
     element("keys").append(...KEYS.flatMap(([key, what]) => [worded("dt", key), worded("dd", what)]));
@@ -168,10 +182,23 @@ export class Desk {
     this.picture?.keepClear(isNarrow ? header.offsetHeight : 20, layers.offsetHeight + 16);
   }
 
-  private openJoints(isOpen: boolean): void {
-    element("joints").hidden = !isOpen;
-    element("joints-button").ariaPressed = String(isOpen);
+  /** Opens a panel and closes the others. */
+  private open(opened: Panel | undefined): void {
+    for (const panel of PANELS) {
+      element(panel).hidden = panel !== opened;
+      element(`${panel}-button`).ariaPressed = String(panel === opened);
+    }
     this.sliders.show(this.app.values);
+    this.solutions?.open(opened === "solutions");
+  }
+
+  private toggle(panel: Panel): void {
+    this.open(element(panel).hidden ? panel : undefined);
+  }
+
+  private move(joint: number, value: number): void {
+    this.app.move(joint, value);
+    this.solutions?.follow();
   }
 
   private help(): void {
@@ -187,13 +214,14 @@ export class Desk {
     const { app } = this;
     const times = app.data.motion?.times;
     const actions: Record<string, () => void> = {
-      j: () => this.openJoints(element("joints").hidden !== false),
+      j: () => this.toggle("joints"),
       t: () => this.theme.toggle(),
       "?": () => this.help(),
     };
+    if (app.data.limbs.length > 0) actions["s"] = () => this.toggle("solutions");
     if (this.picture) VIEW_NAMES.forEach((view, place) => (actions[String(place + 1)] = () => this.look(view)));
     if (times && !takes("button, select, summary")) actions[" "] = () => this.player.toggle();
-    if (times && !takes("select, #joints input")) {
+    if (times && !takes("select, aside input")) {
       const far = event.shiftKey ? 10 : 1;
       actions["ArrowLeft"] = () => this.go(() => app.step(-far));
       actions["ArrowRight"] = () => this.go(() => app.step(far));
@@ -254,7 +282,7 @@ export class Desk {
 }
 
 /** A new element that holds a text. */
-function worded<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text: string): HTMLElementTagNameMap[Tag] {
+export function worded<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text: string): HTMLElementTagNameMap[Tag] {
   const made = document.createElement(tag);
   made.textContent = text;
   return made;

@@ -59,6 +59,11 @@ export class Eye {
     return ROOM * Math.max(upright / (tangent * this.stage.clear), radius / (tangent * aspect)) + radius;
   }
 
+  /** Lets go of the picture while something else is dragged. */
+  hold(isHeld: boolean): void {
+    this.controls.enabled = !isHeld;
+  }
+
   /** Goes with the root, where it follows. */
   go(root: Vector): void {
     if (!this.followed) return;

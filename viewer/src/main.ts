@@ -5,6 +5,8 @@ import { read } from "./data";
 import { Desk, element, message, Theme } from "./desk";
 import { Picture } from "./picture";
 import type { Vector } from "./pose";
+import type { Solution } from "./limbs";
+import { Solutions } from "./solutions";
 import { NoPicture } from "./stage";
 
 export interface Groebot {
@@ -20,6 +22,16 @@ export interface Groebot {
   zmp(): Vector | null;
   /** How far it is within the support polygon [m]; null where the motion does not tell. */
   margin(): number | null;
+  /** The limbs whose solutions are shown. */
+  readonly limbs: string[];
+  /** Brings the tip of a limb to a target in the frame of its base: position [m], then the rotation by rows; the robot takes the nearest solution. */
+  drag(limb: string, numbers: number[]): void;
+  /** Where the target is on the screen [pixels]; null without a picture. */
+  target(): [number, number] | null;
+  /** All solutions of the last target. */
+  solutions(): Solution[];
+  /** How long they took, without drawing [ms]. */
+  readonly update_ms: number;
 }
 
 declare global {
@@ -28,7 +40,12 @@ declare global {
   }
 }
 
-async function start(): Promise<App> {
+interface Started {
+  app: App;
+  solutions: Solutions | undefined;
+}
+
+async function start(): Promise<Started> {
   // The theme comes before the picture, which takes its colours.
   const theme = new Theme();
   const app = new App(await read(element("groebot-data").textContent ?? ""));
@@ -40,15 +57,16 @@ async function start(): Promise<App> {
     element("canvas").hidden = true;
     message("No picture here", "This browser gives the page no WebGL, by which the robot is drawn. Joint values, plots and the timeline work.");
   }
-  new Desk(app, picture, theme);
+  const solutions = await Solutions.start(app, picture);
+  new Desk(app, picture, theme, solutions);
   if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shape, and no joint away from another one.`);
-  return app;
+  return { app, solutions };
 }
 
-let app: App | undefined;
+let started: Started | undefined;
 const ready = start().then(
-  (started) => {
-    app = started;
+  (begun) => {
+    started = begun;
     // What the next frame draws is on the screen behind it.
     return new Promise<void>((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
   },
@@ -62,8 +80,12 @@ const ready = start().then(
 ready.catch(() => {});
 
 const shown = (): App => {
-  if (!app) throw new Error("nothing is shown yet, or ever: wait for ready");
-  return app;
+  if (!started) throw new Error("nothing is shown yet, or ever: wait for ready");
+  return started.app;
+};
+const solved = (): Solutions => {
+  if (!started?.solutions) throw new Error("this page has no limb that is solved");
+  return started.solutions;
 };
 
 window.groebot = {
@@ -75,4 +97,13 @@ window.groebot = {
   pose: () => shown().pose(),
   zmp: () => shown().point("zmp"),
   margin: () => shown().figure("margin"),
+  get limbs() {
+    return started?.solutions?.names ?? [];
+  },
+  drag: (limb, numbers) => solved().drag(limb, numbers),
+  target: () => solved().target,
+  solutions: () => solved().solutions.map((solution) => ({ ...solution, q: [...solution.q] })),
+  get update_ms() {
+    return solved().updateMs;
+  },
 };

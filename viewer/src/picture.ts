@@ -5,7 +5,8 @@ import type { App } from "./app";
 import { Body } from "./body";
 import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
-import type { Vector } from "./pose";
+import { Ghosts } from "./ghosts";
+import type { Frame, Vector } from "./pose";
 import { Stage } from "./stage";
 
 export class Picture {
@@ -17,9 +18,10 @@ export class Picture {
   private readonly body: Body;
   private readonly overlays: Overlays | undefined;
   private readonly eye: Eye;
+  private ghosts: Ghosts | undefined;
 
   /** Throws NoPicture where the browser gives no WebGL. */
-  constructor(canvas: HTMLCanvasElement, private readonly app: App) {
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly app: App) {
     const { robot, motion } = app.data;
     this.body = new Body(robot, app.values);
     const { box, size } = this.body;
@@ -52,6 +54,12 @@ export class Picture {
     this.stage.draw();
   }
 
+  /** The ghosts of solutions, with a target that is dragged. */
+  withGhosts(dragged: (target: Frame) => void): Ghosts {
+    this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.eye.hold(isHeld));
+    return this.ghosts;
+  }
+
   look(view: View): void {
     this.eye.look(view, this.root);
   }
@@ -70,6 +78,7 @@ export class Picture {
   paint(): void {
     this.body.paint();
     this.overlays?.paint();
+    this.ghosts?.paint();
     this.stage.paint();
   }
 }

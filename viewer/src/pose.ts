@@ -17,6 +17,18 @@ export function multiply(a: ArrayLike<number>, b: ArrayLike<number>): Frame {
   return product;
 }
 
+/** The frame that undoes another one. */
+export function inverse(frame: ArrayLike<number>): Frame {
+  const undone = new Float64Array(12);
+  for (let row = 0; row < 3; row++) {
+    for (let column = 0; column < 3; column++) {
+      undone[4 * row + column] = frame[4 * column + row]!;
+      undone[4 * row + 3]! -= frame[4 * column + row]! * frame[4 * column + 3]!;
+    }
+  }
+  return undone;
+}
+
 /** Where a frame takes a point. */
 export function move(frame: ArrayLike<number>, [x, y, z]: Vector): Vector {
   const row = (r: number) => frame[r]! * x + frame[r + 1]! * y + frame[r + 2]! * z + frame[r + 3]!;
@@ -47,6 +59,19 @@ export function fromPose([px, py, pz, x, y, z, w]: number[]): Frame {
     2 * (x! * y! + z! * w!), 1 - 2 * (x! * x! + z! * z!), 2 * (y! * z! - x! * w!), py!,
     2 * (x! * z! - y! * w!), 2 * (y! * z! + x! * w!), 1 - 2 * (x! * x! + y! * y!), pz!,
   );
+}
+
+/** Roll, pitch and yaw of a frame, as a URDF tells them [rad]. */
+export function toAngles(frame: ArrayLike<number>): Vector {
+  const [r11, r21, r31, r32, r33] = [0, 4, 8, 9, 10].map((place) => frame[place]!) as [number, number, number, number, number];
+  return [Math.atan2(r32, r33), Math.atan2(-r31, Math.hypot(r11, r21)), Math.atan2(r21, r11)];
+}
+
+/** The frame at a position with roll, pitch and yaw [rad]. */
+export function fromAngles([x, y, z]: ArrayLike<number> & Iterable<number>, [roll, pitch, yaw]: Vector): Frame {
+  const turned = multiply(turn([0, 0, 1], yaw), multiply(turn([0, 1, 0], pitch), turn([1, 0, 0], roll)));
+  [turned[3], turned[7], turned[11]] = [x!, y!, z!];
+  return turned;
 }
 
 /** The pose at a share of the way from one to another: on the line, and by the shorter arc. */

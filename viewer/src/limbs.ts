@@ -1,0 +1,96 @@
+/** The solutions of a limb for a target: all of them, each with its frames. */
+
+import type { App } from "./app";
+import type { Limb } from "./data";
+import type { Engine } from "./engine";
+import { complete, forward } from "./kinematics";
+import { inverse, multiply, type Frame } from "./pose";
+
+/** What `groebot.solutions()` tells. */
+export interface Solution {
+  /** Joint values in the solver's order [rad or m]. */
+  q: number[];
+  /** The number of its branch, the same from target to target. */
+  branch: number;
+  /** The largest miss of the equations, in their own unit. */
+  residual: number;
+  /** Whether all joints are within their limits, and which are not. */
+  within: boolean;
+  outside: string[];
+  /** Joints that are free at this singular pose: every value of theirs does it, others changing along. */
+  free: string[];
+}
+
+interface Answer {
+  solutions: { q: number[]; branch: number; residual: number; free: number[] }[];
+}
+
+/** How far beyond a limit counts as at it [rad or m]. */
+const ROUNDING = 1e-9;
+
+export class LimbSolver {
+  readonly solutions: Solution[] = [];
+  /** Of each solution the frames of all links. */
+  readonly frames: Frame[][] = [];
+  /** The target: the frame of the tip in that of the base [m]. */
+  target: Frame;
+  /** How long the last update took, without drawing [ms]. */
+  updateMs = 0;
+  private readonly solver: number;
+
+  constructor(private readonly engine: Engine, private readonly app: App, readonly limb: Limb) {
+    const opened = engine.ask<{ solver: number; inputs: string[] }>({ open: limb.program });
+    if (opened.inputs.length !== 12) throw new Error(`${limb.name} is not solved for a pose of its tip`);
+    this.solver = opened.solver;
+    this.target = this.reached();
+  }
+
+  /** Where the tip is now. */
+  reached(): Frame {
+    const { frames } = this.app;
+    return multiply(inverse(frames[this.limb.base]!), frames[this.limb.tip]!);
+  }
+
+  /** Solves for another target: position by columns of a frame; the robot takes the solution nearest to where it is. */
+  solve(target: Frame): void {
+    const started = performance.now();
+    this.target = target;
+    const at = (place: number) => target[place]! / this.limb.metres;
+    const numbers = [at(3), at(7), at(11), ...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((place) => target[place]!)];
+    const { solutions } = this.engine.ask<Answer>({ solve: { solver: this.solver, target: numbers } });
+    const { robot } = this.app.data;
+    const joints = this.limb.joints.map((place) => robot.joints[place]!);
+    this.solutions.length = this.frames.length = 0;
+    for (const { q, branch, residual, free } of solutions) {
+      const values = q.map((value, place) => (joints[place]!.kind === "prismatic" ? value * this.limb.metres : value));
+      const isOutside = (place: number) => {
+        const { limits } = joints[place]!;
+        return limits !== undefined && (values[place]! < limits[0] - ROUNDING || values[place]! > limits[1] + ROUNDING);
+      };
+      const outside = joints.filter((_, place) => isOutside(place)).map(({ name }) => name);
+      this.solutions.push({ q: values, branch, residual, within: outside.length === 0, outside, free: free.map((place) => joints[place]!.name) });
+      this.frames.push(forward(robot, this.valuesOf(values), this.app.base));
+    }
+    this.updateMs = performance.now() - started;
+  }
+
+  /** The place of the solution nearest to the robot's joints, first of those within limits; -1 without any. */
+  nearest(): number {
+    const away = ({ q, within }: Solution) => {
+      const turns = q.map((value, place) => Math.abs(Math.sin((value - this.app.values[this.limb.joints[place]!]!) / 2)));
+      return Math.max(...turns) + (within ? 0 : 10);
+    };
+    let best = -1;
+    this.solutions.forEach((solution, place) => {
+      if (best < 0 || away(solution) < away(this.solutions[best]!)) best = place;
+    });
+    return best;
+  }
+
+  private valuesOf(q: number[]): number[] {
+    const given = new Map(this.app.values.map((value, place) => [place, value]));
+    for (const [place, joint] of this.app.data.robot.joints.entries()) if (joint.follows) given.delete(place);
+    this.limb.joints.forEach((joint, place) => given.set(joint, q[place]!));
+    return complete(this.app.data.robot, given);
+  }
+}

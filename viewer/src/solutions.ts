@@ -1,0 +1,180 @@
+/** The panel of all solutions: limb, target in numbers, and a row a solution. */
+
+import type { App } from "./app";
+import { inflated } from "./data";
+import { element, worded } from "./desk";
+import { Engine } from "./engine";
+import type { Ghosts } from "./ghosts";
+import { LimbSolver, type Solution } from "./limbs";
+import type { Picture } from "./picture";
+import { fromAngles, toAngles, type Frame } from "./pose";
+
+/** The numbers of the target: name, unit, step. */
+const FIELDS: [string, string, number][] = [
+  ["x", "m", 0.01], ["y", "m", 0.01], ["z", "m", 0.01], ["Roll", "\u00b0", 1], ["Pitch", "\u00b0", 1], ["Yaw", "\u00b0", 1],
+];
+
+export class Solutions {
+  private readonly panel = element("solutions");
+  private readonly list = this.panel.querySelector("ol")!;
+  private readonly inputs: HTMLInputElement[];
+  private readonly ghosts: Ghosts | undefined;
+  private chosen: LimbSolver;
+  /** The solution that the robot takes, by its place. */
+  private taken = -1;
+
+  /** The panel of a page with limbs; undefined where there are none, or nothing computes here, which is told. */
+  static async start(app: App, picture: Picture | undefined): Promise<Solutions | undefined> {
+    const { limbs, wasm } = app.data;
+    if (limbs.length === 0 || !wasm) return undefined;
+    try {
+      const engine = await Engine.start(await inflated(wasm));
+      return new Solutions(app, picture, limbs.map((limb) => new LimbSolver(engine, app, limb)));
+    } catch (error) {
+      element("solutions-state").textContent = `Nothing is solved here: ${error instanceof Error ? error.message : error}.`;
+      return undefined;
+    }
+  }
+
+  private constructor(private readonly app: App, picture: Picture | undefined, private readonly solvers: LimbSolver[]) {
+    this.chosen = solvers[0]!;
+    this.ghosts = picture?.withGhosts((target) => this.solve(target));
+    this.inputs = FIELDS.map((field) => this.field(field));
+    const choice = element<HTMLSelectElement>("limb");
+    choice.append(...solvers.map(({ limb }) => new Option(limb.name)));
+    element("limb-choice").hidden = solvers.length < 2;
+    choice.onchange = () => this.choose(solvers[choice.selectedIndex]!);
+    for (const [id, turns] of [["target-move", false], ["target-turn", true]] as const) {
+      element(id).onclick = () => this.turn(turns);
+      element(id).hidden = !picture;
+    }
+    this.choose(this.chosen);
+  }
+
+  get names(): string[] {
+    return this.solvers.map(({ limb }) => limb.name);
+  }
+
+  get solutions(): Solution[] {
+    return this.chosen.solutions;
+  }
+
+  get updateMs(): number {
+    return this.chosen.updateMs;
+  }
+
+  /** Where the target is on the screen [pixels]; null without a picture. */
+  get target(): [number, number] | null {
+    return this.ghosts?.onScreen() ?? null;
+  }
+
+  /** Shows or hides the ghosts with the panel. */
+  open(isOpen: boolean): void {
+    if (isOpen) this.show();
+    else this.ghosts?.hide();
+  }
+
+  /** Solves a limb for a target, twelve numbers: position, then the rotation by rows. */
+  drag(name: string, numbers: number[]): void {
+    const solver = this.solvers.find(({ limb }) => limb.name === name);
+    if (!solver) throw new Error(`there is no limb ${name}; there are ${this.names.join(", ")}`);
+    if (numbers.length !== 12 || !numbers.every(Number.isFinite)) throw new Error("a target is twelve finite numbers");
+    if (solver !== this.chosen) this.choose(solver);
+    const [x, y, z, ...r] = numbers as [number, number, number, ...number[]];
+    this.solve(Float64Array.of(r[0]!, r[1]!, r[2]!, x, r[3]!, r[4]!, r[5]!, y, r[6]!, r[7]!, r[8]!, z));
+  }
+
+  /** Joints were moved by hand: the target is where the tip is now. */
+  follow(): void {
+    this.choose(this.chosen);
+  }
+
+  private choose(solver: LimbSolver): void {
+    this.chosen = solver;
+    element("certificate").textContent = solver.limb.certificate ? `Certificate ${solver.limb.certificate}` : "";
+    this.solve(solver.reached());
+  }
+
+  private solve(target: Frame): void {
+    const { chosen } = this;
+    try {
+      chosen.solve(target);
+    } catch (error) {
+      element("solutions-state").textContent = error instanceof Error ? error.message : String(error);
+      return;
+    }
+    this.take(chosen.nearest());
+  }
+
+  /** Lets the robot take a solution. */
+  private take(place: number): void {
+    this.taken = place;
+    const solution = this.chosen.solutions[place];
+    if (solution) this.app.moveAll(solution.q.map((value, joint) => [this.chosen.limb.joints[joint]!, value]));
+    this.show();
+  }
+
+  private turn(isTurned: boolean): void {
+    if (this.ghosts) this.ghosts.turns = isTurned;
+    element("target-move").ariaPressed = String(!isTurned);
+    element("target-turn").ariaPressed = String(isTurned);
+  }
+
+  private show(): void {
+    if (this.panel.hidden) return;
+    const { solutions, frames, target, limb } = this.chosen;
+    this.ghosts?.show(limb, target, frames, this.taken);
+    const within = solutions.filter((solution) => solution.within).length;
+    const count = `${solutions.length} ${solutions.length === 1 ? "solution" : "solutions"}`;
+    element("solutions-state").textContent = solutions.length === 0 ? "Out of reach: no solution" : `${count}, ${within} within limits`;
+    const angles = toAngles(target).map((angle) => (180 / Math.PI) * angle);
+    [target[3]!, target[7]!, target[11]!, ...angles].forEach((value, place) => {
+      const input = this.inputs[place]!;
+      if (document.activeElement !== input) input.value = value.toFixed(place < 3 ? 4 : 2);
+    });
+    while (this.list.children.length < solutions.length) this.list.append(this.row(this.list.children.length));
+    [...this.list.children].forEach((row, place) => this.fill(row as HTMLElement, solutions[place], place));
+  }
+
+  private fill(row: HTMLElement, solution: Solution | undefined, place: number): void {
+    row.hidden = !solution;
+    if (!solution) return;
+    const [head, facts] = row.querySelectorAll<HTMLElement>("strong, small");
+    row.querySelector("button")!.ariaPressed = String(place === this.taken);
+    head!.textContent = `Branch ${solution.branch}`;
+    const words = [solution.within ? "within limits" : `beyond the limits of ${solution.outside.join(", ")}`];
+    if (solution.free.length > 0) words.push(`self-motion about ${solution.free.join(", ")}`);
+    facts!.textContent = [...words, `residual ${solution.residual.toExponential(1)}`].join(" \u00b7 ");
+  }
+
+  private row(place: number): HTMLLIElement {
+    const [item, press] = [document.createElement("li"), document.createElement("button")];
+    press.type = "button";
+    press.append(worded("strong", ""), worded("small", ""));
+    press.addEventListener("click", () => this.take(place));
+    for (const [begin, end] of [["pointerenter", "pointerleave"], ["focus", "blur"]] as const) {
+      press.addEventListener(begin, () => this.ghosts?.point(place));
+      press.addEventListener(end, () => this.ghosts?.point(undefined));
+    }
+    item.append(press);
+    return item;
+  }
+
+  private field([name, unit, step]: [string, string, number]): HTMLInputElement {
+    const [label, input] = [document.createElement("label"), document.createElement("input")];
+    Object.assign(input, { type: "number", step, inputMode: "decimal" });
+    input.ariaLabel = `Target ${name.toLowerCase()}, ${unit === "m" ? "metres" : "degrees"}`;
+    label.append(`${name} `, worded("small", unit), input);
+    element("target").append(label);
+    input.addEventListener("input", () => this.type());
+    return input;
+  }
+
+  /** Takes the numbers of the fields where all of them are numbers. */
+  private type(): void {
+    const numbers = this.inputs.map(({ valueAsNumber }) => valueAsNumber);
+    if (!numbers.every(Number.isFinite)) return;
+    const angles = numbers.slice(3).map((degrees) => (Math.PI / 180) * degrees) as [number, number, number];
+    this.solve(fromAngles(numbers as [number, number, number], angles));
+  }
+}
