@@ -1,6 +1,6 @@
 /** The robot at a time: what `window.groebot` tells, and what all parts of the page show. */
 
-import type { Data } from "./data";
+import type { Data, Motion } from "./data";
 import { complete, forward, REST } from "./kinematics";
 import type { Frame, Vector } from "./pose";
 import { at, placeOf, poseAt, type Place } from "./time";
@@ -46,6 +46,12 @@ export class App {
     }
     this.frames = forward(robot, this.values, this.base);
     this.watchers.forEach((watcher) => watcher());
+  }
+
+  /** Takes a motion that has become longer, or another one; stays where it is. */
+  grow(motion: Motion): void {
+    this.data.motion = motion;
+    this.seek(this.time);
   }
 
   /** Goes so many samples on or back, first to the next one. */

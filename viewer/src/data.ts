@@ -126,12 +126,31 @@ export interface Limb {
   certificate?: string;
 }
 
+/** A run of the simulator: what it is asked for, and the room as it is drawn. */
+export interface RunData {
+  /** A robot of groebot that walks. */
+  robot: string;
+  /** TOML. */
+  room: string;
+  start: [number, number, number];
+  goal: number[];
+  apart: number;
+  scene: {
+    size: [number, number];
+    wall: number;
+    origin: [number, number, number];
+    /** Outlines are about the piece's own origin. */
+    pieces: { name: string; outline: [number, number][]; height: number; at: [number, number, number] }[];
+  };
+}
+
 export interface Data {
   title: string;
   robot: Robot;
   motion?: Motion;
   limbs: Limb[];
-  /** The WebAssembly that solves, packed. */
+  run?: RunData;
+  /** The WebAssembly that solves and walks, packed. */
   wasm?: string;
 }
 
@@ -151,7 +170,7 @@ export async function read(text: string): Promise<Data> {
     const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
     const limbs: Limb[] = data.limbs ?? [];
     limbs.forEach((limb) => checkLimb(limb, data.robot));
-    return { title: String(data.title), robot: data.robot, motion, limbs, wasm: data.wasm };
+    return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, wasm: data.wasm };
   } catch (error) {
     throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
   }

@@ -6,6 +6,8 @@ import { moves } from "./kinematics";
 import { Lanes } from "./lanes";
 import type { Picture } from "./picture";
 import { Player } from "./player";
+import type { Run } from "./run";
+import { Simulator } from "./simulator";
 import { Sliders } from "./sliders";
 import type { Solutions } from "./solutions";
 import { nearestSample, phaseAt } from "./time";
@@ -17,13 +19,13 @@ const KEYS: [string, string][] = [
   ["Home End", "first, last sample"],
   ["1 \u2013 5", "front, side, top, iso, follow"],
   ["J", "joints"],
-  ["S", "solutions, where the page has them"],
+  ["S, R", "solutions, simulator, where the page has them"],
   ["T", "dark, light"],
   ["?", "these keys"],
 ];
 const PLAY = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4.500 2.8v10.4L13 8z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4 3h3v10H4zM9 3h3v10H9z" fill="currentColor"/></svg>';
-const PANELS = ["joints", "solutions"] as const;
+const PANELS = ["joints", "solutions", "run"] as const;
 type Panel = (typeof PANELS)[number];
 /** So often at most words are read out [ms]. */
 const SAY_EVERY = 700;
@@ -68,20 +70,24 @@ export class Theme {
 
 export class Desk {
   private readonly player: Player;
-  private readonly lanes: Lanes | undefined;
+  private lanes: Lanes | undefined;
   private readonly sliders: Sliders;
   private saying: number | undefined;
+  /** The run of the simulator; undefined where the page has none. */
+  readonly simulator: Simulator | undefined;
 
   constructor(
     private readonly app: App,
     private readonly picture: Picture | undefined,
     private readonly theme: Theme,
     private readonly solutions?: Solutions,
+    run?: Run,
   ) {
     const { motion, robot } = app.data;
     this.player = new Player(app, () => this.showPlaying());
     element("dock").hidden = !motion;
-    this.lanes = motion && new Lanes(element("lanes"), motion, (time) => this.go(() => app.seek(time)));
+    this.lanes = this.plots();
+    if (run) this.simulator = this.simulate(run);
     this.sliders = new Sliders(element("joints"), robot, motion ? undefined : (joint, value) => this.move(joint, value));
     theme.watchers.push(() => {
       picture?.paint();
@@ -92,17 +98,47 @@ export class Desk {
     if (motion) this.addTimeline();
     addEventListener("keydown", (event) => this.key(event));
     const hasSliders = !motion && robot.joints.some(moves);
-    this.open(app.data.limbs.length > 0 ? "solutions" : hasSliders ? "joints" : undefined);
+    this.open(run ? "run" : app.data.limbs.length > 0 ? "solutions" : hasSliders ? "joints" : undefined);
     this.keepClear();
     new ResizeObserver(() => this.keepClear()).observe(element("stage"));
-    picture?.look(motion?.base ? "follow" : "iso");
+    picture?.look(this.firstView);
     app.watchers.push(() => this.show());
     this.show();
     this.showPlaying();
   }
 
+  private get firstView(): View {
+    const { motion, run } = this.app.data;
+    return motion?.base && !run ? "follow" : "iso";
+  }
+
+  /** The plots of the motion as it is now. */
+  private plots(): Lanes | undefined {
+    const { motion } = this.app.data;
+    return motion && new Lanes(element("lanes"), motion, (time) => this.go(() => this.app.seek(time)));
+  }
+
+  private simulate(run: Run): Simulator {
+    const simulator = new Simulator(run, this.app, element<HTMLCanvasElement>("canvas"), this.picture, () => this.grow(run));
+    this.player.more = () => simulator.more();
+    return simulator;
+  }
+
+  /** Shows a motion that has become longer. */
+  private grow(run: Run): void {
+    this.lanes?.remove();
+    this.picture?.grow(run.motion);
+    this.app.data.motion = run.motion;
+    this.lanes = this.plots();
+    this.lanes?.paint();
+    element<HTMLInputElement>("scrub").max = String(run.motion.times.length - 1);
+    this.app.grow(run.motion);
+  }
+
   private writeTitle(): void {
-    const { title, robot, motion } = this.app.data;
+    const { title, robot, run } = this.app.data;
+    // What is walked in the page grows.
+    const motion = run ? undefined : this.app.data.motion;
     const count = robot.joints.filter(moves).length;
     const facts = [`${count} ${count === 1 ? "joint" : "joints"}`];
     if (motion) facts.unshift(...(title === robot.name ? [] : [robot.name]), `${motion.times.length} samples`);
@@ -124,7 +160,7 @@ export class Desk {
       made.disabled = !this.picture;
       element("views").append(made);
     }
-    if (this.picture) this.mark(this.app.data.motion?.base ? "follow" : "iso");
+    if (this.picture) this.mark(this.firstView);
     for (const layer of this.picture?.layers ?? []) {
       const made = button(layer.name, () => {
         this.picture?.toggle(layer);
@@ -137,6 +173,7 @@ export class Desk {
     }
     for (const panel of PANELS) element(`${panel}-button`).onclick = () => this.toggle(panel);
     element("solutions-button").hidden = this.app.data.limbs.length === 0;
+    element("run-button").hidden = !this.app.data.run;
     element("rest-button").hidden = this.app.data.motion !== undefined;
     element("rest-button").onclick = () => {
       this.app.rest();
@@ -148,10 +185,9 @@ export class Desk {
   }
 
   private addTimeline(): void {
-    const { motion } = this.app.data;
     const scrub = element<HTMLInputElement>("scrub");
-    scrub.max = String(motion!.times.length - 1);
-    scrub.addEventListener("input", () => this.go(() => this.app.seek(motion!.times[Number(scrub.value)]!)));
+    scrub.max = String(this.app.data.motion!.times.length - 1);
+    scrub.addEventListener("input", () => this.go(() => this.app.seek(this.app.data.motion!.times[Number(scrub.value)]!)));
     element("play").onclick = () => this.player.toggle();
     element("back").onclick = () => this.go(() => this.app.step(-1));
     element("forward").onclick = () => this.go(() => this.app.step(1));
@@ -219,6 +255,7 @@ export class Desk {
       "?": () => this.help(),
     };
     if (app.data.limbs.length > 0) actions["s"] = () => this.toggle("solutions");
+    if (app.data.run) actions["r"] = () => this.toggle("run");
     if (this.picture) VIEW_NAMES.forEach((view, place) => (actions[String(place + 1)] = () => this.look(view)));
     if (times && !takes("button, select, summary")) actions[" "] = () => this.player.toggle();
     if (times && !takes("select, aside input")) {

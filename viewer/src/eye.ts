@@ -24,17 +24,21 @@ export class Eye {
   private readonly controls: OrbitControls;
   private followed: Vector | undefined;
 
-  /** `middle` is what is looked at, from the robot's root; `[radius, height]` are those of an upright cylinder about the robot [m]. */
+  /**
+   * `middle` is what is looked at, from the robot's root; `[radius, height]` are those of an upright cylinder about the robot [m]. In a room all of it is
+   * seen, but where the eye follows the robot.
+   */
   constructor(
     private readonly stage: Stage,
     canvas: HTMLCanvasElement,
     private readonly middle: Vector,
     private readonly extent: [number, number],
+    private readonly room?: { middle: Vector; extent: [number, number] },
   ) {
     this.controls = new OrbitControls(stage.camera, canvas);
     const size = Math.max(...extent);
     this.controls.minDistance = 0.2 * size;
-    this.controls.maxDistance = 25 * size;
+    this.controls.maxDistance = 25 * Math.max(size, 0.2 * (room?.extent[0] ?? 0));
     this.controls.addEventListener("change", () => stage.draw());
   }
 
@@ -42,18 +46,19 @@ export class Eye {
   look(view: View, root: Vector): void {
     this.followed = view === "follow" ? root : undefined;
     const { camera } = this.stage;
-    this.controls.target.set(root[0] + this.middle[0], root[1] + this.middle[1], root[2] + this.middle[2]);
+    const room = view === "follow" ? undefined : this.room;
+    if (room) this.controls.target.set(...room.middle);
+    else this.controls.target.set(root[0] + this.middle[0], root[1] + this.middle[1], root[2] + this.middle[2]);
     const away = new Vector3(...VIEWS[view]).normalize();
-    away.multiplyScalar(this.distance(away.z));
+    away.multiplyScalar(this.distance(away.z, room?.extent ?? this.extent));
     camera.position.copy(this.controls.target).add(away);
     this.controls.update();
     this.stage.draw();
   }
 
   /** How far away the cylinder is seen as a whole, from so far above as the sine says. */
-  private distance(sine: number): number {
+  private distance(sine: number, [radius, height]: [number, number]): number {
     const { fov, aspect } = this.stage.camera;
-    const [radius, height] = this.extent;
     const tangent = Math.tan((fov / 360) * Math.PI);
     const upright = 0.5 * height * Math.sqrt(1 - sine * sine) + radius * sine;
     return ROOM * Math.max(upright / (tangent * this.stage.clear), radius / (tangent * aspect)) + radius;

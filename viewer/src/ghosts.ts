@@ -20,7 +20,7 @@ export class Ghosts {
   private moving = false;
 
   /** `dragged` hears of every target that is dragged, `holds` of its beginning and end. */
-  constructor(private readonly app: App, private readonly stage: Stage, private readonly canvas: HTMLCanvasElement, dragged: (target: Frame) => void, holds: (isHeld: boolean) => void) {
+  constructor(private readonly app: App, private readonly stage: Stage, canvas: HTMLCanvasElement, dragged: (target: Frame) => void, holds: (isHeld: boolean) => void) {
     this.controls = new TransformControls(stage.camera, canvas);
     this.controls.size = 0.7;
     this.controls.attach(this.handle);
@@ -61,13 +61,6 @@ export class Ghosts {
   point(place: number | undefined): void {
     this.bodies.forEach((body, own) => body.fade(OPACITY[own === place ? 1 : 0]));
     this.stage.draw();
-  }
-
-  /** Where the target is on the screen [pixels]. */
-  onScreen(): [number, number] {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    const { x, y } = this.handle.position.clone().project(this.stage.camera);
-    return [(0.5 + 0.5 * x) * width, (0.5 - 0.5 * y) * height];
   }
 
   hide(): void {

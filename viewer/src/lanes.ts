@@ -26,6 +26,10 @@ export class Lanes {
   private readonly from: number;
   private readonly span: number;
   private shown: Place | undefined;
+  private readonly observer = new ResizeObserver(() => {
+    this.paint();
+    if (this.shown) this.show(this.shown);
+  });
 
   constructor(private readonly root: HTMLElement, private readonly motion: Motion, private readonly seek: (time: number) => void) {
     this.from = motion.times[0]!;
@@ -36,10 +40,14 @@ export class Lanes {
     for (const unit of units) this.addPlot(motion.figures.filter((figure) => figure.unit === unit));
     this.playhead.id = "playhead";
     root.append(this.playhead);
-    new ResizeObserver(() => {
-      this.paint();
-      if (this.shown) this.show(this.shown);
-    }).observe(root);
+    this.observer.observe(root);
+  }
+
+  /** Takes the lanes away. */
+  remove(): void {
+    this.observer.disconnect();
+    this.playhead.remove();
+    for (const { canvas } of this.lanes) canvas.parentElement!.remove();
   }
 
   show(place: Place): void {

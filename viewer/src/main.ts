@@ -1,11 +1,14 @@
 /** Starts the page. `window.groebot` is for scripts and tests; docs/simulator.md tells of it. */
 
 import { App, type Pose } from "./app";
-import { read } from "./data";
+import { inflated, read, type Data } from "./data";
 import { Desk, element, message, Theme } from "./desk";
 import { Picture } from "./picture";
 import type { Vector } from "./pose";
 import type { Solution } from "./limbs";
+import { Engine } from "./engine";
+import { Run, type Spot } from "./run";
+import type { Simulator } from "./simulator";
 import { Solutions } from "./solutions";
 import { NoPicture } from "./stage";
 
@@ -22,16 +25,32 @@ export interface Groebot {
   zmp(): Vector | null;
   /** How far it is within the support polygon [m]; null where the motion does not tell. */
   margin(): number | null;
+  /** Where a point of the room is on the screen [m, pixels]; null without a picture. */
+  screen(point: Vector): [number, number] | null;
   /** The limbs whose solutions are shown. */
   readonly limbs: string[];
   /** Brings the tip of a limb to a target in the frame of its base: position [m], then the rotation by rows; the robot takes the nearest solution. */
   drag(limb: string, numbers: number[]): void;
-  /** Where the target is on the screen [pixels]; null without a picture. */
-  target(): [number, number] | null;
   /** All solutions of the last target. */
   solutions(): Solution[];
   /** How long they took, without drawing [ms]. */
   readonly update_ms: number;
+  /** The figures of the gait by their names; null where the gait has none. */
+  readonly parameters: Record<string, number | null>;
+  /** Another value of a figure from the next step on; throws the reason where it cannot be walked. */
+  set(name: string, value: number): void;
+  /** Another goal, with where to look there if that is asked for [m, rad]; throws the reason where it cannot be. */
+  goal(x: number, y: number, heading?: number): void;
+  /** A piece of furniture elsewhere [m, rad], or without it; throws the reason where it cannot be. */
+  furniture(name: string, at: Spot | null): void;
+  /** Takes the next step. */
+  step(): "step" | "arrived";
+  /** The corners of the way [m]; null where there is none. */
+  way(): [number, number][] | null;
+  /** What has been walked, as src/motion/table.rs says. */
+  csv(): string;
+  /** How long the last replanning took [ms]. */
+  readonly replan_ms: number;
 }
 
 declare global {
@@ -42,13 +61,27 @@ declare global {
 
 interface Started {
   app: App;
+  picture: Picture | undefined;
   solutions: Solutions | undefined;
+  run: Run | undefined;
+  simulator: Simulator | undefined;
+}
+
+/** The run of a page, ready at its start: its motion is the page's. */
+function begun(data: Data, engine: Engine | undefined): Run {
+  if (!engine) throw new Error("This browser runs no WebAssembly, by which the robot walks");
+  const run = new Run(engine, data.robot, data.run!);
+  data.motion = run.motion;
+  return run;
 }
 
 async function start(): Promise<Started> {
   // The theme comes before the picture, which takes its colours.
   const theme = new Theme();
-  const app = new App(await read(element("groebot-data").textContent ?? ""));
+  const data = await read(element("groebot-data").textContent ?? "");
+  const engine = data.wasm ? await Engine.start(await inflated(data.wasm)).catch(() => undefined) : undefined;
+  const run = data.run && begun(data, engine);
+  const app = new App(data);
   let picture: Picture | undefined;
   try {
     picture = new Picture(element<HTMLCanvasElement>("canvas"), app);
@@ -57,10 +90,10 @@ async function start(): Promise<Started> {
     element("canvas").hidden = true;
     message("No picture here", "This browser gives the page no WebGL, by which the robot is drawn. Joint values, plots and the timeline work.");
   }
-  const solutions = await Solutions.start(app, picture);
-  new Desk(app, picture, theme, solutions);
+  const solutions = Solutions.start(app, picture, engine);
+  const { simulator } = new Desk(app, picture, theme, solutions, run);
   if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shape, and no joint away from another one.`);
-  return { app, solutions };
+  return { app, picture, solutions, run, simulator };
 }
 
 let started: Started | undefined;
@@ -83,6 +116,11 @@ const shown = (): App => {
   if (!started) throw new Error("nothing is shown yet, or ever: wait for ready");
   return started.app;
 };
+const running = (): { run: Run; simulator: Simulator } => {
+  const { run, simulator } = started ?? {};
+  if (!run || !simulator) throw new Error("nobody walks through a room in this page");
+  return { run, simulator };
+};
 const solved = (): Solutions => {
   if (!started?.solutions) throw new Error("this page has no limb that is solved");
   return started.solutions;
@@ -97,13 +135,25 @@ window.groebot = {
   pose: () => shown().pose(),
   zmp: () => shown().point("zmp"),
   margin: () => shown().figure("margin"),
+  screen: (point) => started?.picture?.onScreen(point) ?? null,
   get limbs() {
     return started?.solutions?.names ?? [];
   },
   drag: (limb, numbers) => solved().drag(limb, numbers),
-  target: () => solved().target,
   solutions: () => solved().solutions.map((solution) => ({ ...solution, q: [...solution.q] })),
   get update_ms() {
     return solved().updateMs;
+  },
+  get parameters() {
+    return Object.fromEntries(running().run.told.figures.map(({ name, value }) => [name, value]));
+  },
+  set: (name, value) => running().simulator.set(name, value),
+  goal: (x, y, heading) => running().run.setGoal(heading === undefined ? [x, y] : [x, y, heading]),
+  furniture: (name, at) => running().run.furnish(name, at),
+  step: () => (running().simulator.step() ? "arrived" : "step"),
+  way: () => running().run.told.way,
+  csv: () => running().run.csv(),
+  get replan_ms() {
+    return running().run.replanMs;
   },
 };

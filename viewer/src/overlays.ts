@@ -37,6 +37,14 @@ export class Overlays {
     for (const { name, at: tracks } of motion.points) this.addPoint(name, tracks as [Float64Array, Float64Array, Float64Array]);
   }
 
+  /** Gives back what the picture's memory holds for it. */
+  dispose(): void {
+    this.group.traverse((part) => {
+      if ("geometry" in part) (part.geometry as BufferGeometry).dispose();
+    });
+    for (const [material] of this.painted) (material as unknown as { dispose(): void }).dispose();
+  }
+
   show(place: Place): void {
     this.updates.forEach((update) => update(place));
   }

@@ -3,11 +3,21 @@
 import { Vector3 } from "three";
 import type { App } from "./app";
 import { Body } from "./body";
+import type { Motion, RunData } from "./data";
 import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
 import type { Frame, Vector } from "./pose";
+import { RoomView } from "./room";
+import type { Run, Spot } from "./run";
 import { Stage } from "./stage";
+
+/** What is seen of a room as a whole. */
+function whole({ scene: { size: [length, width], origin: [x, y, yaw] } }: RunData): { middle: Vector; extent: [number, number] } {
+  const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+  const [ahead, aside] = [length / 2, width / 2];
+  return { middle: [x + c * ahead - s * aside, y + s * ahead + c * aside, 0.3], extent: [Math.hypot(ahead, aside), 0.8] };
+}
 
 export class Picture {
   readonly layers: Layer[];
@@ -16,9 +26,10 @@ export class Picture {
   readonly cell: number;
   private readonly stage: Stage;
   private readonly body: Body;
-  private readonly overlays: Overlays | undefined;
+  private overlays: Overlays | undefined;
   private readonly eye: Eye;
   private ghosts: Ghosts | undefined;
+  private room: RoomView | undefined;
 
   /** Throws NoPicture where the browser gives no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly app: App) {
@@ -35,7 +46,7 @@ export class Picture {
     this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
     const middle = this.isSeen ? box.getCenter(new Vector3()) : new Vector3();
     const sides = this.isSeen ? box.getSize(new Vector3()) : new Vector3(1, 1, 1);
-    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z]);
+    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z], app.data.run && whole(app.data.run));
     this.paint();
     this.stage.resize();
     this.show();
@@ -54,10 +65,39 @@ export class Picture {
     this.stage.draw();
   }
 
+  /** Where a point of the room is on the screen [pixels]. */
+  onScreen(point: Vector): [number, number] {
+    return this.stage.onScreen(point);
+  }
+
   /** The ghosts of solutions, with a target that is dragged. */
   withGhosts(dragged: (target: Frame) => void): Ghosts {
     this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.eye.hold(isHeld));
     return this.ghosts;
+  }
+
+  /** The room of a run, whose goal and furniture are dragged. */
+  withRoom(run: Run, dropped: (name: string, at: Spot) => void): RoomView {
+    this.room = new RoomView(run, this.stage, this.canvas, dropped, (isHeld) => this.eye.hold(isHeld));
+    this.room.paint();
+    return this.room;
+  }
+
+  /** Shows a motion that has become longer: what is shown and hidden stays so. */
+  grow(motion: Motion): void {
+    const before = this.overlays;
+    if (!before) return;
+    this.stage.scene.remove(before.group);
+    before.dispose();
+    this.overlays = new Overlays(motion, this.body.size);
+    this.overlays.paint();
+    for (const { name, group } of this.overlays.layers) {
+      const layer = this.layers.find((own) => own.name === name);
+      if (!layer) continue;
+      group.visible = layer.group.visible;
+      layer.group = group;
+    }
+    this.stage.scene.add(this.overlays.group);
   }
 
   look(view: View): void {
@@ -79,6 +119,7 @@ export class Picture {
     this.body.paint();
     this.overlays?.paint();
     this.ghosts?.paint();
+    this.room?.paint();
     this.stage.paint();
   }
 }

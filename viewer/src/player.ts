@@ -4,6 +4,8 @@ import type { App } from "./app";
 
 export class Player {
   speed = 1;
+  /** Asked at the end for more of the motion; whether there is some. */
+  more: (() => boolean) | undefined;
   private last: number | undefined;
 
   /** `changed` hears when it starts and stops. */
@@ -17,7 +19,7 @@ export class Player {
     if (this.isPlaying) return this.pause();
     const times = this.app.data.motion?.times;
     if (!times) return;
-    if (this.app.time >= times.at(-1)!) this.app.seek(times[0]!);
+    if (this.app.time >= times.at(-1)! && !this.more) this.app.seek(times[0]!);
     this.last = performance.now();
     this.changed();
     requestAnimationFrame((now) => this.tick(now));
@@ -34,7 +36,7 @@ export class Player {
     const passed = Math.max(now - this.last, 0) / 1000;
     this.last = now;
     this.app.seek(this.app.time + this.speed * passed);
-    if (this.app.time >= this.app.data.motion!.times.at(-1)!) return this.pause();
+    if (this.app.time >= this.app.data.motion!.times.at(-1)! && !this.more?.()) return this.pause();
     requestAnimationFrame((next) => this.tick(next));
   }
 }

@@ -1,9 +1,8 @@
 /** The panel of all solutions: limb, target in numbers, and a row a solution. */
 
 import type { App } from "./app";
-import { inflated } from "./data";
 import { element, worded } from "./desk";
-import { Engine } from "./engine";
+import type { Engine } from "./engine";
 import type { Ghosts } from "./ghosts";
 import { LimbSolver, type Solution } from "./limbs";
 import type { Picture } from "./picture";
@@ -24,11 +23,11 @@ export class Solutions {
   private taken = -1;
 
   /** The panel of a page with limbs; undefined where there are none, or nothing computes here, which is told. */
-  static async start(app: App, picture: Picture | undefined): Promise<Solutions | undefined> {
-    const { limbs, wasm } = app.data;
-    if (limbs.length === 0 || !wasm) return undefined;
+  static start(app: App, picture: Picture | undefined, engine: Engine | undefined): Solutions | undefined {
+    const { limbs } = app.data;
+    if (limbs.length === 0) return undefined;
     try {
-      const engine = await Engine.start(await inflated(wasm));
+      if (!engine) throw new Error("this browser runs no WebAssembly");
       return new Solutions(app, picture, limbs.map((limb) => new LimbSolver(engine, app, limb)));
     } catch (error) {
       element("solutions-state").textContent = `Nothing is solved here: ${error instanceof Error ? error.message : error}.`;
@@ -61,11 +60,6 @@ export class Solutions {
 
   get updateMs(): number {
     return this.chosen.updateMs;
-  }
-
-  /** Where the target is on the screen [pixels]; null without a picture. */
-  get target(): [number, number] | null {
-    return this.ghosts?.onScreen() ?? null;
   }
 
   /** Shows or hides the ghosts with the panel. */

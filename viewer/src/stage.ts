@@ -143,6 +143,13 @@ export class Stage {
     return Math.max(1 - (this.covered[0] + this.covered[1]) / height, 0.3);
   }
 
+  /** Where a point of the room is on the screen [pixels]. */
+  onScreen(point: [number, number, number]): [number, number] {
+    const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
+    const { x, y } = new Vector3(...point).project(this.camera);
+    return [left + (0.5 + 0.5 * x) * width, top + (0.5 - 0.5 * y) * height];
+  }
+
   /** Draws at the next frame. */
   draw(): void {
     if (this.asked) return;

@@ -97,7 +97,7 @@ test("the target is dragged in the picture, and turned", async () => {
   await shown.evaluate((target) => groebot.drag("ur5", target), reached([0.3, -0.9, 1.1, 0.4, 0.8, 0.7]));
   const field = async (name) => Number(await shown.getByLabel(name).inputValue());
   const before = await field("Target z, metres");
-  const place = await shown.evaluate(() => groebot.target());
+  const place = await shown.evaluate(() => groebot.screen([3, 7, 11].map((place) => groebot.pose().links.tip[place])));
   await shown.mouse.move(place[0], place[1] - 60);
   await shown.mouse.down();
   await shown.mouse.move(place[0], place[1] - 110, { steps: 5 });

@@ -148,9 +148,15 @@ fn place(goal: &[f64]) -> Result<Goal> {
     }
 }
 
-/// Figures with their presets, way, furniture, and samples.
+/// Joints and soles, figures with their presets, way, furniture, and samples.
 fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
     let mut told = samples_of(run, samples);
+    let biped = &run.pilot().walker().biped;
+    told["joints"] = biped.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let corners = |side: Side| -> Value {
+        biped.feet[side as usize].corners.iter().map(|corner| json!([corner.x, corner.y])).collect()
+    };
+    told["outlines"] = json!([corners(Side::Left), corners(Side::Right)]);
     let figure = |(figure, value): (&groebot::sim::Figure, &f64)| json!({ "name": figure.name, "what": figure.what, "unit": figure.unit, "value": value });
     told["figures"] = FIGURES.iter().zip(&run.figures().values).map(figure).collect();
     told["presets"] =
@@ -176,7 +182,7 @@ fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
     told
 }
 
-/// Samples of the walk: times, joints, torso and soles (position and quaternion xyzw), which soles stand, centre of mass, zero moment point, margin.
+/// All footsteps, and samples of the walk: times, joints, torso and soles (position and quaternion xyzw), which soles stand, centre of mass, zero moment point, margin, support polygon.
 fn samples_of(run: &Run, samples: std::ops::Range<usize>) -> Value {
     let walk: &Walk = run.walk();
     let sample = |sample: usize| {
@@ -192,9 +198,14 @@ fn samples_of(run: &Run, samples: std::ops::Range<usize>) -> Value {
             "com": walk.motion.centres[sample].coords.as_slice(),
             "zmp": [balance.zmp.x, balance.zmp.y],
             "margin": balance.margin,
+            "support": balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect::<Value>(),
         })
     };
-    json!({ "samples": samples.map(sample).collect::<Vec<_>>() })
+    let steps = walk.schedule.route.steps.iter().map(|step| {
+        let print = &step.print;
+        json!({ "foot": step.side.name(), "x": print.x, "y": print.y, "yaw": print.yaw })
+    });
+    json!({ "samples": samples.map(sample).collect::<Vec<_>>(), "steps": steps.collect::<Vec<_>>() })
 }
 
 fn numbers(pose: &groebot::spatial::Pose) -> Value {

@@ -1,0 +1,165 @@
+/** A robot that walks through a room while its goal, the furniture and the figures of its gait change. */
+
+import type { Contact, Motion, Robot, RunData } from "./data";
+import type { Engine } from "./engine";
+
+/** A figure of the gait. */
+export interface Figure {
+  name: string;
+  what: string;
+  unit: string;
+  /** Null where the gait has none. */
+  value: number | null;
+}
+
+/** Figures of the thesis, in the order of the run's own. */
+export interface Preset {
+  name: string;
+  values: number[];
+}
+
+/** Place and yaw [m, rad]. */
+export type Spot = [number, number, number];
+
+interface Sample {
+  time: number;
+  q: number[];
+  torso: number[];
+  soles: [number[], number[]];
+  stands: [boolean, boolean];
+  com: number[];
+  zmp: number[];
+  margin: number;
+  support: [number, number][];
+}
+
+interface Walked {
+  samples: Sample[];
+  steps: Motion["steps"];
+  arrived?: boolean;
+}
+
+interface Told extends Walked {
+  joints: string[];
+  outlines: [[number, number][], [number, number][]];
+  figures: Figure[];
+  presets: Preset[];
+  way: [number, number][] | null;
+  blocked?: string;
+  enclosure?: [number, number][];
+  furniture: { name: string; at: Spot }[];
+}
+
+const SIDES = ["left", "right"] as const;
+
+export class Run {
+  /** What the last answer told but for samples. */
+  told!: Told;
+  /** What has been walked. */
+  motion!: Motion;
+  goal: number[] = [];
+  hasArrived = false;
+  /** How long the last replanning took [ms]. */
+  replanMs = 0;
+  /** Hear of new samples and of new plans. */
+  readonly watchers: (() => void)[] = [];
+  private samples: Sample[] = [];
+
+  constructor(private readonly engine: Engine, private readonly robot: Robot, readonly data: RunData) {
+    this.begin();
+  }
+
+  /** Stands at the start again, all as it was. */
+  begin(): void {
+    const { robot, room, start, goal, apart } = this.data;
+    this.samples = [];
+    this.goal = [...goal];
+    this.take(this.engine.ask({ run: { robot, room, start, goal, apart } }));
+  }
+
+  /** Takes the next step; whether it has arrived. Throws an Error with the reason where it cannot. */
+  step(): boolean {
+    const walked = this.engine.ask<Walked>("step");
+    this.hasArrived = walked.arrived === true;
+    if (!this.hasArrived) this.grow(walked);
+    this.tell();
+    return this.hasArrived;
+  }
+
+  setGoal(goal: number[]): void {
+    this.replan({ goal });
+    this.goal = goal;
+    this.tell();
+  }
+
+  /** A piece of furniture elsewhere; nowhere takes it away. */
+  furnish(name: string, at: Spot | null): void {
+    this.replan({ furniture: { name, at } });
+    this.tell();
+  }
+
+  set(name: string, value: number): void {
+    this.replan({ set: { name, value } });
+    this.tell();
+  }
+
+  /** The walk as `groebot view` and others read it: src/motion/table.rs. */
+  csv(): string {
+    const pose = (name: string) => ["x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]"].map((end) => `${name}_${end}`);
+    const point = (name: string) => ["x", "y", "z"].map((end) => `${name}_${end} [m]`);
+    const names = ["time [s]", ...this.told.joints.map((joint) => `q:${joint} [rad]`), ...pose("base")];
+    for (const side of SIDES) names.push(...pose(side), `${side}_stands [1]`);
+    names.push(...point("com"), ...point("zmp"), "margin [m]");
+    const row = ({ time, q, torso, soles, stands, com, zmp, margin }: Sample) => {
+      const feet = soles.flatMap((sole, side) => [...sole, stands[side] ? 1 : 0]);
+      return [time, ...q, ...torso, ...feet, ...com, ...zmp, 0, margin].map((value) => value.toFixed(9)).join(",");
+    };
+    return `# groebot trajectory 1\n# robot: ${this.robot.name}\n${names.join(",")}\n${this.samples.map(row).join("\n")}\n`;
+  }
+
+  private replan(request: unknown): void {
+    const started = performance.now();
+    const told = this.engine.ask<Told>(request);
+    this.replanMs = performance.now() - started;
+    this.take(told);
+  }
+
+  private take(told: Told): void {
+    this.told = told;
+    this.hasArrived = false;
+    this.grow(told);
+  }
+
+  private tell(): void {
+    this.watchers.forEach((watcher) => watcher());
+  }
+
+  private grow({ samples, steps }: Walked): void {
+    if (samples.length === 0 && this.samples.length > 0) return;
+    this.samples = this.samples.concat(samples);
+    const all = this.samples;
+    const track = (value: (sample: Sample) => number) => Float64Array.from(all, value);
+    const tracks = (values: (sample: Sample) => number[], width: number) => Array.from({ length: width }, (_, place) => track((sample) => values(sample)[place]!));
+    const contact = (name: string, side: 0 | 1): Contact => ({
+      name,
+      poses: tracks(({ soles }) => soles[side], 7),
+      stands: all.map(({ stands }) => (stands[side] ? "1" : "0")).join(""),
+      outline: this.told.outlines[side],
+    });
+    this.motion = {
+      times: track(({ time }) => time),
+      joints: this.told.joints.map((name) => this.robot.joints.findIndex((joint) => joint.name === name)),
+      q: tracks(({ q }) => q, this.told.joints.length),
+      base: tracks(({ torso }) => torso, 7),
+      contacts: [contact("left", 0), contact("right", 1)],
+      points: [
+        { name: "com", at: tracks(({ com }) => com, 3) },
+        { name: "zmp", at: tracks(({ zmp }) => [...zmp, 0], 3) },
+      ],
+      figures: [{ name: "margin", unit: "m", values: track(({ margin }) => margin) }],
+      support: all.map(({ support }) => Float64Array.from(support.flat())),
+      steps,
+      phases: [],
+    };
+  }
+}
