@@ -5,8 +5,22 @@ import { browse, groebot, inFolder, open, page, root } from "./page.mjs";
 const PICTURES = [
   ["simulator_walk", ["walk.json"], { viewport: { width: 900, height: 580 } }, 4.3],
   ["simulator_joints", ["nao"], { viewport: { width: 900, height: 580 } }],
+  ["simulator_solutions", [path.join(root, "derivations/ur5")], { viewport: { width: 900, height: 580 } }],
+  ["simulator_room", ["rh0", "--room", path.join(root, "examples/living_room.toml"), "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_phone", ["walk.json"], { viewport: { width: 390, height: 760 }, colorScheme: "dark" }, 6.1],
 ];
+
+/** What is done before a picture. */
+const ACTS = {
+  simulator_joints: (opened) => opened.getByLabel("LShoulderRoll", { exact: true }).fill("0.9"),
+  simulator_solutions: (opened) => opened.evaluate(() => groebot.drag("ur5", [-0.4, -0.2, 0.3, 0.6, 0, 0.8, 0, 1, 0, -0.8, 0, 0.6])),
+  simulator_room: (opened) =>
+    opened.evaluate(() => {
+      for (let step = 0; step < 14; step++) groebot.step();
+      groebot.furniture("sofa", [4, 1.9, 0.3]);
+      groebot.seek(38);
+    }),
+};
 
 groebot("walk", "nao", "--turn", "8", "-o", inFolder("walk.json"), "--quiet");
 process.chdir(inFolder("."));
@@ -14,7 +28,7 @@ const browser = await browse();
 for (const [name, given, options, time] of PICTURES) {
   const opened = await open(browser, page(`${name}.html`, ...given), options);
   if (time !== undefined) await opened.evaluate((time) => groebot.seek(time), time);
-  else await opened.getByLabel("LShoulderRoll", { exact: true }).fill("0.9");
+  else await ACTS[name](opened);
   await opened.waitForTimeout(500);
   await opened.screenshot({ path: path.join(root, "docs", `${name}.png`) });
 }
