@@ -6,7 +6,9 @@ use nalgebra::Point2;
 use serde_json::{Value, json};
 
 use crate::document::{TEXT_LIMIT, read_text};
+use crate::gait::Footprint;
 use crate::nav::{Enclosure, Map, Room, Way};
+use crate::task::Goal;
 use crate::{Error, ErrorKind, Result};
 
 /// How a map is read, and what of its furniture is moved.
@@ -55,6 +57,53 @@ impl FloorArguments {
                 _ => Err(wrong()),
             }
         })
+    }
+}
+
+/// Where a walk begins and ends.
+#[derive(clap::Args)]
+pub struct PlaceArguments {
+    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
+    #[arg(
+        long,
+        value_name = "X,Y[,HEADING]",
+        value_delimiter = ',',
+        num_args = 1,
+        default_value = "0,0",
+        allow_hyphen_values = true
+    )]
+    start: Vec<f64>,
+    /// Where it is to get, and to look there
+    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    goal: Vec<f64>,
+    /// How far the body keeps away from obstacles [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
+    pub apart: f64,
+}
+
+impl PlaceArguments {
+    /// Where the middle of the feet is at first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    pub fn start(&self) -> Result<Footprint> {
+        match self.start[..] {
+            [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
+            [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
+            _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
+        }
+    }
+
+    /// Where it is to get.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    pub fn goal(&self) -> Result<Goal> {
+        match self.goal[..] {
+            [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+            [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
+            _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
+        }
     }
 }
 

@@ -4,19 +4,18 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::ValueEnum;
-use nalgebra::Point2;
 use serde_json::{Value, json};
 
 use super::files::is_json;
-use super::floor::{self, FloorArguments};
+use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
 use super::progress::{Limits, Session};
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::files::write_atomically;
-use crate::gait::{Footprint, Footstep, Summary, Usual};
+use crate::gait::{Footstep, Summary, Usual};
 use crate::robots::Outline;
-use crate::task::{Blocked, Body, Floor, Goal, Method, Pilot, Plan, Refusal};
+use crate::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use crate::{Error, ErrorKind, Result, Watch};
 
 const EXAMPLES: &str = "Examples:
@@ -45,25 +44,11 @@ pub struct Arguments {
     map: PathBuf,
     #[command(flatten)]
     floor: FloorArguments,
-    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
-    #[arg(
-        long,
-        value_name = "X,Y[,HEADING]",
-        value_delimiter = ',',
-        num_args = 1,
-        default_value = "0,0",
-        allow_hyphen_values = true
-    )]
-    start: Vec<f64>,
-    /// Where it is to get, and to look there
-    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
-    goal: Vec<f64>,
+    #[command(flatten)]
+    places: PlaceArguments,
     /// How the way is found
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
-    /// How far the body keeps away from obstacles [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
-    apart: f64,
     /// The body from above, instead of what the description's shapes say: how long and how wide [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
@@ -102,8 +87,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
     let map = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
-    let floor = Floor::new(&map, arguments.apart)?;
-    let (start, goal) = (start(&arguments.start)?, goal(&arguments.goal)?);
+    let floor = Floor::new(&map, arguments.places.apart)?;
+    let (start, goal) = (arguments.places.start()?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
     let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;
@@ -195,24 +180,6 @@ impl MethodName {
             MethodName::M3r => Method::M3r,
             MethodName::Potential => Method::Potential,
         }
-    }
-}
-
-/// Where the middle of the feet is at first.
-pub(super) fn start(told: &[f64]) -> Result<Footprint> {
-    match *told {
-        [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
-        [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
-        _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
-    }
-}
-
-/// Where it is to get.
-pub(super) fn goal(told: &[f64]) -> Result<Goal> {
-    match *told {
-        [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
-        [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
-        _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
     }
 }
 

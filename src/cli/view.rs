@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::files::CERTIFICATE;
+use super::floor::PlaceArguments;
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
-use super::{Outcome, console, export, navigate};
+use super::{Outcome, console, export};
 use crate::derive::{Ends, InputFile};
 use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::files::write_atomically;
@@ -45,22 +46,8 @@ pub struct Arguments {
     /// Let nao, rh0 or teo walk through a room, TOML
     #[arg(long, value_name = "FILE", requires = "goal")]
     room: Option<PathBuf>,
-    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
-    #[arg(
-        long,
-        value_name = "X,Y[,HEADING]",
-        value_delimiter = ',',
-        num_args = 1,
-        default_value = "0,0",
-        allow_hyphen_values = true
-    )]
-    start: Vec<f64>,
-    /// Where it is to get, and to look there
-    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
-    goal: Vec<f64>,
-    /// How far the body keeps away from furniture [m]
-    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
-    apart: f64,
+    #[command(flatten)]
+    places: PlaceArguments,
     /// Where the page goes
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
@@ -99,12 +86,12 @@ impl Arguments {
 
     /// The robot of a page in a room.
     fn running(&self, page: Page, room: &Path) -> Result<Page> {
-        let Footprint { x, y, yaw } = navigate::start(&self.start)?;
-        let Goal { place, heading } = navigate::goal(&self.goal)?;
+        let Footprint { x, y, yaw } = self.places.start()?;
+        let Goal { place, heading } = self.places.goal()?;
         let goal: Vec<f64> = [place.x, place.y].into_iter().chain(heading).collect();
         let text = read_text(room, TEXT_LIMIT)?;
         let robot = self.shown.to_string_lossy();
-        let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.apart };
+        let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))
     }
 
@@ -156,25 +143,19 @@ fn derivation(folder: &Path) -> Result<Page> {
 
 /// A robot of this crate by its name, or the one that a file describes.
 fn robot(name: &Path) -> Result<(Robot, Meshes)> {
-    match name.to_str() {
-        Some("nao") => Ok((robots::nao_v5(), Meshes::default())),
-        _ if name.exists() || name.to_str().is_some_and(|name| robots::robot(name).is_some()) => {
-            export::described(name)
-        }
-        _ => {
-            let text = format!(
-                "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
-                shown(&name.to_string_lossy())
-            );
-            Err(Error::new(ErrorKind::UnknownName, text))
-        }
+    if !name.exists() && name.to_str().and_then(robots::robot).is_none() {
+        let text = format!(
+            "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
+            shown(&name.to_string_lossy())
+        );
+        return Err(Error::new(ErrorKind::UnknownName, text));
     }
+    export::described(name)
 }
 
 /// The soles of a robot of this crate, as they were measured.
 fn soles(robot: &str) -> Result<Vec<Sole>> {
-    let name = if robot == "nao_v5" { "nao" } else { robot };
-    let Some(walker) = robots::walker(name, Outline::Measured) else { return Ok(Vec::new()) };
+    let Some(walker) = robots::walker(robot, Outline::Measured) else { return Ok(Vec::new()) };
     let feet = walker?.biped.feet;
     let sole = |side: Side| Sole { contact: side.name().to_owned(), corners: feet[side as usize].corners.clone() };
     Ok(vec![sole(Side::Left), sole(Side::Right)])

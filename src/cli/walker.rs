@@ -43,11 +43,7 @@ pub struct Named {
 /// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
 /// the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
-    let robot = match name {
-        "nao" => Some(robots::nao_v5()),
-        name => robots::robot(name),
-    };
-    match (robots::walker(name, outline), robot) {
+    match (robots::walker(name, outline), robots::robot(name)) {
         (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
         _ => described(Path::new(name), soles, watch),
     }

@@ -112,20 +112,20 @@ pub fn by_name(name: &str) -> Option<Chain> {
     ALL.iter().find(|known| known.name == name).map(Known::chain)
 }
 
-/// The humanoid called `name`: `nao_v5`, `rh0` or `teo`.
+/// The humanoid called `name`: `nao` or `nao_v5`, `rh0` or `teo`.
 pub fn robot(name: &str) -> Option<Robot> {
     match name {
-        "nao_v5" => Some(nao_v5()),
+        "nao" | "nao_v5" => Some(nao_v5()),
         "rh0" => Some(rh0()),
         "teo" => Some(teo()),
         _ => None,
     }
 }
 
-/// A humanoid of this crate and the robot that walks, by the name that `groebot walk` knows: `nao`, `rh0`, `teo`.
+/// How a humanoid of this crate walks, by the names of [`robot`].
 pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
     match name {
-        "nao" => Some(nao_walker(outline)),
+        "nao" | "nao_v5" => Some(nao_walker(outline)),
         "rh0" => Some(rh0_walker()),
         "teo" => Some(teo_walker()),
         _ => None,

@@ -26,7 +26,7 @@ fn goal(x: f64, y: f64) -> Goal {
 
 fn run(robot: &str, from: (f64, f64), to: (f64, f64)) -> Run {
     let walker = robots::walker(robot, Outline::Measured).unwrap().unwrap();
-    let described = if robot == "nao" { robots::nao_v5() } else { robots::robot(robot).unwrap() };
+    let described = robots::robot(robot).unwrap();
     let body = Body::new(&described, &walker.biped, &Meshes::default()).unwrap();
     let start = Start {
         walker,

@@ -32,7 +32,7 @@ fn room(text: &str) -> Map {
 }
 
 fn pilot(name: &str) -> (Robot, Pilot) {
-    let robot = if name == "nao" { robots::nao_v5() } else { robots::robot(name).unwrap() };
+    let robot = robots::robot(name).unwrap();
     let walker = robots::walker(name, Outline::Measured).unwrap().unwrap();
     let usual = walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step()).unwrap().1.clone();
     let body = Body::new(&robot, &walker.biped, &Meshes::default()).unwrap();

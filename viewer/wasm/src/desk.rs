@@ -85,7 +85,7 @@ impl Desk {
             }
             Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
                 let walker = robots::walker(&robot, Outline::Measured);
-                let described = if robot == "nao" { Some(robots::nao_v5()) } else { robots::robot(&robot) };
+                let described = robots::robot(&robot);
                 let unknown = || Error::new(ErrorKind::UnknownName, format!("no robot `{robot}` walks here"));
                 let (walker, described) = (walker.ok_or_else(unknown)??, described.ok_or_else(unknown)?);
                 let body = Body::new(&described, &walker.biped, &Meshes::default())?;
