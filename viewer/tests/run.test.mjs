@@ -124,6 +124,29 @@ test("it walks while it plays, and what it walked is read back", async () => {
   assert.ok(readFileSync(inFolder("walked.csv"), "utf8").startsWith("# groebot trajectory 1\n# robot: rh0\n"));
 });
 
+test("numbers and film are saved", async () => {
+  const opened = await open(browser, file);
+  const saved = async (name, act) => {
+    const download = opened.waitForEvent("download", { timeout: 30000 });
+    await act();
+    await (await download).saveAs(inFolder(name));
+    return readFileSync(inFolder(name));
+  };
+  const press = (name) => opened.getByRole("button", { name }).click();
+  const numbers = await saved("walk.csv", () => press("Numbers"));
+  assert.equal(numbers.toString(), await opened.evaluate(() => groebot.csv()));
+  const film = await saved("walk.webm", async () => {
+    await press("Film");
+    await opened.evaluate(() => groebot.step());
+    for (let k = 0; k < 10; k++) await opened.evaluate((at) => groebot.seek(at), 3 + 0.2 * k).then(() => picture(opened));
+    await press("Film");
+  });
+  // EBML, of which WebM is made.
+  assert.deepEqual([...film.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
+  assert.ok(film.length > 1000);
+  assert.deepEqual(opened.complaints, []);
+});
+
 test("walled in it says so and waits; a phone shows it", async () => {
   const walled = ROOM.replace("[0.3, 0.3]", "[0.2, 2.6]").replace("[3.6, 0.4]", "[1.9, 1.3]");
   writeFileSync(inFolder("walled.toml"), walled);
