@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::files::CERTIFICATE;
 use super::floor::PlaceArguments;
+use super::progress::{Limits, Session};
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
 use super::{Outcome, console, export};
-use crate::derive::{Ends, InputFile};
+use crate::derive::{Ends, InputFile, Proved};
 use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::files::write_atomically;
 use crate::gait::{Footprint, Side};
@@ -24,10 +25,12 @@ const EXAMPLES: &str = "Examples:
   groebot view walk.csv --robot talos.urdf --meshes -o walk.html
   groebot view nao -o nao.html
   groebot view robot.urdf -o robot.html
+  groebot view robot.urdf --tip tool0 -o solutions.html
+  groebot view nao --tip l_sole --tip r_sole -o legs.html
   groebot view derivations/ur5 -o ur5.html
   groebot view rh0 --room examples/living_room.toml --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
-The page of a derivation shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
+With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
 Robots of groebot: nao, rh0, teo.";
 
 /// Writes a page to see a robot and its motion in a browser
@@ -43,6 +46,12 @@ pub struct Arguments {
     /// Put the triangles of meshes into the page: STL
     #[arg(long)]
     meshes: bool,
+    /// Show all solutions of the chain from the base to this link, derived on the spot; repeatable
+    #[arg(long, value_name = "LINK", conflicts_with = "room")]
+    tip: Vec<String>,
+    /// The link that such chains begin with; the root without it
+    #[arg(long, value_name = "LINK", requires = "tip")]
+    base: Option<String>,
     /// Let nao, rh0 or teo walk through a room, TOML
     #[arg(long, value_name = "FILE", requires = "goal")]
     room: Option<PathBuf>,
@@ -79,9 +88,29 @@ impl Arguments {
             None => {
                 let (robot, meshes) = robot(file)?;
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;
+                let page = self.solved(page, &robot).map_err(|error| error.in_file(file))?;
                 self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))
             }
         }
+    }
+
+    /// The robot of a page with the limbs whose solutions are asked for.
+    fn solved(&self, page: Page, robot: &Robot) -> Result<Page> {
+        if self.tip.is_empty() {
+            return Ok(page);
+        }
+        let session = Session::start(Limits::default())?;
+        self.tip.iter().try_fold(page, |page, tip| {
+            let (path, chain) =
+                (robot.path(self.base.as_deref(), Some(tip))?, robot.chain(self.base.as_deref(), Some(tip))?);
+            let moving = path.joints.iter().filter(|(joint, _)| robot.joints()[*joint].kind.is_single()).count();
+            if moving != chain.joints().len() {
+                let text = format!("`{}`: slides that move together are not shown in a page", shown(tip));
+                return Err(Error::new(ErrorKind::Unsupported, text));
+            }
+            let proved = Proved::of_chain(&chain, &session.watch)?;
+            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json())
+        })
     }
 
     /// The robot of a page in a room.

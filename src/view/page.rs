@@ -2,17 +2,18 @@
 
 use sha2::{Digest, Sha256};
 
-use super::data::{Data, FORMAT};
+use super::data::{Data, FORMAT, Limb};
 use super::motion::motion;
 use super::robot::described;
 use super::run::{Asked, run};
 use super::sole::Sole;
 use super::walk::WalkRecord;
 use super::{bytes, chain, data};
-use crate::Result;
+use crate::document::shown;
 use crate::kinematics::Chain;
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
+use crate::{Error, ErrorKind, Result};
 
 /// The frame of the page, with its style; title, data and script are put in.
 const SHELL: &str = include_str!("../../viewer/dist/page.html");
@@ -36,7 +37,7 @@ impl Page {
     /// A page of `robot` at rest, its joints moved by hand. Meshes are shown where their folders are given; what cannot be read of them is told in the page.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
+    /// [`ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>) -> Result<Self> {
         Ok(Page::of(described(robot, meshes)?))
     }
@@ -50,10 +51,33 @@ impl Page {
         page
     }
 
+    /// The same robot with a limb whose solutions are shown while its target, the pose of the link `tip` in the link `base`, is moved: by the text of the solver of its chain,
+    /// whose joints are all that move between the two.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for a link or a joint that the robot does not have.
+    pub fn with_limb(mut self, chain: &Chain, [base, tip]: [&str; 2], program: String) -> Result<Self> {
+        let unknown = |kind: &str, name: &str| {
+            let text = format!("the robot `{}` has no {kind} `{}`", shown(&self.data.robot.name), shown(name));
+            Error::new(ErrorKind::UnknownName, text)
+        };
+        let robot = &self.data.robot;
+        let link =
+            |name: &str| robot.links.iter().position(|link| link.name == name).ok_or_else(|| unknown("link", name));
+        let joint =
+            |name: &str| robot.joints.iter().position(|joint| joint.name == name).ok_or_else(|| unknown("joint", name));
+        let joints = chain.joints().iter().map(|own| joint(&own.name)).collect::<Result<_>>()?;
+        let (base, tip_place) = (link(base)?, link(tip)?);
+        let limb = Limb { name: tip.to_owned(), base, tip: tip_place, joints, ..chain::limb(chain, program, None) };
+        self.data.limbs.push(limb);
+        self.data.wasm = Some(bytes::file(WASM));
+        Ok(self)
+    }
+
     /// The same robot, one of this crate that walks, in a room of this text: its goal, the furniture and the figures of its gait may be changed while it walks.
     ///
     /// # Errors
-    /// As [`Room::from_toml`]; [`crate::ErrorKind::UnknownName`] for a robot that is none of this crate's.
+    /// As [`Room::from_toml`]; [`ErrorKind::UnknownName`] for a robot that is none of this crate's.
     pub fn with_run(mut self, asked: &Asked<'_>) -> Result<Self> {
         self.data.run = Some(run(asked)?);
         self.data.wasm = Some(bytes::file(WASM));
@@ -75,7 +99,7 @@ impl Page {
     /// The same robot moved by `trajectory`, whose joints are found by their names. Support polygons come from `record`, else from `soles`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::UnknownName`] for a joint that the robot does not have; [`crate::ErrorKind::BadValue`] for one that does not turn or slide as
+    /// [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for one that does not turn or slide as
     /// the trajectory says, no sample, or a record of another number of samples; as [`Trajectory::check`].
     pub fn with_motion(mut self, trajectory: &Trajectory, record: Option<&WalkRecord>, soles: &[Sole]) -> Result<Self> {
         self.data.motion = Some(motion(&self.data.robot, trajectory, record, soles)?);

@@ -116,6 +116,12 @@ fn derivations_and_rooms_become_pages() {
             && derived.contains("\"wasm\":\"")
             && derived.len() < 2_000_000
     );
+    let solved = read(&[text(&root(ARM)), "--tip", "wrist_3_link"]);
+    assert!(solved.contains("\"limbs\":[{\"name\":\"wrist_3_link\"") && solved.len() < 2_000_000);
+    let told = refused(&with(&page, &[text(&root(ARM)), "--tip", "tool9"]));
+    assert!(told.contains("tool9"), "{told}");
+    let told = refused(&with(&page, &["nao", "--tip", "l_sole", "--base", "l_sole"]));
+    assert!(told.contains("nothing moves between"), "{told}");
     let room = root("examples/living_room.toml");
     let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
