@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# Makes viewer/dist/groebot.wasm. The same compiler makes the same bytes wherever the checkout is.
+# Makes viewer/dist/groebot.wasm, or the file that is named. Its bytes depend on where the sources stand, its answers do not: compare.mjs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 out=${1:-../dist/groebot.wasm}
 root=$(cd ../.. && pwd)
 export RUSTFLAGS="--remap-path-prefix=$root=/groebot --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=/cargo --remap-path-prefix=$(rustc --print sysroot)=/rust"
 cargo build --locked --release --target wasm32-unknown-unknown
-[ "$#" -gt 0 ] || rustc --version >../dist/groebot.wasm.txt
 cp "${CARGO_TARGET_DIR:-target}/wasm32-unknown-unknown/release/groebot_page.wasm" "$out"
