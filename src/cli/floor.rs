@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::document::{TEXT_LIMIT, read_text};
 use crate::gait::Footprint;
 use crate::nav::{Enclosure, Map, Room, Way};
+use crate::sim;
 use crate::task::Goal;
 use crate::{Error, ErrorKind, Result};
 
@@ -31,7 +32,7 @@ impl FloorArguments {
     /// # Errors
     /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
     pub fn map(&self, file: &Path) -> Result<Map> {
-        let is_room = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+        let is_room = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml")) || known(file).is_some();
         let map = if is_room {
             self.room(file)?.map().map_err(|error| error.in_file(file))?
         } else if self.furniture.is_empty() {
@@ -43,20 +44,57 @@ impl FloorArguments {
     }
 
     fn room(&self, file: &Path) -> Result<Room> {
-        let room = Room::from_toml(&read_text(file, TEXT_LIMIT)?).map_err(|error| error.in_file(file))?;
-        self.furniture.iter().try_fold(room, |room, told| {
-            let wrong = || bad(&format!("--furniture {told}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none"));
-            let (name, place) = told.split_once('=').ok_or_else(wrong)?;
-            if place == "none" {
-                return room.without(name);
-            }
-            let numbers: Option<Vec<f64>> = place.split(',').map(|word| word.trim().parse().ok()).collect();
-            match numbers.as_deref() {
-                Some(&[x, y]) => room.with_moved(name, Point2::new(x, y), 0.0),
-                Some(&[x, y, yaw]) => room.with_moved(name, Point2::new(x, y), yaw.to_radians()),
-                _ => Err(wrong()),
-            }
-        })
+        refurnished(read_room(file)?, &self.furniture)
+    }
+}
+
+/// A room that is known by name; a file of that name comes first.
+fn known(file: &Path) -> Option<&'static str> {
+    file.to_str().and_then(sim::room).filter(|_| !file.exists())
+}
+
+/// The text of a room: of the one that is known by that name, else of the file.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn room_text(file: &Path) -> Result<String> {
+    known(file).map_or_else(|| read_text(file, TEXT_LIMIT), |text| Ok(text.to_owned()))
+}
+
+/// The room that is known by that name, or that a file describes.
+///
+/// # Errors
+/// As [`room_text`] and [`Room::from_toml`].
+pub fn read_room(file: &Path) -> Result<Room> {
+    Room::from_toml(&room_text(file)?).map_err(|error| error.in_file(file))
+}
+
+/// The same room with its furniture as it is told.
+///
+/// # Errors
+/// As [`moved`], [`Room::with_moved`] and [`Room::without`].
+pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
+    furniture.iter().try_fold(room, |room, told| match moved(told)? {
+        (name, Some((place, yaw))) => room.with_moved(name, place, yaw),
+        (name, None) => room.without(name),
+    })
+}
+
+/// A piece of furniture and where it is to stand, turned anticlockwise \[m, rad\], or nowhere: `NAME=X,Y`, `NAME=X,Y,YAW` in degrees, `NAME=none`.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for another text.
+pub fn moved(told: &str) -> Result<(&str, Option<(Point2<f64>, f64)>)> {
+    let wrong = || bad(&format!("{told}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none for a piece of furniture"));
+    let (name, place) = told.split_once('=').ok_or_else(wrong)?;
+    if place == "none" {
+        return Ok((name, None));
+    }
+    let numbers: Option<Vec<f64>> = place.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y]) => Ok((name, Some((Point2::new(x, y), 0.0)))),
+        Some(&[x, y, yaw]) => Ok((name, Some((Point2::new(x, y), yaw.to_radians())))),
+        _ => Err(wrong()),
     }
 }
 
@@ -87,11 +125,7 @@ impl PlaceArguments {
     /// # Errors
     /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
     pub fn start(&self) -> Result<Footprint> {
-        match self.start[..] {
-            [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
-            [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
-            _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
-        }
+        start_at(&self.start)
     }
 
     /// Where it is to get.
@@ -99,11 +133,31 @@ impl PlaceArguments {
     /// # Errors
     /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
     pub fn goal(&self) -> Result<Goal> {
-        match self.goal[..] {
-            [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
-            [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
-            _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
-        }
+        goal_at(&self.goal)
+    }
+}
+
+/// A place to start from by its numbers \[m, degrees\].
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+pub fn start_at(numbers: &[f64]) -> Result<Footprint> {
+    match *numbers {
+        [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
+        [x, y, heading] => Ok(Footprint { x, y, yaw: heading.to_radians() }),
+        _ => Err(bad("--start takes two or three numbers: --start 0,0,90")),
+    }
+}
+
+/// A goal by its numbers \[m, degrees\].
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+pub fn goal_at(numbers: &[f64]) -> Result<Goal> {
+    match *numbers {
+        [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+        [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading.to_radians()) }),
+        _ => Err(bad("--goal takes two or three numbers: --goal 3.2,1.5 or --goal 3.2,1.5,90")),
     }
 }
 

@@ -38,6 +38,7 @@ mod report;
 mod solve;
 mod strata;
 mod targets;
+mod task;
 mod track;
 mod view;
 mod walk;
@@ -66,6 +67,7 @@ const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
   groebot path map.pgm --start 1,1 --goal 8,5
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
+  groebot task rh0 --room living-room --goal sofa -o task.json --view task.html
   groebot view walk.csv -o walk.html
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
@@ -94,6 +96,7 @@ enum Command {
     Basis(basis::Arguments),
     Walk(walk::Arguments),
     Navigate(navigate::Arguments),
+    Task(task::Arguments),
     Path(path::Arguments),
     Dynamics(dynamics::Arguments),
     Track(track::Arguments),
@@ -151,6 +154,7 @@ pub fn run() -> ExitCode {
         Command::Basis(arguments) => basis::run(arguments),
         Command::Walk(arguments) => walk::run(arguments),
         Command::Navigate(arguments) => navigate::run(arguments),
+        Command::Task(arguments) => task::run(arguments),
         Command::Path(arguments) => path::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Track(arguments) => track::run(arguments),

@@ -39,7 +39,7 @@ pub struct Arguments {
     robot: String,
     #[command(flatten)]
     soles: SoleArguments,
-    /// The map: ROS' YAML with its image, PGM, PNG, rows of characters, or a room in TOML
+    /// The map: ROS' YAML with its image, PGM, PNG, rows of characters, a room in TOML, or living-room or encirclement
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
     #[command(flatten)]
@@ -70,7 +70,7 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum MethodName {
+pub(super) enum MethodName {
     /// The shortest way
     Exact,
     /// Down a field of fast marching
@@ -173,7 +173,7 @@ impl Arguments {
 }
 
 impl MethodName {
-    fn method(self) -> Method {
+    pub fn method(self) -> Method {
         match self {
             MethodName::Exact => Method::Exact,
             MethodName::Fmm => Method::FastMarching,

@@ -3,18 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use super::files::CERTIFICATE;
-use super::floor::PlaceArguments;
+use super::floor::{PlaceArguments, room_text};
 use super::progress::{Limits, Session};
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
 use super::{Outcome, console, export};
 use crate::derive::{Ends, InputFile, Proved};
-use crate::document::{TEXT_LIMIT, read_text, shown};
+use crate::document::{read_text, shown};
 use crate::files::write_atomically;
 use crate::gait::{Footprint, Side};
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
 use crate::motion::table::TABLE_LIMIT;
 use crate::robots::{self, Outline};
+use crate::sim::TaskRecord;
 use crate::task::Goal;
 use crate::view::{Asked, Page, Sole, WalkRecord};
 use crate::{Error, ErrorKind, Result};
@@ -22,13 +23,14 @@ use crate::{Error, ErrorKind, Result};
 const EXAMPLES: &str = "Examples:
   groebot view walk.csv -o walk.html
   groebot view walk.json -o walk.html
+  groebot view task.json -o task.html
   groebot view walk.csv --robot talos.urdf --meshes -o walk.html
   groebot view nao -o nao.html
   groebot view robot.urdf -o robot.html
   groebot view robot.urdf --tip tool0 -o solutions.html
   groebot view nao --tip l_sole --tip r_sole -o legs.html
   groebot view derivations/ur5 -o ur5.html
-  groebot view rh0 --room examples/living_room.toml --start 1,2.6 --goal 7.2,3.4 -o living_room.html
+  groebot view rh0 --room living-room --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
 With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
 Robots of groebot: nao, rh0, teo.";
@@ -37,7 +39,7 @@ Robots of groebot: nao, rh0, teo.";
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A walk in CSV or JSON, a robot of groebot, a description in URDF or TOML, or the folder of a derivation
+    /// A walk or a task in CSV or JSON, a robot of groebot, a description in URDF or TOML, or the folder of a derivation
     #[arg(value_name = "WALK-or-ROBOT-or-DIR")]
     shown: PathBuf,
     /// The robot that walks, where the walk does not name one of groebot
@@ -52,8 +54,8 @@ pub struct Arguments {
     /// The link that such chains begin with; the root without it
     #[arg(long, value_name = "LINK", requires = "tip")]
     base: Option<String>,
-    /// Let nao, rh0 or teo walk through a room, TOML
-    #[arg(long, value_name = "FILE", requires = "goal")]
+    /// Let nao, rh0 or teo walk through a room: living-room, encirclement, or TOML
+    #[arg(long, value_name = "ROOM-or-FILE", requires = "goal")]
     room: Option<PathBuf>,
     #[command(flatten)]
     places: PlaceArguments,
@@ -73,12 +75,14 @@ impl Arguments {
     fn page(&self) -> Result<Page> {
         let file = &self.shown;
         match self.motion()? {
-            Some((trajectory, record)) => {
+            Some((trajectory, record, task)) => {
                 let (robot, meshes) = self.walking(&trajectory).map_err(|error| error.in_file(file))?;
                 let soles = soles(robot.name())?;
                 let title = file.file_name().unwrap_or_default().to_string_lossy();
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?.titled(&title);
-                page.with_motion(&trajectory, record.as_ref(), &soles).map_err(|error| error.in_file(file))
+                let page =
+                    page.with_motion(&trajectory, record.as_ref(), &soles).map_err(|error| error.in_file(file))?;
+                Ok(if let Some(task) = task { page.with_task(task) } else { page })
             }
             None if self.robot.is_some() => {
                 let text = "--robot says who walks, but this is no walk; give a walk in CSV or JSON, or leave it out";
@@ -118,24 +122,25 @@ impl Arguments {
         let Footprint { x, y, yaw } = self.places.start()?;
         let Goal { place, heading } = self.places.goal()?;
         let goal: Vec<f64> = [place.x, place.y].into_iter().chain(heading).collect();
-        let text = read_text(room, TEXT_LIMIT)?;
+        let text = room_text(room)?;
         let robot = self.shown.to_string_lossy();
         let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))
     }
 
     /// The motion of the file, if it is one by its name.
-    fn motion(&self) -> Result<Option<(Trajectory, Option<WalkRecord>)>> {
+    fn motion(&self) -> Result<Option<(Trajectory, Option<WalkRecord>, Option<TaskRecord>)>> {
         let file = &self.shown;
         let ends = |end: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end));
         if ends("csv") {
-            return Ok(Some((Trajectory::read_csv(file)?, None)));
+            return Ok(Some((Trajectory::read_csv(file)?, None, None)));
         }
         if !ends("json") {
             return Ok(None);
         }
         let text = read_text(file, TABLE_LIMIT)?;
-        let read = Trajectory::from_json(&text).and_then(|own| Ok((own, WalkRecord::from_json(&text)?)));
+        let records = || Ok((WalkRecord::from_json(&text)?, TaskRecord::from_json(&text)?));
+        let read = Trajectory::from_json(&text).and_then(|own| records().map(|(walk, task)| (own, walk, task)));
         read.map(Some).map_err(|error| error.in_file(file))
     }
 
@@ -183,7 +188,7 @@ fn robot(name: &Path) -> Result<(Robot, Meshes)> {
 }
 
 /// The soles of a robot of this crate, as they were measured.
-fn soles(robot: &str) -> Result<Vec<Sole>> {
+pub(super) fn soles(robot: &str) -> Result<Vec<Sole>> {
     let Some(walker) = robots::walker(robot, Outline::Measured) else { return Ok(Vec::new()) };
     let feet = walker?.biped.feet;
     let sole = |side: Side| Sole { contact: side.name().to_owned(), corners: feet[side as usize].corners.clone() };

@@ -68,6 +68,11 @@ impl Walk {
 
     /// The same with another trajectory of this walk: [`Walk::trajectory_with_forces`].
     pub fn json_of(&self, biped: &Biped, trajectory: &Trajectory) -> String {
+        self.json_value(biped, trajectory).to_string() + "\n"
+    }
+
+    /// What [`Walk::json_of`] writes.
+    pub fn json_value(&self, biped: &Biped, trajectory: &Trajectory) -> Value {
         let route = &self.schedule.route;
         let steps = route.steps.iter().map(|step| {
             let mut value = print(&step.print);
@@ -86,7 +91,7 @@ impl Walk {
             "summary": summary(&Summary::of(biped, self)),
             "support": self.balances.iter().map(support).collect::<Vec<_>>(),
         });
-        value.to_string() + "\n"
+        value
     }
 
     fn phases(&self) -> Vec<Value> {

@@ -45,6 +45,8 @@ pub struct Room {
     pub origin: [f64; 3],
     /// How thick its walls are, which stand inside of its borders \[m\].
     pub wall: f64,
+    /// Where who walks here stands at first, and looks \[m, rad\], where that is told.
+    pub start: Option<[f64; 3]>,
     /// The furniture.
     pub pieces: Vec<Piece>,
     /// Where one gets on with other speeds than 1, F of RH0 (4-7): later ones count.
@@ -52,7 +54,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// Reads a room: `size`, and if they are told `resolution` (0.05), `origin` (x, y and yaw in degrees), `wall`; tables `[[furniture]]` and `[[slow]]` (with its `speed`), each with a `name`,
+    /// Reads a room: `size`, and if they are told `resolution` (0.05), `origin` (x, y and yaw in degrees), `wall`, `start` (x, y and a heading in degrees); tables `[[furniture]]` and `[[slow]]` (with its `speed`), each with a `name`,
     /// an outline (`box` of length and width, `circle` by its radius or `polygon` by its corners), `at` (x, y, and a yaw in degrees) and a `height` (0.75).
     ///
     /// # Errors
@@ -60,7 +62,7 @@ impl Room {
     pub fn from_toml(text: &str) -> Result<Self> {
         let document = Document::parse(text)?;
         let root = document.root();
-        root.deny_unknown(&["size", "resolution", "origin", "wall", "furniture", "slow"])?;
+        root.deny_unknown(&["size", "resolution", "origin", "wall", "start", "furniture", "slow"])?;
         let number = |key: &str, usual: f64| root.optional(key).map_or(Ok(usual), |node| node.float());
         let origin = root.optional("origin").map_or(Ok([0.0; 3]), |node| placed(&node))?;
         let tables = |key: &str| root.optional(key).map_or(Ok(Vec::new()), |node| node.tables());
@@ -76,6 +78,7 @@ impl Room {
             resolution: number("resolution", 0.05)?,
             origin,
             wall: number("wall", 0.0)?,
+            start: root.optional("start").map(|node| placed(&node)).transpose()?,
             pieces,
             slow: tables("slow")?.iter().map(slow).collect::<Result<_>>()?,
         })
@@ -99,6 +102,14 @@ impl Room {
         let at = self.find(name)?;
         self.pieces.remove(at);
         Ok(self)
+    }
+
+    /// A piece by its name.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] with the names that are known.
+    pub fn piece(&self, name: &str) -> Result<&Piece> {
+        self.find(name).map(|at| &self.pieces[at])
     }
 
     fn find(&self, name: &str) -> Result<usize> {
@@ -135,7 +146,7 @@ impl Room {
     }
 
     /// Four boxes along the borders.
-    fn walls(&self) -> Vec<Shape> {
+    pub(crate) fn walls(&self) -> Vec<Shape> {
         let ([length, width], thick, [x, y, yaw]) = (self.size, self.wall, self.origin);
         if thick == 0.0 {
             return Vec::new();

@@ -2,8 +2,26 @@
 //!
 //! A [`Run`] goes step by step; between two steps its [`Figures`], its goal and the furniture may change, and the next step obeys. Metres, radians, seconds.
 
+#[cfg(feature = "clearance")]
+mod clearance;
+mod destination;
 mod figures;
+#[cfg(feature = "clearance")]
+mod full_task;
+#[cfg(feature = "clearance")]
+mod prism;
+mod record;
+mod rooms;
 mod run;
+mod scene;
 
+#[cfg(feature = "clearance")]
+pub use clearance::{Clearance, Links};
+pub use destination::Destination;
 pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset};
+#[cfg(feature = "clearance")]
+pub use full_task::{Change, Checks, Performed, Stage, What, perform};
+pub use record::{RecordedStage, TaskRecord};
+pub use rooms::{ROOMS, room};
 pub use run::{Next, Run, Start};
+pub use scene::{Piece, Scene};

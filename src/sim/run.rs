@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use super::destination::Destination;
 use super::figures::Figures;
 use crate::gait::{Footprint, Usual, Walk, Walker};
 use crate::nav::Room;
-use crate::task::{Blocked, Body, Course, Floor, Goal, Journey, Method, Pilot};
+use crate::task::{Blocked, Body, Course, Floor, Journey, Method, Pilot};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How a run begins.
@@ -22,7 +23,7 @@ pub struct Start {
     /// Where the middle of the feet is at first, and where the robot looks.
     pub middle: Footprint,
     /// Where it is to get.
-    pub goal: Goal,
+    pub goal: Destination,
     /// How its ways are found.
     pub method: Method,
 }
@@ -48,11 +49,25 @@ pub struct Run {
     journey: Journey<'static>,
 }
 
+impl Start {
+    /// The way from a place.
+    fn course(
+        &self,
+        pilot: &Pilot,
+        floor: &Floor,
+        from: &Footprint,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Course, Blocked>> {
+        let goal = self.goal.goal(&self.room, pilot, floor, &from.point(), watch)?;
+        Course::find(pilot, floor, from, goal, self.method, watch)
+    }
+}
+
 impl Run {
     /// Stands ready, its trunk lowered, its way found.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`], [`Floor::new`], [`Course::find`] and [`Journey::new`].
+    /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`], [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
     pub fn new(start: Start, watch: &Watch) -> Result<Self> {
         let usual = start.walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
         let usual = usual.map(|(_, usual)| usual.clone()).ok_or_else(|| {
@@ -62,7 +77,7 @@ impl Run {
         let pilot = Pilot::new(start.walker.clone(), usual.clone(), start.body.clone(), true, watch)?;
         let figures = Figures::of(&start.walker.biped, &usual, pilot.reach().hip_height);
         let floor = Floor::new(&start.room.map()?, start.apart)?;
-        let course = Course::find(&pilot, &floor, &start.middle, start.goal, start.method, watch)?;
+        let course = start.course(&pilot, &floor, &start.middle, watch)?;
         let journey = Journey::new(&pilot, &floor, start.middle.feet(pilot.half_width()), watch)?.into_owned();
         Ok(Run { start, usual, figures, floor, course, journey })
     }
@@ -106,15 +121,15 @@ impl Run {
     /// Another goal from now on.
     ///
     /// # Errors
-    /// As [`Course::find`]; then all stays as it was.
-    pub fn go_to(&mut self, goal: Goal, watch: &Watch) -> Result<()> {
+    /// As [`Destination::goal`] and [`Course::find`]; then all stays as it was.
+    pub fn go_to(&mut self, goal: Destination, watch: &Watch) -> Result<()> {
         self.change(Start { goal, ..self.start.clone() }, self.floor.clone(), watch)
     }
 
     /// Another room from now on: furniture that was moved.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where it would stand on the robot; as [`Room::map`] and [`Course::find`]; then all stays as it was.
+    /// [`ErrorKind::BadValue`] where it would stand on the robot; as [`Room::map`], [`Destination::goal`] and [`Course::find`]; then all stays as it was.
     pub fn refurnish(&mut self, room: Room, watch: &Watch) -> Result<()> {
         let floor = Floor::new(&room.map()?, self.start.apart)?;
         let outline = self.pilot().outline_at(&self.journey.middle());
@@ -137,15 +152,22 @@ impl Run {
         let pilot = Pilot::new(walker.clone(), usual, body.clone(), true, watch)?.within(length, turn, watch)?;
         let (before, mut journey) = (self.walk().references.len(), self.journey.clone());
         journey.walk_as(pilot, watch)?;
-        let course =
-            Course::find(journey.pilot(), &self.floor, &journey.middle(), self.start.goal, self.start.method, watch)?;
+        let course = self.start.course(journey.pilot(), &self.floor, &journey.middle(), watch)?;
         (self.figures, self.course, self.journey) = (figures, course, journey);
         Ok(before..self.walk().references.len())
     }
 
+    /// Stands where it is; a walker that is upright rises.
+    ///
+    /// # Errors
+    /// As [`Journey::finish`].
+    pub fn finish(self, watch: &Watch) -> Result<Walk> {
+        self.journey.finish(watch)
+    }
+
     fn change(&mut self, start: Start, floor: Floor, watch: &Watch) -> Result<()> {
         let middle = self.journey.middle();
-        self.course = Course::find(self.pilot(), &floor, &middle, start.goal, start.method, watch)?;
+        self.course = start.course(self.pilot(), &floor, &middle, watch)?;
         (self.start, self.floor) = (start, floor);
         self.journey.turn_to_new_course();
         Ok(())

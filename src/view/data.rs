@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::sim::{Scene, TaskRecord};
+
 /// The version of the format.
 pub const FORMAT: u32 = 1;
 
@@ -20,6 +22,8 @@ pub struct Data {
     pub limbs: Vec<Limb>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub run: Option<Run>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub task: Option<TaskRecord>,
     /// What solves for them, packed: WebAssembly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wasm: Option<String>,
@@ -54,25 +58,6 @@ pub struct Run {
     pub goal: Vec<f64>,
     pub apart: f64,
     pub scene: Scene,
-}
-
-#[derive(Clone, Debug, Serialize)]
-pub struct Scene {
-    pub size: [f64; 2],
-    pub wall: f64,
-    pub origin: [f64; 3],
-    pub pieces: Vec<Piece>,
-}
-
-/// A piece of furniture.
-#[derive(Clone, Debug, Serialize)]
-pub struct Piece {
-    pub name: String,
-    /// Corners about its own origin.
-    pub outline: Vec<[f64; 2]>,
-    pub height: f64,
-    /// Place and yaw.
-    pub at: [f64; 3],
 }
 
 #[derive(Clone, Debug, Serialize)]

@@ -13,6 +13,7 @@ use crate::document::shown;
 use crate::kinematics::Chain;
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
+use crate::sim::TaskRecord;
 use crate::{Error, ErrorKind, Result};
 
 /// The frame of the page, with its style; title, data and script are put in.
@@ -84,9 +85,16 @@ impl Page {
         Ok(self)
     }
 
+    /// The same robot in the room of a task, whose furniture and way are shown as they are at each time of its motion.
+    #[must_use]
+    pub fn with_task(mut self, task: TaskRecord) -> Self {
+        self.data.task = Some(task);
+        self
+    }
+
     fn of(robot: data::Robot) -> Self {
         let title = robot.name.clone();
-        Page { data: Data { format: FORMAT, title, robot, motion: None, limbs: Vec::new(), run: None, wasm: None } }
+        Page { data: Data { format: FORMAT, title, robot, motion: None, limbs: Vec::new(), run: None, task: None, wasm: None } }
     }
 
     /// The same page under another title.

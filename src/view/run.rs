@@ -1,13 +1,11 @@
 //! A run of the simulator as a page asks for it. Main type: [`Asked`].
 
-use super::data::{Piece, Run, Scene};
+use super::data::Run;
 use crate::document::shown;
-use crate::nav::{self, Room, Shape};
+use crate::nav::Room;
 use crate::robots::{self, Outline};
+use crate::sim::Scene;
 use crate::{Error, ErrorKind, Result};
-
-/// So many corners has a circle.
-const CORNERS: usize = 48;
 
 /// What runs where.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,27 +34,7 @@ pub fn run(asked: &Asked<'_>) -> Result<Run> {
     }
     let room = Room::from_toml(text)?;
     room.map()?;
-    let scene = Scene {
-        size: room.size,
-        wall: room.wall,
-        origin: room.origin,
-        pieces: room.pieces.iter().map(piece).collect(),
-    };
+    let scene = Scene::of(&room);
     let (robot, room) = ((*robot).to_owned(), (*text).to_owned());
     Ok(Run { robot, room, start: *start, goal: goal.to_vec(), apart: *apart, scene })
-}
-
-fn piece(own: &nav::Piece) -> Piece {
-    let outline = match &own.outline {
-        Shape::Polygon(corners) => corners.iter().map(|corner| [corner.x, corner.y]).collect(),
-        Shape::Circle { centre, radius } => {
-            let corner = |place: usize| {
-                let (sine, cosine) = (std::f64::consts::TAU * place as f64 / CORNERS as f64).sin_cos();
-                [centre.x + radius * cosine, centre.y + radius * sine]
-            };
-            (0..CORNERS).map(corner).collect()
-        }
-    };
-    let at = [own.place.x, own.place.y, own.yaw];
-    Piece { name: own.name.clone(), outline, height: own.height, at }
 }

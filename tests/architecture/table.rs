@@ -33,7 +33,7 @@ const TABLE: [(&str, Uses); 25] = [
     ("nav", Uses::Only(&["spatial"])),
     ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
-    ("view", Uses::Only(&["spatial", "model", "kinematics", "motion", "gait", "robots", "nav", "task"])),
+    ("view", Uses::Only(&["spatial", "model", "kinematics", "motion", "gait", "robots", "nav", "task", "sim"])),
     ("serve", Uses::Only(&["sim"])),
     ("cli", Uses::AllAbove),
 ];

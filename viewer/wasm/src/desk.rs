@@ -90,7 +90,7 @@ impl Desk {
                 let (walker, described) = (walker.ok_or_else(unknown)??, described.ok_or_else(unknown)?);
                 let body = Body::new(&described, &walker.biped, &Meshes::default())?;
                 let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
-                let start = Start { walker, body, room, apart, middle, goal: place(&goal)?, method: Method::Exact };
+                let start = Start { walker, body, room, apart, middle, goal: place(&goal)?.into(), method: Method::Exact };
                 let run = self.run.insert(Run::new(start, &watch)?);
                 let samples = run.walk().references.len();
                 Ok(told(run, 0..samples))
@@ -104,7 +104,7 @@ impl Desk {
             }
             Request::Goal(goal) => {
                 let run = self.running()?;
-                run.go_to(place(&goal)?, &watch)?;
+                run.go_to(place(&goal)?.into(), &watch)?;
                 Ok(told(run, 0..0))
             }
             Request::Furniture { name, at } => {

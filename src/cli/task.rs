@@ -1,0 +1,274 @@
+//! `groebot task`: a robot gets through a furnished room, and all of it is checked.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::floor::{self, goal_at, moved, read_room, refurnished, start_at};
+use super::json::FORMAT;
+use super::navigate::MethodName;
+use super::progress::{Limits, Session};
+use super::view::soles;
+use super::walker::{self, Named, SoleArguments};
+use super::{Halt, Outcome, console};
+use crate::document::{one_among, shown};
+use crate::files::write_atomically;
+use crate::gait::{Biped, Footprint, Summary};
+use crate::nav::Room;
+use crate::robots::Outline;
+use crate::sim::{Change, Checks, Destination, Performed, Run, Start, What, perform};
+use crate::task::{Blocked, Body, Floor, Plan};
+use crate::view::{Page, WalkRecord};
+use crate::{Error, ErrorKind, Result, Watch};
+
+const EXAMPLES: &str = "Examples:
+  groebot task rh0 --room living-room --goal sofa -o task.json --view task.html
+  groebot task rh0 --room living-room --goal sofa --furniture piano=1.2,0.4 -o task.json --view task.html
+  groebot task rh0 --room encirclement --goal 7,3 --then 'chair=2.2,5,30@12' -o task.json
+  groebot task nao --room room.toml --start 0.5,0.5 --goal chair --then goal=lamp@10 --json
+
+RH0 5.5: a way through the room, footsteps, joint angles, step by step; what --then tells changes on the way, and the way is found anew from where the robot is. Then every sample is checked again: the distance of each link from each piece of
+furniture, the walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point, limits and speeds of the joints. The exit status is 1 where a check fails, 4 where there is no way.
+Metres, and degrees for headings and yaws. A goal that names furniture is before it, there where the robot is first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";
+
+/// Lets a humanoid do the full task: through a furnished room to a goal, every sample checked
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The robot: nao, rh0, teo, or a description in URDF or TOML
+    #[arg(value_name = "ROBOT-or-FILE")]
+    robot: String,
+    #[command(flatten)]
+    soles: SoleArguments,
+    /// The room: living-room, encirclement, or TOML
+    #[arg(long, value_name = "ROOM-or-FILE")]
+    room: PathBuf,
+    /// Where it is to get: a piece of furniture, or a place and how to look there [m, degrees]
+    #[arg(long, value_name = "NAME or X,Y[,HEADING]", allow_hyphen_values = true)]
+    goal: String,
+    /// Where the middle of the feet is at first, and where the robot looks; the room's own start without it
+    #[arg(
+        long,
+        value_name = "X,Y[,HEADING]",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true
+    )]
+    start: Option<Vec<f64>>,
+    /// Put a piece of furniture elsewhere before the robot sets out [m, degrees], or take it away
+    #[arg(long, value_name = "NAME=X,Y[,YAW] or NAME=none")]
+    furniture: Vec<String>,
+    /// What changes behind so many steps: furniture, or the goal
+    #[arg(long, value_name = "NAME=X,Y[,YAW]@STEPS or NAME=none@STEPS or goal=GOAL@STEPS")]
+    then: Vec<String>,
+    /// How ways are found
+    #[arg(long, value_name = "METHOD", default_value = "exact")]
+    method: MethodName,
+    /// How far the body keeps away from obstacles [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
+    apart: f64,
+    /// Where walk, ways and checks go, JSON, which `groebot view` reads
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Where a page goes that shows it, HTML
+    #[arg(long, value_name = "FILE")]
+    view: Option<PathBuf>,
+    /// Where the picture of room, last way and footsteps goes, SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Ways and checks as JSON instead of the summary
+    #[arg(long)]
+    json: bool,
+    /// No progress and no summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Does the task and writes what is asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
+    let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
+    let room = refurnished(read_room(&arguments.room)?, &arguments.furniture)?;
+    let changes = arguments.changes(&room)?;
+    let run = arguments.start(&named, room, &session.watch)?;
+    let start = run.pilot().clone();
+    let done = perform(run, &changes, &session.watch)?;
+    let performed = match done {
+        Ok(performed) => performed,
+        Err(blocked) => {
+            drop(session);
+            return arguments.refuse(&blocked);
+        }
+    };
+    let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
+    drop(session);
+    let told = told(&performed, &checks);
+    arguments.write(&named, &performed, &told)?;
+    if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
+        let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
+        let floor = Floor::new(&last.room.map()?, arguments.apart)?;
+        write_atomically(file, plan.to_svg(&start, &floor).as_bytes())?;
+    }
+    if arguments.json {
+        console::print(&super::json::text(&told))?;
+    } else if !arguments.quiet {
+        console::print(&Summary::of(&named.walker.biped, &performed.walk).to_string())?;
+        console::print(&summary(&performed, &checks))?;
+    }
+    if checks.hold() { Ok(()) } else { Err(failed(&checks).into()) }
+}
+
+impl Arguments {
+    /// Ready at its start.
+    fn start(&self, named: &Named, room: Room, watch: &Watch) -> Result<Run> {
+        let middle = match (&self.start, room.start) {
+            (Some(numbers), _) => start_at(numbers)?,
+            (None, Some([x, y, yaw])) => Footprint { x, y, yaw },
+            (None, None) => {
+                let text = "the room tells no start; give --start X,Y[,HEADING]";
+                return Err(Error::new(ErrorKind::MissingKey, text));
+            }
+        };
+        let start = Start {
+            walker: named.walker.clone(),
+            body: Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
+            goal: destination(&self.goal, &room)?,
+            room,
+            apart: self.apart,
+            middle,
+            method: self.method.method(),
+        };
+        Run::new(start, watch)
+    }
+
+    fn changes(&self, room: &Room) -> Result<Vec<Change>> {
+        let change = |told: &String| {
+            let wrong = || bad(format!("--then {told}: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS"));
+            let (what, after) = told.rsplit_once('@').ok_or_else(wrong)?;
+            let after = after.parse().map_err(|_| wrong())?;
+            let what = match what.strip_prefix("goal=") {
+                Some(goal) => What::Goal(destination(goal, room)?),
+                None => {
+                    let (name, place) = moved(what)?;
+                    What::Furniture(room.piece(name)?.name.clone(), place)
+                }
+            };
+            Ok(Change { after, what })
+        };
+        let mut changes: Vec<Change> = self.then.iter().map(change).collect::<Result<_>>()?;
+        changes.sort_by_key(|change| change.after);
+        Ok(changes)
+    }
+
+    /// Tells that there is no way.
+    fn refuse(&self, blocked: &Blocked) -> Outcome {
+        let enclosure = floor::enclosure(&blocked.map, &blocked.enclosure);
+        if self.json {
+            let told = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure });
+            console::print(&super::json::text(&told))?;
+        }
+        eprintln!("error: {blocked}");
+        Err(Halt::NoWay)
+    }
+
+    fn write(&self, named: &Named, performed: &Performed, told: &Value) -> Result<()> {
+        let biped = &named.walker.biped;
+        let trajectory = performed.walk.trajectory(biped);
+        let mut value = performed.walk.json_value(biped, &trajectory);
+        let page = self.view.as_ref().map(|file| Ok((file, page(named, performed, &value.to_string())?)));
+        if let Some(file) = &self.out {
+            value["task"] = told.clone();
+            write_atomically(file, (value.to_string() + "\n").as_bytes())?;
+        }
+        let Some((file, page)) = page.transpose()? else { return Ok(()) };
+        write_atomically(file, page.to_html().as_bytes())
+    }
+}
+
+/// The page of a task, by the text of its walk.
+fn page(named: &Named, performed: &Performed, walk: &str) -> Result<Page> {
+    let biped: &Biped = &named.walker.biped;
+    let record = WalkRecord::from_json(walk)?;
+    let page = Page::of_robot(&named.robot, None)?.titled(&format!("{}: the full task", biped.name));
+    let page = page.with_motion(&performed.walk.trajectory(biped), record.as_ref(), &soles(named.robot.name())?)?;
+    Ok(page.with_task(performed.record()))
+}
+
+/// A place by its numbers, or before the furniture of that name.
+fn destination(told: &str, room: &Room) -> Result<Destination> {
+    let numbers: Option<Vec<f64>> = told.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers {
+        Some(numbers) => goal_at(&numbers).map(Destination::Place),
+        None if room.piece(told).is_ok() => Ok(Destination::Before(told.to_owned())),
+        None => {
+            let names: Vec<&str> = room.pieces.iter().map(|piece| piece.name.as_str()).collect();
+            let text =
+                format!("there is no furniture `{}` to get to{}; or give X,Y", shown(told), one_among(told, &names));
+            Err(Error::new(ErrorKind::UnknownName, text))
+        }
+    }
+}
+
+/// Room, ways and checks.
+fn told(performed: &Performed, checks: &Checks) -> Value {
+    let time = |sample: usize| performed.walk.time(sample);
+    let clearance = |own: &crate::sim::Clearance| json!({ "link": own.link, "thing": own.thing, "distance": own.distance, "time": time(own.sample) });
+    let mut told = serde_json::to_value(performed.record()).expect("a record holds nothing that JSON cannot say");
+    told["checks"] = json!({
+        "hold": checks.hold(),
+        "clearances": checks.clearances.iter().map(clearance).collect::<Vec<_>>(),
+        "soles_off": checks.soles_off,
+        "soles_under": checks.soles_under,
+        "margin": checks.margin,
+        "fastest": { "joint": checks.fastest.0, "rpm": rpm(checks.fastest.1) },
+        "findings": checks.findings.len(),
+        "samples_per_step": [checks.samples_per_step.0, checks.samples_per_step.1],
+    });
+    told
+}
+
+/// Radians a second as turns a minute.
+fn rpm(rate: f64) -> f64 {
+    rate * 60.0 / std::f64::consts::TAU
+}
+
+fn summary(performed: &Performed, checks: &Checks) -> String {
+    let stage = |own: &crate::sim::Stage| {
+        let length = own.course.way.length();
+        format!("  way             {length:.3} m behind step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
+    };
+    let ways: String = performed.stages.iter().map(stage).collect();
+    let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == "floor") == is_floor);
+    let near = |own: &crate::sim::Clearance| {
+        let (distance, time) = (100.0 * own.distance, performed.walk.time(own.sample));
+        format!("  nearest         {} to {}, {distance:.1} cm at {time:.2} s\n", own.link, own.thing)
+    };
+    let nearest: String = [false, true].into_iter().filter_map(beside).map(near).collect();
+    let (least, most) = checks.samples_per_step;
+    let samples = if least == most { least.to_string() } else { format!("{least} to {most}") };
+    format!(
+        "{ways}{nearest}  soles           off the floor by {:.1e} m where they stand\n  fastest         {} turns at {:.1} rpm\n  samples         {samples} a step\n",
+        checks.soles_off,
+        checks.fastest.0,
+        rpm(checks.fastest.1),
+    )
+}
+
+/// What fails of the checks.
+fn failed(checks: &Checks) -> Error {
+    let meets = checks.clearances.first().filter(|own| own.distance <= 0.0);
+    let text = match (meets, checks.findings.first()) {
+        (Some(own), _) => format!("a check failed: {} meets {} at sample {}", own.link, own.thing, own.sample),
+        (None, Some(finding)) => format!("a check failed at sample {}: {:?}", finding.sample, finding.fault),
+        (None, None) => format!(
+            "a check failed: soles are off the floor by {:e} m, the least margin is {} m",
+            checks.soles_off.max(checks.soles_under),
+            checks.margin
+        ),
+    };
+    bad(text)
+}
+
+fn bad(text: String) -> Error {
+    Error::new(ErrorKind::BadValue, text)
+}

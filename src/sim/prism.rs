@@ -1,0 +1,68 @@
+//! What stands on a floor as convex prisms. Main type: [`Prism`].
+
+use nalgebra::Point2;
+
+use super::scene::corners;
+use crate::nav::{Room, Shape};
+
+/// How high the walls of a room are \[m\].
+pub const WALL_HEIGHT: f64 = 2.5;
+
+/// All over a convex polygon of the floor, up to a height \[m\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prism {
+    /// Its corners, anticlockwise.
+    pub corners: Vec<Point2<f64>>,
+    /// Its height.
+    pub height: f64,
+}
+
+/// What stands in a room by its names, furniture first, then its walls: each as prisms that cover it.
+pub fn prisms(room: &Room) -> Vec<(String, Vec<Prism>)> {
+    let furniture = room.pieces.iter().map(|piece| (piece.name.clone(), piece.shape(), piece.height));
+    let walls = room.walls().into_iter().map(|shape| ("wall".to_owned(), shape, WALL_HEIGHT));
+    let covered = |(name, shape, height): (String, Shape, f64)| {
+        let mut open = corners(&shape);
+        if area(&open) < 0.0 {
+            open.reverse();
+        }
+        let parts = triangles(open).into_iter().map(|corners| Prism { corners, height });
+        (name, parts.collect())
+    };
+    furniture.chain(walls).map(covered).collect()
+}
+
+/// Cuts ears off a simple polygon, anticlockwise, until what is left is convex (G. Meisters, American Mathematical Monthly 82, 1975).
+fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
+    let mut parts = Vec::new();
+    loop {
+        let count = open.len();
+        let around = |at: usize| [(at + count - 1) % count, at, (at + 1) % count];
+        let turn = |at: usize| area(&around(at).map(|corner| open[corner]));
+        if (0..count).all(|at| turn(at) >= 0.0) {
+            parts.push(open);
+            return parts;
+        }
+        let is_ear = |at: &usize| {
+            let own = around(*at);
+            let triangle = own.map(|corner| open[corner]);
+            let is_inside = |point: &Point2<f64>| {
+                (0..3).all(|side| area(&[triangle[side], triangle[(side + 1) % 3], *point]) >= 0.0)
+            };
+            turn(*at) > 0.0 && (0..count).all(|other| own.contains(&other) || !is_inside(&open[other]))
+        };
+        // A polygon whose sides do not cross has an ear; of another one its hull is what covers it.
+        let Some(ear) = (0..count).find(is_ear) else {
+            parts.push(crate::gait::Polygon::hull(&open).corners().to_vec());
+            return parts;
+        };
+        parts.push(around(ear).map(|corner| open[corner]).to_vec());
+        open.remove(ear);
+    }
+}
+
+/// Twice the area of a polygon: positive where its corners go round anticlockwise.
+fn area(corners: &[Point2<f64>]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()
+}
