@@ -47,13 +47,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME or X,Y[,HEADING]", allow_hyphen_values = true)]
     goal: String,
     /// Where the middle of the feet is at first, and where the robot looks; the room's own start without it
-    #[arg(
-        long,
-        value_name = "X,Y[,HEADING]",
-        value_delimiter = ',',
-        num_args = 1,
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
     /// Put a piece of furniture elsewhere before the robot sets out [m, degrees], or take it away
     #[arg(long, value_name = "NAME=X,Y[,YAW] or NAME=none")]

@@ -113,7 +113,10 @@ impl Arguments {
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
             let proved = Proved::of_chain(&chain, &session.watch)?;
-            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json())
+            let files = proved.stage_files()?;
+            let certificate = files.iter().find(|(name, _)| name == CERTIFICATE);
+            let certificate = certificate.and_then(|(_, bytes)| std::str::from_utf8(bytes).ok());
+            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json(), certificate)
         })
     }
 

@@ -146,7 +146,8 @@ fn things(room: &Room) -> Vec<Thing> {
         let bounds = shape.compute_aabb(&ParryPose::IDENTITY);
         (shape, bounds)
     };
-    let standing = prisms(room).into_iter().map(|(name, parts)| Thing { name, parts: parts.iter().map(part).collect() });
+    let standing =
+        prisms(room).into_iter().map(|(name, parts)| Thing { name, parts: parts.iter().map(part).collect() });
     let half_space = SharedShape::new(HalfSpace::new(Vector::new(0.0, 0.0, 1.0)));
     let far = Vector::new(f64::MAX, f64::MAX, f64::MAX);
     let below = Aabb::new(-far, Vector::new(f64::MAX, f64::MAX, 0.0));

@@ -71,10 +71,8 @@ fn free(map: &Map, goal: &Goal) -> Option<usize> {
 
 /// Places so far away from a shape \[m\], each looking at it.
 fn places(shape: &Shape, away: f64) -> Vec<Goal> {
-    let before = |at: Point2<f64>, out: Vector2<f64>| Goal {
-        place: at + out * away,
-        heading: Some((-out.y).atan2(-out.x)),
-    };
+    let before =
+        |at: Point2<f64>, out: Vector2<f64>| Goal { place: at + out * away, heading: Some((-out.y).atan2(-out.x)) };
     match shape {
         Shape::Circle { centre, radius } => {
             let place = |count: usize| {

@@ -96,7 +96,13 @@ impl Change {
 }
 
 /// Finds the way through a room, to another goal if one is told, and notes it; or why there is none.
-fn plan(run: &mut Run, stages: &mut Vec<Stage>, room: Room, goal: Option<Destination>, watch: &Watch) -> Result<Option<Blocked>> {
+fn plan(
+    run: &mut Run,
+    stages: &mut Vec<Stage>,
+    room: Room,
+    goal: Option<Destination>,
+    watch: &Watch,
+) -> Result<Option<Blocked>> {
     let begun = Instant::now();
     match goal {
         Some(goal) => run.go_to(goal, watch)?,

@@ -53,7 +53,8 @@ impl TaskRecord {
         };
         match task {
             Some(task) if !is_whole(&task) => {
-                let text = "`task` has no way, or a goal that is not x, y and perhaps a heading; `groebot task` writes both";
+                let text =
+                    "`task` has no way, or a goal that is not x, y and perhaps a heading; `groebot task` writes both";
                 Err(Error::new(ErrorKind::BadValue, text))
             }
             task => Ok(task),

@@ -45,19 +45,24 @@ impl Page {
 
     /// A page of a chain whose solutions are shown while its target is moved, by the text of its solver, a `5_program.json`, and of its certificate.
     pub fn of_chain(chain: &Chain, program: String, certificate: Option<&str>) -> Self {
-        let hash = certificate.map(|text| Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect());
         let mut page = Page::of(chain::described(chain));
-        page.data.limbs.push(chain::limb(chain, program, hash));
+        page.data.limbs.push(chain::limb(chain, program, certificate.map(hash)));
         page.data.wasm = Some(bytes::file(WASM));
         page
     }
 
-    /// The same robot with a limb whose solutions are shown while its target, the pose of the link `tip` in the link `base`, is moved: by the text of the solver of its chain,
+    /// The same robot with a limb whose solutions are shown while its target, the pose of the link `tip` in the link `base`, is moved: by the texts of the solver and of the certificate of its chain,
     /// whose joints are all that move between the two.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a link or a joint that the robot does not have.
-    pub fn with_limb(mut self, chain: &Chain, [base, tip]: [&str; 2], program: String) -> Result<Self> {
+    pub fn with_limb(
+        mut self,
+        chain: &Chain,
+        [base, tip]: [&str; 2],
+        program: String,
+        certificate: Option<&str>,
+    ) -> Result<Self> {
         let unknown = |kind: &str, name: &str| {
             let text = format!("the robot `{}` has no {kind} `{}`", shown(&self.data.robot.name), shown(name));
             Error::new(ErrorKind::UnknownName, text)
@@ -69,7 +74,7 @@ impl Page {
             |name: &str| robot.joints.iter().position(|joint| joint.name == name).ok_or_else(|| unknown("joint", name));
         let joints = chain.joints().iter().map(|own| joint(&own.name)).collect::<Result<_>>()?;
         let (base, tip_place) = (link(base)?, link(tip)?);
-        let limb = Limb { name: tip.to_owned(), base, tip: tip_place, joints, ..chain::limb(chain, program, None) };
+        let limb = Limb { name: tip.to_owned(), base, tip: tip_place, joints, ..chain::limb(chain, program, certificate.map(hash)) };
         self.data.limbs.push(limb);
         self.data.wasm = Some(bytes::file(WASM));
         Ok(self)
@@ -94,7 +99,18 @@ impl Page {
 
     fn of(robot: data::Robot) -> Self {
         let title = robot.name.clone();
-        Page { data: Data { format: FORMAT, title, robot, motion: None, limbs: Vec::new(), run: None, task: None, wasm: None } }
+        Page {
+            data: Data {
+                format: FORMAT,
+                title,
+                robot,
+                motion: None,
+                limbs: Vec::new(),
+                run: None,
+                task: None,
+                wasm: None,
+            },
+        }
     }
 
     /// The same page under another title.
@@ -135,4 +151,9 @@ impl Page {
         }
         html + rest
     }
+}
+
+/// The SHA-256 of a text.
+fn hash(text: &str) -> String {
+    Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -19,6 +19,7 @@ mod navigate;
 mod plan;
 mod refused;
 mod solve;
+mod task;
 mod track;
 mod view;
 mod walk;

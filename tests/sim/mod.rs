@@ -1,14 +1,18 @@
 //! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
 
+mod clearance;
+mod full_task;
+mod random_rooms;
+
 use std::f64::consts::TAU;
 
 use groebot::gait::{Footprint, Walk};
 use groebot::model::Meshes;
 use groebot::nav::Room;
 use groebot::robots::{self, Outline};
-use groebot::sim::{FIGURES, Next, PRESETS, Run, Start};
+use groebot::sim::{Destination, FIGURES, Next, PRESETS, Run, Start};
 use groebot::task::{Body, Goal, Method};
-use groebot::{ErrorKind, Watch};
+use groebot::{ErrorKind, Result, Watch};
 use nalgebra::Point2;
 
 const ROOM: &str = r#"
@@ -20,24 +24,24 @@ box = [0.3, 0.3]
 at = [3.6, 0.4]
 "#;
 
+/// How far bodies keep away from obstacles \[m\].
+const APART: f64 = 0.02;
+
 fn goal(x: f64, y: f64) -> Goal {
     Goal { place: Point2::new(x, y), heading: None }
 }
 
 fn run(robot: &str, from: (f64, f64), to: (f64, f64)) -> Run {
+    let middle = Footprint { x: from.0, y: from.1, yaw: 0.0 };
+    run_in(&Room::from_toml(ROOM).unwrap(), robot, middle, goal(to.0, to.1).into()).unwrap()
+}
+
+fn run_in(room: &Room, robot: &str, middle: Footprint, goal: Destination) -> Result<Run> {
     let walker = robots::walker(robot, Outline::Measured).unwrap().unwrap();
     let described = robots::robot(robot).unwrap();
     let body = Body::new(&described, &walker.biped, &Meshes::default()).unwrap();
-    let start = Start {
-        walker,
-        body,
-        room: Room::from_toml(ROOM).unwrap(),
-        apart: 0.02,
-        middle: Footprint { x: from.0, y: from.1, yaw: 0.0 },
-        goal: goal(to.0, to.1),
-        method: Method::Exact,
-    };
-    Run::new(start, &Watch::none()).unwrap()
+    let start = Start { walker, body, room: room.clone(), apart: APART, middle, goal, method: Method::Exact };
+    Run::new(start, &Watch::none())
 }
 
 fn arrive(run: &mut Run) -> usize {
@@ -96,7 +100,7 @@ fn the_next_step_obeys_goal_furniture_and_figures() {
     run.set("Hcm", own - 0.015, &watch).unwrap();
     assert!((before - height(&run) - 0.015).abs() < 1e-9);
     run.set("Hp", 0.05, &watch).unwrap();
-    run.go_to(goal(0.7, 2.0), &watch).unwrap();
+    run.go_to(goal(0.7, 2.0).into(), &watch).unwrap();
     assert!(arrive(&mut run) > 10);
     let end = middle(run.walk());
     assert!((end.point() - Point2::new(0.7, 2.0)).norm() < 2e-3, "{end:?}");
@@ -124,7 +128,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     }
     let on_it = run.room().clone().with_moved("box", middle(run.walk()).point(), 0.0).unwrap();
     assert!(run.refurnish(on_it, &watch).unwrap_err().message().contains("would stand on the robot"));
-    let error = run.go_to(goal(3.6, 0.4), &watch).unwrap_err();
+    let error = run.go_to(goal(3.6, 0.4).into(), &watch).unwrap_err();
     assert!(error.kind() == ErrorKind::BadValue && error.message().contains("the nearest free place is"), "{error}");
     assert!(run.room().pieces[0].place == Point2::new(3.6, 0.4) && arrive(&mut run) > 10);
 }

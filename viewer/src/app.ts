@@ -3,6 +3,7 @@
 import type { Data, Motion } from "./data";
 import { complete, forward, REST } from "./kinematics";
 import type { Frame, Vector } from "./pose";
+import { Task } from "./task";
 import { at, placeOf, poseAt, type Place } from "./time";
 
 /** The pose of the robot at a time. */
@@ -21,11 +22,16 @@ export class App {
   values: number[] = [];
   base: number[] = REST;
   frames: Frame[] = [];
+  /** The room of a task that was done. */
+  readonly task: Task | undefined;
+  /** Whether the room has become another one with the last change of time. */
+  hasNewRoom = false;
   /** Hear of every change. */
   readonly watchers: (() => void)[] = [];
   private readonly moved = new Map<number, number>();
 
   constructor(readonly data: Data) {
+    this.task = data.task && new Task(data.task);
     this.seek(data.motion?.times[0] ?? 0);
   }
 
@@ -38,6 +44,7 @@ export class App {
     const { motion, robot } = this.data;
     if (motion) {
       const place = placeOf(motion.times, time);
+      this.hasNewRoom = this.task?.seek(place.time) ?? false;
       this.place = place;
       this.base = motion.base ? poseAt(motion.base, place) : REST;
       this.values = complete(robot, new Map(motion.joints.map((joint, column) => [joint, at(motion.q[column]!, place)])));

@@ -135,13 +135,36 @@ export interface RunData {
   start: [number, number, number];
   goal: number[];
   apart: number;
-  scene: {
-    size: [number, number];
-    wall: number;
-    origin: [number, number, number];
-    /** Outlines are about the piece's own origin. */
-    pieces: { name: string; outline: [number, number][]; height: number; at: [number, number, number] }[];
-  };
+  scene: Scene;
+}
+
+/** A furnished room. */
+export interface Scene {
+  size: [number, number];
+  wall: number;
+  origin: [number, number, number];
+  pieces: Piece[];
+}
+
+/** Furniture; its outline is about its own origin. */
+export interface Piece {
+  name: string;
+  outline: [number, number][];
+  height: number;
+  at: [number, number, number];
+}
+
+/** The room of a task that was done, and the ways through it, each from its time on. */
+export interface TaskData {
+  scene: Scene;
+  stages: Stage[];
+}
+
+export interface Stage {
+  from: number;
+  goal: number[];
+  way: [number, number][];
+  pieces: Piece[];
 }
 
 export interface Data {
@@ -150,6 +173,7 @@ export interface Data {
   motion?: Motion;
   limbs: Limb[];
   run?: RunData;
+  task?: TaskData;
   /** The WebAssembly that solves and walks, packed. */
   wasm?: string;
 }
@@ -170,7 +194,8 @@ export async function read(text: string): Promise<Data> {
     const motion = data.motion && readMotion(await unpacked(data.motion), data.robot);
     const limbs: Limb[] = data.limbs ?? [];
     limbs.forEach((limb) => checkLimb(limb, data.robot));
-    return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, wasm: data.wasm };
+    if (data.task) checkTask(data.task);
+    return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, task: data.task, wasm: data.wasm };
   } catch (error) {
     throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
   }
@@ -190,6 +215,11 @@ function checkRobot(robot: Robot): void {
 function checkLimb({ name, base, tip, joints }: Limb, robot: Robot): void {
   const isThere = [base, tip].every((link) => robot.links[link]) && joints.every((joint) => robot.joints[joint]);
   if (!isThere) throw new Error(`limb ${name} has a link or a joint that is not there`);
+}
+
+function checkTask({ scene, stages }: TaskData): void {
+  const isWhole = Array.isArray(scene?.pieces) && stages?.length > 0 && stages.every(({ goal, way, pieces }) => goal.length > 1 && Array.isArray(way) && Array.isArray(pieces));
+  if (!isWhole) throw new Error("the task has no room or no way");
 }
 
 type Unpacked = number | Track;

@@ -108,8 +108,8 @@ export class Desk {
   }
 
   private get firstView(): View {
-    const { motion, run } = this.app.data;
-    return motion?.base && !run ? "follow" : "iso";
+    const { motion, run, task } = this.app.data;
+    return motion?.base && !run && !task ? "follow" : "iso";
   }
 
   /** The plots of the motion as it is now. */

@@ -7,7 +7,8 @@ import { Picture } from "./picture";
 import type { Vector } from "./pose";
 import type { Solution } from "./limbs";
 import { Engine } from "./engine";
-import { Run, type Spot } from "./run";
+import type { Furnished, Spot } from "./room";
+import { Run } from "./run";
 import type { Simulator } from "./simulator";
 import { Solutions } from "./solutions";
 import { NoPicture } from "./stage";
@@ -47,6 +48,8 @@ export interface Groebot {
   step(): "step" | "arrived";
   /** The corners of the way [m]; null where there is none. */
   way(): [number, number][] | null;
+  /** Where the goal and the furniture are now [m, rad]. */
+  room(): { goal: number[]; furniture: Record<string, Spot> };
   /** What has been walked, as src/motion/table.rs says. */
   csv(): string;
   /** How long the last replanning took [ms]. */
@@ -121,6 +124,7 @@ const running = (): { run: Run; simulator: Simulator } => {
   if (!run || !simulator) throw new Error("nobody walks through a room in this page");
   return { run, simulator };
 };
+const furnished = (): Furnished => shown().task ?? running().run;
 const solved = (): Solutions => {
   if (!started?.solutions) throw new Error("this page has no limb that is solved");
   return started.solutions;
@@ -151,7 +155,8 @@ window.groebot = {
   goal: (x, y, heading) => running().run.setGoal(heading === undefined ? [x, y] : [x, y, heading]),
   furniture: (name, at) => running().run.furnish(name, at),
   step: () => (running().simulator.step() ? "arrived" : "step"),
-  way: () => running().run.told.way,
+  way: () => furnished().told.way,
+  room: () => ({ goal: [...furnished().goal], furniture: Object.fromEntries(furnished().told.furniture.map(({ name, at }) => [name, [...at] as Spot])) }),
   csv: () => running().run.csv(),
   get replan_ms() {
     return running().run.replanMs;

@@ -3,17 +3,17 @@
 import { Vector3 } from "three";
 import type { App } from "./app";
 import { Body } from "./body";
-import type { Motion, RunData } from "./data";
+import type { Motion, Scene } from "./data";
 import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
 import type { Frame, Vector } from "./pose";
-import { RoomView } from "./room";
-import type { Run, Spot } from "./run";
+import { RoomView, type Spot } from "./room";
+import type { Run } from "./run";
 import { Stage } from "./stage";
 
 /** What is seen of a room as a whole. */
-function whole({ scene: { size: [length, width], origin: [x, y, yaw] } }: RunData): { middle: Vector; extent: [number, number] } {
+function whole({ size: [length, width], origin: [x, y, yaw] }: Scene): { middle: Vector; extent: [number, number] } {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const [ahead, aside] = [length / 2, width / 2];
   return { middle: [x + c * ahead - s * aside, y + s * ahead + c * aside, 0.3], extent: [Math.hypot(ahead, aside), 0.8] };
@@ -46,7 +46,9 @@ export class Picture {
     this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
     const middle = this.isSeen ? box.getCenter(new Vector3()) : new Vector3();
     const sides = this.isSeen ? box.getSize(new Vector3()) : new Vector3(1, 1, 1);
-    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z], app.data.run && whole(app.data.run));
+    const { scene } = app.data.run ?? app.data.task ?? {};
+    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z], scene && whole(scene));
+    if (app.task) this.room = new RoomView(app.task, this.stage, canvas);
     this.paint();
     this.stage.resize();
     this.show();
@@ -60,6 +62,7 @@ export class Picture {
   show(): void {
     this.body.show(this.app.frames);
     if (this.app.place) this.overlays?.show(this.app.place);
+    if (this.app.hasNewRoom) this.room?.show();
     this.stage.moveTo(this.root);
     this.eye.go(this.root);
     this.stage.draw();
@@ -78,7 +81,7 @@ export class Picture {
 
   /** The room of a run, whose goal and furniture are dragged. */
   withRoom(run: Run, dropped: (name: string, at: Spot) => void): RoomView {
-    this.room = new RoomView(run, this.stage, this.canvas, dropped, (isHeld) => this.eye.hold(isHeld));
+    this.room = new RoomView(run, this.stage, this.canvas, { dropped, holds: (isHeld) => this.eye.hold(isHeld) });
     this.room.paint();
     return this.room;
   }

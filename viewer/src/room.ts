@@ -6,8 +6,25 @@ import {
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import type { Run, Spot } from "./run";
+import type { Scene } from "./data";
 import { colour, type Stage } from "./stage";
+
+/** Place and yaw [m, rad]. */
+export type Spot = [number, number, number];
+
+/** A room with what is in it now. */
+export interface Furnished {
+  readonly scene: Scene;
+  /** x, y and perhaps where to look. */
+  readonly goal: number[];
+  readonly told: { furniture: { name: string; at: Spot }[]; way: [number, number][] | null; enclosure?: [number, number][] };
+}
+
+/** Hears where something was put, and of the beginning and end of a drag. */
+export interface Dragging {
+  dropped(name: string, at: Spot): void;
+  holds(isHeld: boolean): void;
+}
 
 /** How high walls are drawn: low, so that one sees over them [m]. */
 const WALL = 0.25;
@@ -27,16 +44,15 @@ export class RoomView {
   private readonly cells = new Group();
   private held: { name: string; group: Group; from: Vector3; off: Vector3 } | undefined;
 
-  /** `dropped` hears where something was put, `holds` of the beginning and end of a drag. */
+  /** Without `dragging` all stays where it is. */
   constructor(
-    private readonly run: Run,
+    private readonly room: Furnished,
     private readonly stage: Stage,
     private readonly canvas: HTMLCanvasElement,
-    private readonly dropped: (name: string, at: Spot) => void,
-    private readonly holds: (isHeld: boolean) => void,
+    private readonly dragging?: Dragging,
   ) {
     this.addWalls();
-    for (const piece of run.data.scene.pieces) this.addThing(piece.name, [this.piece(piece.outline, piece.height)]);
+    for (const piece of room.scene.pieces) this.addThing(piece.name, [this.piece(piece.outline, piece.height)]);
     const pole = new Mesh(new CylinderGeometry(0.012, 0.012, 0.5, 12).rotateX(Math.PI / 2).translate(0, 0, 0.25), this.mark);
     const foot = new Mesh(new CylinderGeometry(0.12, 0.12, 0.01, 32).rotateX(Math.PI / 2).translate(0, 0, 0.005), this.mark);
     const flag = new Mesh(new BoxGeometry(0.2, 0.012, 0.12).translate(0.1, 0, 0.44), this.mark);
@@ -45,15 +61,17 @@ export class RoomView {
     this.way.position.z = 0.004;
     this.group.add(this.way, this.cells);
     stage.scene.add(this.group);
-    canvas.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
-    canvas.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, () => this.up());
+    if (dragging) {
+      canvas.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
+      canvas.addEventListener("pointermove", (event) => this.move(event));
+      for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, () => this.up());
+    }
     this.show();
   }
 
-  /** Puts all where the run has it. */
+  /** Puts all where the room has it. */
   show(): void {
-    const { told, goal } = this.run;
+    const { told, goal } = this.room;
     const there = new Map(told.furniture.map(({ name, at }) => [name, at]));
     there.set(GOAL, [goal[0]!, goal[1]!, goal[2] ?? 0]);
     for (const [name, thing] of this.things) {
@@ -99,7 +117,7 @@ export class RoomView {
   }
 
   private addWalls(): void {
-    const { size: [length, width], wall, origin: [x, y, yaw] } = this.run.data.scene;
+    const { size: [length, width], wall, origin: [x, y, yaw] } = this.room.scene;
     const walls = new Group();
     this.put(walls, [x, y, yaw]);
     if (wall > 0) {
@@ -143,7 +161,7 @@ export class RoomView {
     const group = hit?.object.parent as Group | undefined;
     const at = this.onFloor(event, ray);
     if (!group || !at) return;
-    this.holds(true);
+    this.dragging?.holds(true);
     this.canvas.setPointerCapture(event.pointerId);
     this.held = { name: group.name, group, from: group.position.clone(), off: group.position.clone().sub(at) };
   }
@@ -159,7 +177,7 @@ export class RoomView {
     if (!this.held) return;
     const { name, group, from } = this.held;
     this.held = undefined;
-    this.holds(false);
-    if (group.position.distanceTo(from) > 1e-6) this.dropped(name, [group.position.x, group.position.y, group.rotation.z]);
+    this.dragging?.holds(false);
+    if (group.position.distanceTo(from) > 1e-6) this.dragging?.dropped(name, [group.position.x, group.position.y, group.rotation.z]);
   }
 }

@@ -1,7 +1,8 @@
 /** A robot that walks through a room while its goal, the furniture and the figures of its gait change. */
 
-import type { Contact, Motion, Robot, RunData } from "./data";
+import type { Contact, Motion, Robot, RunData, Scene } from "./data";
 import type { Engine } from "./engine";
+import type { Furnished, Spot } from "./room";
 
 /** A figure of the gait. */
 export interface Figure {
@@ -17,9 +18,6 @@ export interface Preset {
   name: string;
   values: number[];
 }
-
-/** Place and yaw [m, rad]. */
-export type Spot = [number, number, number];
 
 interface Sample {
   time: number;
@@ -52,7 +50,7 @@ interface Told extends Walked {
 
 const SIDES = ["left", "right"] as const;
 
-export class Run {
+export class Run implements Furnished {
   /** What the last answer told but for samples. */
   told!: Told;
   /** What has been walked. */
@@ -67,6 +65,10 @@ export class Run {
 
   constructor(private readonly engine: Engine, private readonly robot: Robot, readonly data: RunData) {
     this.begin();
+  }
+
+  get scene(): Scene {
+    return this.data.scene;
   }
 
   /** Stands at the start again, all as it was. */

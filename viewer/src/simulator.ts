@@ -3,8 +3,8 @@
 import type { App } from "./app";
 import { element, worded } from "./desk";
 import type { Picture } from "./picture";
-import { GOAL, type RoomView } from "./room";
-import type { Run, Spot } from "./run";
+import { GOAL, type RoomView, type Spot } from "./room";
+import type { Run } from "./run";
 
 /** x, y and heading: name, unit, step. */
 const PLACE: [string, string, number][] = [["x", "m", 0.1], ["y", "m", 0.1], ["Heading", "\u00b0", 5]];

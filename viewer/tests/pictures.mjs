@@ -6,7 +6,8 @@ const PICTURES = [
   ["simulator_walk", ["walk.json"], { viewport: { width: 900, height: 580 } }, 4.3],
   ["simulator_joints", ["nao"], { viewport: { width: 900, height: 580 } }],
   ["simulator_solutions", [path.join(root, "derivations/ur5")], { viewport: { width: 900, height: 580 } }],
-  ["simulator_room", ["rh0", "--room", path.join(root, "examples/living_room.toml"), "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
+  ["simulator_room", ["rh0", "--room", "living-room", "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
+  ["simulator_task", ["task.json"], { viewport: { width: 1000, height: 640 } }, 40],
   ["simulator_phone", ["walk.json"], { viewport: { width: 390, height: 760 }, colorScheme: "dark" }, 6.1],
 ];
 
@@ -23,6 +24,7 @@ const ACTS = {
 };
 
 groebot("walk", "nao", "--turn", "8", "-o", inFolder("walk.json"), "--quiet");
+groebot("task", "rh0", "--room", "living-room", "--goal", "sofa", "--furniture", "piano=2.6,2.6,20", "-o", inFolder("task.json"), "--quiet");
 process.chdir(inFolder("."));
 const browser = await browse();
 for (const [name, given, options, time] of PICTURES) {
