@@ -32,8 +32,7 @@ impl FloorArguments {
     /// # Errors
     /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
     pub fn map(&self, file: &Path) -> Result<Map> {
-        let is_room = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml")) || known(file).is_some();
-        let map = if is_room {
+        let map = if is_room(file) {
             self.room(file)?.map().map_err(|error| error.in_file(file))?
         } else if self.furniture.is_empty() {
             Map::read(file, self.resolution)?
@@ -43,9 +42,21 @@ impl FloorArguments {
         Ok(if self.unknown_free { map.with_unknown_free() } else { map })
     }
 
+    /// The start that a room tells; of another map none.
+    ///
+    /// # Errors
+    /// As [`read_room`].
+    pub fn start(&self, file: &Path) -> Result<Option<[f64; 3]>> {
+        if is_room(file) { Ok(read_room(file)?.start) } else { Ok(None) }
+    }
+
     fn room(&self, file: &Path) -> Result<Room> {
         refurnished(read_room(file)?, &self.furniture)
     }
+}
+
+fn is_room(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml")) || known(file).is_some()
 }
 
 /// A room that is known by name; a file of that name comes first.
@@ -101,16 +112,9 @@ pub fn moved(told: &str) -> Result<(&str, Option<(Point2<f64>, f64)>)> {
 /// Where a walk begins and ends.
 #[derive(clap::Args)]
 pub struct PlaceArguments {
-    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]
-    #[arg(
-        long,
-        value_name = "X,Y[,HEADING]",
-        value_delimiter = ',',
-        num_args = 1,
-        default_value = "0,0",
-        allow_hyphen_values = true
-    )]
-    start: Vec<f64>,
+    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]; the start that a room tells, or 0,0
+    #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    start: Option<Vec<f64>>,
     /// Where it is to get, and to look there
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     goal: Vec<f64>,
@@ -120,12 +124,13 @@ pub struct PlaceArguments {
 }
 
 impl PlaceArguments {
-    /// Where the middle of the feet is at first.
+    /// Where the middle of the feet is at first, else where a room tells.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
-    pub fn start(&self) -> Result<Footprint> {
-        start_at(&self.start)
+    pub fn start(&self, told: Option<[f64; 3]>) -> Result<Footprint> {
+        let [x, y, yaw] = told.unwrap_or_default();
+        self.start.as_deref().map_or(Ok(Footprint { x, y, yaw }), start_at)
     }
 
     /// Where it is to get.

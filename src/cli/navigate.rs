@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let map = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
-    let (start, goal) = (arguments.places.start()?, arguments.places.goal()?);
+    let (start, goal) = (arguments.places.start(arguments.floor.start(&arguments.map)?)?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
     let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;

@@ -16,7 +16,7 @@ use crate::files::write_atomically;
 use crate::gait::{Biped, Footprint, Summary};
 use crate::nav::Room;
 use crate::robots::Outline;
-use crate::sim::{Change, Checks, Destination, Performed, Run, Start, What, perform};
+use crate::sim::{Change, Checks, Destination, Performed, Run, Start, Thing, What, perform};
 use crate::task::{Blocked, Body, Floor, Plan};
 use crate::view::{Page, WalkRecord};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -67,7 +67,7 @@ pub struct Arguments {
     /// Where a page goes that shows it, HTML
     #[arg(long, value_name = "FILE")]
     view: Option<PathBuf>,
-    /// Where the picture of room, last way and footsteps goes, SVG
+    /// Where the picture of room, last way and footsteps goes, SVG; where there is a way
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Ways and checks as JSON instead of the summary
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let room = refurnished(read_room(&arguments.room)?, &arguments.furniture)?;
     let changes = arguments.changes(&room)?;
     let run = arguments.start(&named, room, &session.watch)?;
-    let start = run.pilot().clone();
+    let pilot = run.pilot().clone();
     let done = perform(run, &changes, &session.watch)?;
     let performed = match done {
         Ok(performed) => performed,
@@ -96,14 +96,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
     drop(session);
-    let told = told(&performed, &checks);
+    let mut told = told(&performed, &checks);
     arguments.write(&named, &performed, &told)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
         let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
         let floor = Floor::new(&last.room.map()?, arguments.apart)?;
-        write_atomically(file, plan.to_svg(&start, &floor).as_bytes())?;
+        write_atomically(file, plan.to_svg(&pilot, &floor).as_bytes())?;
     }
     if arguments.json {
+        (told["format"], told["holds"]) = (FORMAT.into(), checks.hold().into());
         console::print(&super::json::text(&told))?;
     } else if !arguments.quiet {
         console::print(&Summary::of(&named.walker.biped, &performed.walk).to_string())?;
@@ -206,7 +207,7 @@ fn destination(told: &str, room: &Room) -> Result<Destination> {
 /// Room, ways and checks.
 fn told(performed: &Performed, checks: &Checks) -> Value {
     let time = |sample: usize| performed.walk.time(sample);
-    let clearance = |own: &crate::sim::Clearance| json!({ "link": own.link, "thing": own.thing, "distance": own.distance, "time": time(own.sample) });
+    let clearance = |own: &crate::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
     let mut told = serde_json::to_value(performed.record()).expect("a record holds nothing that JSON cannot say");
     told["checks"] = json!({
         "hold": checks.hold(),
@@ -232,7 +233,7 @@ fn summary(performed: &Performed, checks: &Checks) -> String {
         format!("  way             {length:.3} m behind step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
     };
     let ways: String = performed.stages.iter().map(stage).collect();
-    let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == "floor") == is_floor);
+    let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == Thing::Floor) == is_floor);
     let near = |own: &crate::sim::Clearance| {
         let (distance, time) = (100.0 * own.distance, performed.walk.time(own.sample));
         format!("  nearest         {} to {}, {distance:.1} cm at {time:.2} s\n", own.link, own.thing)

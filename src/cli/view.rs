@@ -14,6 +14,7 @@ use crate::gait::{Footprint, Side};
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
 use crate::motion::table::TABLE_LIMIT;
+use crate::nav::Room;
 use crate::robots::{self, Outline};
 use crate::sim::TaskRecord;
 use crate::task::Goal;
@@ -74,7 +75,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn page(&self) -> Result<Page> {
         let file = &self.shown;
-        match self.motion()? {
+        let motion = self.motion()?;
+        if (motion.is_some() || file.is_dir()) && (self.room.is_some() || !self.tip.is_empty()) {
+            let text = "--room and --tip are for robots at rest; leave them out for a motion or a derivation";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+        }
+        match motion {
             Some((trajectory, record, task)) => {
                 let (robot, meshes) = self.walking(&trajectory).map_err(|error| error.in_file(file))?;
                 let soles = soles(robot.name())?;
@@ -122,10 +128,11 @@ impl Arguments {
 
     /// The robot of a page in a room.
     fn running(&self, page: Page, room: &Path) -> Result<Page> {
-        let Footprint { x, y, yaw } = self.places.start()?;
+        let text = room_text(room)?;
+        let told = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
+        let Footprint { x, y, yaw } = self.places.start(told)?;
         let Goal { place, heading } = self.places.goal()?;
         let goal: Vec<f64> = [place.x, place.y].into_iter().chain(heading).collect();
-        let text = room_text(room)?;
         let robot = self.shown.to_string_lossy();
         let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))

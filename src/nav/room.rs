@@ -18,7 +18,7 @@ pub struct Piece {
     pub place: Point2<f64>,
     /// How it is turned anticlockwise \[rad\].
     pub yaw: f64,
-    /// How high it is \[m\]: for pictures; what walks here passes neither over nor under furniture.
+    /// How high it is \[m\]: for pictures and for distances from it; what walks here passes neither over nor under furniture.
     pub height: f64,
 }
 

@@ -1,5 +1,7 @@
 //! How near the links of a robot come to what stands around it, by distances of the crate parry3d. Main type: [`Clearance`].
 
+use std::fmt;
+
 use nalgebra::Point3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
@@ -13,14 +15,35 @@ use crate::nav::Room;
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result, Watch};
 
+/// What a link may come near to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Thing {
+    /// Furniture of that name.
+    Furniture(String),
+    /// A wall of the room.
+    Wall,
+    /// The floor, which feet are not asked about.
+    Floor,
+}
+
+impl fmt::Display for Thing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Thing::Furniture(name) => f.write_str(name),
+            Thing::Wall => f.write_str("wall"),
+            Thing::Floor => f.write_str("floor"),
+        }
+    }
+}
+
 /// How near a link comes to a thing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
     /// The name of the link.
     pub link: String,
-    /// A piece of furniture, `wall`, or `floor`, which the feet are not asked about.
-    pub thing: String,
-    /// The least distance \[m\]; zero where they meet.
+    /// The thing.
+    pub thing: Thing,
+    /// The least distance \[m\], to 1e-7; zero where they meet.
     pub distance: f64,
     /// The sample at which it is met first.
     pub sample: usize,
@@ -36,9 +59,9 @@ struct Part {
     radius: f64,
 }
 
-/// A thing that stands, as convex parts in the world.
-struct Thing {
-    name: String,
+/// A thing as convex parts in the world.
+struct Solids {
+    thing: Thing,
     parts: Vec<(SharedShape, Aabb)>,
 }
 
@@ -96,7 +119,7 @@ impl Links {
             for part in &self.parts {
                 let world_from_shape = placed.world_from_link(part.link) * part.link_from_shape;
                 for (thing, known) in things.iter().zip(&mut least[part.link]) {
-                    if self.feet[part.link] && thing.name == FLOOR {
+                    if self.feet[part.link] && thing.thing == Thing::Floor {
                         continue;
                     }
                     let found = part.distance(&world_from_shape, thing, known.0);
@@ -111,7 +134,7 @@ impl Links {
             let known = things.iter().zip(least).filter(|(_, (distance, _))| distance.is_finite());
             all.extend(known.map(|(thing, (distance, sample))| Clearance {
                 link: link.clone(),
-                thing: thing.name.clone(),
+                thing: thing.thing.clone(),
                 distance,
                 sample,
             }));
@@ -123,7 +146,7 @@ impl Links {
 
 impl Part {
     /// The distance from a thing, if it is less than `known`.
-    fn distance(&self, world_from_shape: &Pose, thing: &Thing, known: f64) -> f64 {
+    fn distance(&self, world_from_shape: &Pose, thing: &Solids, known: f64) -> f64 {
         let middle = vector(&(world_from_shape * self.middle));
         let near = |bounds: &Aabb| bounds.distance_to_local_point(middle, true) - self.radius < known;
         let own = parry(world_from_shape);
@@ -137,21 +160,18 @@ impl Part {
     }
 }
 
-/// The name of the floor among things.
-const FLOOR: &str = "floor";
-
-fn things(room: &Room) -> Vec<Thing> {
+fn things(room: &Room) -> Vec<Solids> {
     let part = |prism: &Prism| {
         let shape = prism.shape();
         let bounds = shape.compute_aabb(&ParryPose::IDENTITY);
         (shape, bounds)
     };
     let standing =
-        prisms(room).into_iter().map(|(name, parts)| Thing { name, parts: parts.iter().map(part).collect() });
+        prisms(room).into_iter().map(|(thing, parts)| Solids { thing, parts: parts.iter().map(part).collect() });
     let half_space = SharedShape::new(HalfSpace::new(Vector::new(0.0, 0.0, 1.0)));
     let far = Vector::new(f64::MAX, f64::MAX, f64::MAX);
     let below = Aabb::new(-far, Vector::new(f64::MAX, f64::MAX, 0.0));
-    let floor = Thing { name: FLOOR.to_owned(), parts: vec![(half_space, below)] };
+    let floor = Solids { thing: Thing::Floor, parts: vec![(half_space, below)] };
     standing.chain([floor]).collect()
 }
 

@@ -28,6 +28,9 @@ pub const FIGURES: [Figure; 9] = [
     Figure { name: "Ca", what: "cadence", unit: "steps/s" },
 ];
 
+/// The lowest cadence \[steps/s\]: that of the experiments is 0.043.
+const SLOWEST: f64 = 0.01;
+
 /// Values of all figures in their units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
@@ -101,7 +104,7 @@ impl Figures {
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a name that is none of [`FIGURES`]; [`ErrorKind::Unsupported`] for a power where the laws have none; [`ErrorKind::BadValue`] for a value that
-    /// is not finite and positive (the rise and fall may be zero).
+    /// is not finite and positive (the rise and fall may be zero), or a cadence below 0.01.
     pub fn with(mut self, name: &str, value: f64) -> Result<Self> {
         let names = FIGURES.map(|figure| figure.name);
         let place = names.iter().position(|own| *own == name).ok_or_else(|| {
@@ -114,6 +117,10 @@ impl Figures {
         }
         if !(value.is_finite() && (value > 0.0 || name == "Kcm" && value == 0.0)) {
             let text = format!("{name} is {value} {}; give a positive number", FIGURES[place].unit);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        if name == "Ca" && value < SLOWEST {
+            let text = format!("Ca is {value} steps/s; give at least {SLOWEST}");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         self.values[place] = value;

@@ -14,7 +14,7 @@ use crate::model::{Meshes, Robot};
 use crate::motion::{Bounds, Finding, findings};
 use crate::nav::Room;
 use crate::task::{Blocked, Course};
-use crate::{Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// What becomes another one on the way.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub struct Stage {
     pub room: Room,
     /// The way.
     pub course: Course,
-    /// How long it took to make the map and to find the way \[ms\].
+    /// How long it took to find the way, with the map where the room is another one \[ms\].
     pub milliseconds: f64,
 }
 
@@ -61,53 +61,54 @@ pub struct Performed {
 /// Lets a run that stands at its start get to its goal, with changes in the order of their steps; where a change leaves no way, why. A robot that was upright rises in the end.
 ///
 /// # Errors
-/// As [`Run::step`], [`Run::refurnish`] and [`Run::go_to`].
+/// [`ErrorKind::BadValue`] for a change that comes behind the last step; as [`Run::step`] and [`Run::change`].
 pub fn perform(mut run: Run, changes: &[Change], watch: &Watch) -> Result<std::result::Result<Performed, Blocked>> {
     let mut stages = Vec::new();
-    let room = run.room().clone();
-    if let Some(blocked) = plan(&mut run, &mut stages, room, None, watch)? {
-        return Ok(Err(blocked));
-    }
     let mut left = changes.iter().peekable();
     loop {
         let steps = run.walk().schedule.route.steps.len();
+        let (mut room, mut goal, mut is_new) = (run.room().clone(), run.goal().clone(), stages.is_empty());
         while let Some(change) = left.next_if(|change| change.after <= steps) {
-            let (room, goal) = change.of(&run)?;
-            if let Some(blocked) = plan(&mut run, &mut stages, room, goal, watch)? {
-                return Ok(Err(blocked));
-            }
+            (room, goal) = change.made(room, goal)?;
+            is_new = true;
+        }
+        if is_new && let Some(blocked) = plan(&mut run, &mut stages, room, goal, watch)? {
+            return Ok(Err(blocked));
         }
         if run.step(watch)? == Next::Arrived {
-            return Ok(Ok(Performed { walk: run.finish(watch)?, stages }));
+            break;
         }
         watch.report("steps", run.walk().schedule.route.steps.len(), 0);
     }
+    if let Some(change) = left.next() {
+        let steps = run.walk().schedule.route.steps.len();
+        let text =
+            format!("it arrives behind step {steps}; what is to change behind step {} never comes", change.after);
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    Ok(Ok(Performed { walk: run.finish(watch)?, stages }))
 }
 
 impl Change {
-    fn of(&self, run: &Run) -> Result<(Room, Option<Destination>)> {
-        let room = run.room().clone();
+    fn made(&self, room: Room, goal: Destination) -> Result<(Room, Destination)> {
         match &self.what {
-            What::Goal(goal) => Ok((room, Some(goal.clone()))),
-            What::Furniture(name, Some((place, yaw))) => Ok((room.with_moved(name, *place, *yaw)?, None)),
-            What::Furniture(name, None) => Ok((room.without(name)?, None)),
+            What::Goal(goal) => Ok((room, goal.clone())),
+            What::Furniture(name, Some((place, yaw))) => Ok((room.with_moved(name, *place, *yaw)?, goal)),
+            What::Furniture(name, None) => Ok((room.without(name)?, goal)),
         }
     }
 }
 
-/// Finds the way through a room, to another goal if one is told, and notes it; or why there is none.
+/// Finds the way through a room to a goal, and notes it; or why there is none.
 fn plan(
     run: &mut Run,
     stages: &mut Vec<Stage>,
     room: Room,
-    goal: Option<Destination>,
+    goal: Destination,
     watch: &Watch,
 ) -> Result<Option<Blocked>> {
     let begun = Instant::now();
-    match goal {
-        Some(goal) => run.go_to(goal, watch)?,
-        None => run.refurnish(room, watch)?,
-    }
+    run.change(room, goal, watch)?;
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     let course = match run.course() {
         Ok(course) => course.clone(),

@@ -16,7 +16,7 @@ mod run;
 mod scene;
 
 #[cfg(feature = "clearance")]
-pub use clearance::{Clearance, Links};
+pub use clearance::{Clearance, Links, Thing};
 pub use destination::Destination;
 pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset};
 #[cfg(feature = "clearance")]

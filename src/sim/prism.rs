@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use super::clearance::Thing;
 use super::scene::corners;
 use crate::nav::{Room, Shape};
 
@@ -17,17 +18,17 @@ pub struct Prism {
     pub height: f64,
 }
 
-/// What stands in a room by its names, furniture first, then its walls: each as prisms that cover it.
-pub fn prisms(room: &Room) -> Vec<(String, Vec<Prism>)> {
-    let furniture = room.pieces.iter().map(|piece| (piece.name.clone(), piece.shape(), piece.height));
-    let walls = room.walls().into_iter().map(|shape| ("wall".to_owned(), shape, WALL_HEIGHT));
-    let covered = |(name, shape, height): (String, Shape, f64)| {
+/// What stands in a room, furniture first, then its walls: each as prisms that cover it.
+pub fn prisms(room: &Room) -> Vec<(Thing, Vec<Prism>)> {
+    let furniture = room.pieces.iter().map(|piece| (Thing::Furniture(piece.name.clone()), piece.shape(), piece.height));
+    let walls = room.walls().into_iter().map(|shape| (Thing::Wall, shape, WALL_HEIGHT));
+    let covered = |(thing, shape, height): (Thing, Shape, f64)| {
         let mut open = corners(&shape);
         if area(&open) < 0.0 {
             open.reverse();
         }
         let parts = triangles(open).into_iter().map(|corners| Prism { corners, height });
-        (name, parts.collect())
+        (thing, parts.collect())
     };
     furniture.chain(walls).map(covered).collect()
 }

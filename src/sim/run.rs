@@ -2,10 +2,15 @@
 
 use std::ops::Range;
 
+use nalgebra::Point2;
+
 use super::destination::Destination;
 use super::figures::Figures;
-use crate::gait::{Footprint, Usual, Walk, Walker};
+use crate::document::shown;
+use crate::gait::{Footprint, Side, Usual, Walk, Walker};
+use crate::model::Meshes;
 use crate::nav::Room;
+use crate::robots::{self, Outline};
 use crate::task::{Blocked, Body, Course, Floor, Journey, Method, Pilot};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -50,6 +55,21 @@ pub struct Run {
 }
 
 impl Start {
+    /// That of a robot of this crate, by its name, on shortest ways.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for another name; as [`Body::new`].
+    pub fn of_robot(name: &str, room: Room, middle: Footprint, goal: Destination, apart: f64) -> Result<Self> {
+        let unknown = || {
+            let text = format!("no robot `{}` walks here; give nao, rh0 or teo", shown(name));
+            Error::new(ErrorKind::UnknownName, text)
+        };
+        let (walker, robot) = (robots::walker(name, Outline::Measured), robots::robot(name));
+        let (walker, robot) = (walker.ok_or_else(unknown)??, robot.ok_or_else(unknown)?);
+        let body = Body::new(&robot, &walker.biped, &Meshes::default())?;
+        Ok(Start { walker, body, room, apart, middle, goal, method: Method::Exact })
+    }
+
     /// The way from a place.
     fn course(
         &self,
@@ -75,6 +95,7 @@ impl Run {
             Error::new(ErrorKind::Unsupported, text)
         })?;
         let pilot = Pilot::new(start.walker.clone(), usual.clone(), start.body.clone(), true, watch)?;
+        let pilot = pilot.at_most(usual.length, usual.most_turn);
         let figures = Figures::of(&start.walker.biped, &usual, pilot.reach().hip_height);
         let floor = Floor::new(&start.room.map()?, start.apart)?;
         let course = start.course(&pilot, &floor, &start.middle, watch)?;
@@ -123,7 +144,7 @@ impl Run {
     /// # Errors
     /// As [`Destination::goal`] and [`Course::find`]; then all stays as it was.
     pub fn go_to(&mut self, goal: Destination, watch: &Watch) -> Result<()> {
-        self.change(Start { goal, ..self.start.clone() }, self.floor.clone(), watch)
+        self.change(self.start.room.clone(), goal, watch)
     }
 
     /// Another room from now on: furniture that was moved.
@@ -131,16 +152,44 @@ impl Run {
     /// # Errors
     /// [`ErrorKind::BadValue`] where it would stand on the robot; as [`Room::map`], [`Destination::goal`] and [`Course::find`]; then all stays as it was.
     pub fn refurnish(&mut self, room: Room, watch: &Watch) -> Result<()> {
-        let floor = Floor::new(&room.map()?, self.start.apart)?;
-        let outline = self.pilot().outline_at(&self.journey.middle());
-        if let Some(at) = floor.beside_body(&outline) {
+        self.change(room, self.start.goal.clone(), watch)
+    }
+
+    /// Another room and another goal at once.
+    ///
+    /// # Errors
+    /// As [`Run::refurnish`] and [`Run::go_to`]; then all stays as it was.
+    pub fn change(&mut self, room: Room, goal: Destination, watch: &Watch) -> Result<()> {
+        let floor =
+            if room == self.start.room { self.floor.clone() } else { Floor::new(&room.map()?, self.start.apart)? };
+        if let Some(at) = self.meets(&floor)? {
             let text = format!("furniture would stand on the robot, at ({:.3}, {:.3})", at.x, at.y);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        self.change(Start { room, ..self.start.clone() }, floor, watch)
+        let start = Start { room, goal, ..self.start.clone() };
+        self.course = start.course(self.pilot(), &floor, &self.journey.middle(), watch)?;
+        (self.start, self.floor) = (start, floor);
+        self.journey.turn_to_new_course();
+        Ok(())
     }
 
-    /// Another value of a figure of the gait from the next step on; the samples that the robot takes for a new height.
+    /// Where the robot as it stands meets an obstacle.
+    fn meets(&self, floor: &Floor) -> Result<Option<Point2<f64>>> {
+        let (biped, feet) = (&self.pilot().walker().biped, self.journey.feet());
+        let on_sole = |side: Side| floor.under_sole(&biped.sole_at(side, &feet[side as usize]));
+        if let Some(at) = [Side::Left, Side::Right].into_iter().find_map(on_sole) {
+            return Ok(Some(at));
+        }
+        let Some(posture) = self.walk().motion.postures.last() else { return Ok(None) };
+        Ok(floor.beside_body(&self.pilot().body().outline(biped, posture)?))
+    }
+
+    /// Where it is to get.
+    pub fn goal(&self) -> &Destination {
+        &self.start.goal
+    }
+
+    /// Another value of a figure of the gait from the next step on; the samples that the robot takes for a new height, none where it stays.
     ///
     /// # Errors
     /// As [`Figures::with`]; what keeps the robot from walking so, as [`Pilot::new`] and [`Pilot::within`]; then all stays as it was.
@@ -163,13 +212,5 @@ impl Run {
     /// As [`Journey::finish`].
     pub fn finish(self, watch: &Watch) -> Result<Walk> {
         self.journey.finish(watch)
-    }
-
-    fn change(&mut self, start: Start, floor: Floor, watch: &Watch) -> Result<()> {
-        let middle = self.journey.middle();
-        self.course = start.course(self.pilot(), &floor, &middle, watch)?;
-        (self.start, self.floor) = (start, floor);
-        self.journey.turn_to_new_course();
-        Ok(())
     }
 }

@@ -21,6 +21,9 @@ const STEPS_AHEAD: f64 = 6.0;
 const MOST_SEARCHES: usize = 12;
 const STEPS_A_SEARCH: usize = 4;
 
+/// Trunks whose heights differ by less are at the same \[m\].
+const SAME_HEIGHT: f64 = 1e-9;
+
 /// What meets an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obstacle {
@@ -140,12 +143,12 @@ impl<'p> Journey<'p> {
     /// To be said when the course or the floor has become another one: what was searched counts no longer.
     pub fn turn_to_new_course(&mut self) {
         // A course begins where the robot is.
-        self.corner = 1;
+        (self.corner, self.searches) = (1, 0);
         self.searched.clear();
         self.forbidden.clear();
     }
 
-    /// To be said when the robot is to walk otherwise from the next step on: other lengths, another pace, or another height, which it takes at once.
+    /// To be said when the robot is to walk otherwise from the next step on: other lengths, another pace, or another height, which it takes at once: then the walk grows by that.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for the pilot of another robot, or one with samples another time apart; as [`crate::gait::plan`].
@@ -155,8 +158,12 @@ impl<'p> Journey<'p> {
             let text = format!("{} walks here; {} cannot go on for it", own.name, other.name);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let height = self.walk.motion.postures.last().map(|posture| posture.world_from_torso.translation.z);
-        self.walk.append(pilot.stand_from(self.feet(), height, Action::Lower, watch)?)?;
+        let height = |walk: &Walk| walk.motion.postures.last().map(|posture| posture.world_from_torso.translation.z);
+        let before = height(&self.walk);
+        let lowers = pilot.stand_from(self.feet(), before, Action::Lower, watch)?;
+        if before.zip(height(&lowers)).is_none_or(|(before, now)| (now - before).abs() > SAME_HEIGHT) {
+            self.walk.append(lowers)?;
+        }
         self.pilot = Cow::Owned(pilot);
         let last = self.walk.schedule.route.steps.last();
         self.lead = last.filter(|_| self.side.is_some()).map_or(self.middle(), |step| beside(&self.pilot, step));

@@ -76,6 +76,13 @@ impl Pilot {
         Ok(self)
     }
 
+    /// The same with steps that are no longer than `ahead` \[m\] and turn by no more than `turn` \[rad\], without a trial of the greatest ones.
+    #[must_use]
+    pub fn at_most(mut self, ahead: f64, turn: f64) -> Self {
+        self.reach.at_most(ahead, turn);
+        self
+    }
+
     /// The walker.
     pub fn walker(&self) -> &Walker {
         &self.walker

@@ -67,8 +67,13 @@ impl Reach {
         let trials = Trials { walker, usual, hip_height: self.hip_height, watch };
         trials.steps(ahead, 0.0, 0.0)?;
         trials.steps(0.0, 0.0, turn)?;
-        (self.ahead, self.back, self.turn) = (self.ahead.min(ahead), self.back.min(ahead), self.turn.min(turn));
+        self.at_most(ahead, turn);
         Ok(())
+    }
+
+    /// Bounds how far it steps ahead \[m\] and turns \[rad\].
+    pub(super) fn at_most(&mut self, ahead: f64, turn: f64) {
+        (self.ahead, self.back, self.turn) = (self.ahead.min(ahead), self.back.min(ahead), self.turn.min(turn));
     }
 }
 

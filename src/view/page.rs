@@ -74,7 +74,13 @@ impl Page {
             |name: &str| robot.joints.iter().position(|joint| joint.name == name).ok_or_else(|| unknown("joint", name));
         let joints = chain.joints().iter().map(|own| joint(&own.name)).collect::<Result<_>>()?;
         let (base, tip_place) = (link(base)?, link(tip)?);
-        let limb = Limb { name: tip.to_owned(), base, tip: tip_place, joints, ..chain::limb(chain, program, certificate.map(hash)) };
+        let limb = Limb {
+            name: tip.to_owned(),
+            base,
+            tip: tip_place,
+            joints,
+            ..chain::limb(chain, program, certificate.map(hash))
+        };
         self.data.limbs.push(limb);
         self.data.wasm = Some(bytes::file(WASM));
         Ok(self)
@@ -83,7 +89,7 @@ impl Page {
     /// The same robot, one of this crate that walks, in a room of this text: its goal, the furniture and the figures of its gait may be changed while it walks.
     ///
     /// # Errors
-    /// As [`Room::from_toml`]; [`ErrorKind::UnknownName`] for a robot that is none of this crate's.
+    /// As [`crate::nav::Room::from_toml`], [`crate::sim::Start::of_robot`] and [`crate::sim::Run::new`].
     pub fn with_run(mut self, asked: &Asked<'_>) -> Result<Self> {
         self.data.run = Some(run(asked)?);
         self.data.wasm = Some(bytes::file(WASM));

@@ -1,11 +1,13 @@
 //! A run of the simulator as a page asks for it. Main type: [`Asked`].
 
+use nalgebra::Point2;
+
 use super::data::Run;
-use crate::document::shown;
+use crate::gait::Footprint;
 use crate::nav::Room;
-use crate::robots::{self, Outline};
-use crate::sim::Scene;
-use crate::{Error, ErrorKind, Result};
+use crate::sim::{self, Scene, Start};
+use crate::task::Goal;
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// What runs where.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,12 +30,15 @@ pub struct Asked<'a> {
 /// As [`super::Page::with_run`].
 pub fn run(asked: &Asked<'_>) -> Result<Run> {
     let Asked { robot, room: text, start, goal, apart } = asked;
-    if robots::walker(robot, Outline::Measured).is_none() {
-        let text = format!("`{}` does not walk in the page; give nao, rh0 or teo", shown(robot));
-        return Err(Error::new(ErrorKind::UnknownName, text));
-    }
     let room = Room::from_toml(text)?;
-    room.map()?;
+    let [x, y, yaw] = *start;
+    let destination = match **goal {
+        [x, y] => Goal { place: Point2::new(x, y), heading: None },
+        [x, y, heading] => Goal { place: Point2::new(x, y), heading: Some(heading) },
+        _ => return Err(Error::new(ErrorKind::BadValue, "a goal has two or three numbers: x, y, heading")),
+    };
+    let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, destination.into(), *apart)?;
+    sim::Run::new(begun, &Watch::none())?;
     let scene = Scene::of(&room);
     let (robot, room) = ((*robot).to_owned(), (*text).to_owned());
     Ok(Run { robot, room, start: *start, goal: goal.to_vec(), apart: *apart, scene })

@@ -15,7 +15,8 @@ const ROOM: &str = "size = [3.0, 2.4]\nwall = 0.05\nstart = [0.6, 1.2]\n[[furnit
 #[test]
 fn a_task_is_done_checked_and_shown() {
     let folder = tempdir().unwrap();
-    let [room, json, page, svg] = ["room.toml", "task.json", "task.html", "plan.svg"].map(|name| folder.path().join(name));
+    let [room, json, page, svg] =
+        ["room.toml", "task.json", "task.html", "plan.svg"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
     let asked = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
     let files = ["-o", text(&json), "--view", text(&page), "--plot", text(&svg)];
@@ -95,9 +96,15 @@ fn bad_input_of_tasks_is_refused() {
     succeed(&["task", "rh0", "--room", text(&room), "--goal", "0.8,1.2", "-o", text(&walk), "--quiet"]);
     let whole: Value = serde_json::from_str(&fs::read_to_string(&walk).unwrap()).unwrap();
     for (change, words) in [
-        (Box::new(|value: &mut Value| value["task"]["stages"] = Value::Array(Vec::new())) as Box<dyn Fn(&mut Value)>, "`task` has no way"),
+        (
+            Box::new(|value: &mut Value| value["task"]["stages"] = Value::Array(Vec::new())) as Box<dyn Fn(&mut Value)>,
+            "`task` has no way",
+        ),
         (Box::new(|value| value["task"]["scene"] = Value::Null), "`task` is not what groebot writes"),
-        (Box::new(|value| value["task"]["stages"][0]["goal"] = serde_json::json!([1.0])), "`task` has no way, or a goal"),
+        (
+            Box::new(|value| value["task"]["stages"][0]["goal"] = serde_json::json!([1.0])),
+            "`task` has no way, or a goal",
+        ),
     ] {
         let mut value = whole.clone();
         change(&mut value);

@@ -37,7 +37,6 @@ fn moved(name: &str, x: f64, y: f64, after: usize) -> Change {
 /// All checks hold, and their figures are those that the thesis asks for.
 fn is_done(checks: &Checks) {
     assert!(checks.hold(), "{:?} {:?}", checks.clearances.first(), checks.findings);
-    // The arms' joints, too: 22 links and the floor.
     assert!(
         checks.clearances[0].distance > 0.0
             && checks.margin > 0.0
@@ -46,7 +45,7 @@ fn is_done(checks: &Checks) {
     assert!(checks.samples_per_step.0 == 81, "{:?}", checks.samples_per_step);
 }
 
-/// The place before the sofa is that of its long upper side which is reached first, and the robot looks at it.
+/// Before the sofa, looking at it.
 #[test]
 fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
     let room = known("living-room").with_moved("piano", Point2::new(2.6, 2.6), 0.4).unwrap();
@@ -54,9 +53,10 @@ fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
     is_done(&checks);
     let [left, right] = performed.walk.schedule.route.end();
     let at = left.middle(&right);
-    let sofa = room.piece("sofa").unwrap();
-    assert!((at.x - sofa.place.x).abs() < 1.0 && at.y - sofa.place.y > 0.45 && at.y - sofa.place.y < 1.0, "{at:?}");
-    assert!((at.yaw + std::f64::consts::FRAC_PI_2).abs() < 1e-6, "{at:?}");
+    // Half a metre ahead is the sofa, 2 m by 0.9 m about (4, 0.7).
+    let ahead = at.point() + at.ahead() * 0.5;
+    let inside = |at: Point2<f64>| (at.x - 4.0).abs() < 1.0 && (at.y - 0.7).abs() < 0.45;
+    assert!(inside(ahead) && !inside(at.point()), "{at:?}");
     assert!(performed.stages.len() == 1 && performed.stages[0].course.way.points.len() > 2);
 }
 
@@ -72,9 +72,9 @@ fn what_changes_on_the_way_is_obeyed() {
     let (performed, checks) = does(&room, goal(7.2, 3.4).into(), &changes).unwrap();
     is_done(&checks);
     let stages = &performed.stages;
-    assert_eq!(stages.iter().map(|stage| stage.steps).collect::<Vec<_>>(), [0, 6, 12, 12]);
+    assert_eq!(stages.iter().map(|stage| stage.steps).collect::<Vec<_>>(), [0, 6, 12]);
     assert!(stages[1].room.piece("chair").unwrap().place == Point2::new(3.1, 2.7));
-    assert!(stages[3].room.piece("planetary ball").is_err() && stages[2].room.piece("planetary ball").is_ok());
+    assert!(stages[2].room.piece("planetary ball").is_err() && stages[1].room.piece("planetary ball").is_ok());
     // Where the robot rests is where the next way begins.
     for stage in &stages[1..] {
         let rest = performed.walk.schedule.route.rests[stage.steps];
@@ -84,10 +84,10 @@ fn what_changes_on_the_way_is_obeyed() {
     let lamp = room.piece("lamp").unwrap().place;
     assert!((left.middle(&right).point() - lamp).norm() < 1.0);
     // What was taken away is asked about only while it stood; the chair where it was and where it is.
-    let ball = checks.clearances.iter().find(|own| own.thing == "planetary ball").unwrap();
-    assert!(ball.sample <= stages[3].first && checks.clearances.iter().any(|own| own.thing == "chair"));
+    let ball = checks.clearances.iter().find(|own| own.thing.to_string() == "planetary ball").unwrap();
+    assert!(ball.sample <= stages[2].first && checks.clearances.iter().any(|own| own.thing.to_string() == "chair"));
     let record = performed.record();
-    assert!(record.stages[3].pieces.len() + 1 == record.scene.pieces.len() && record.stages[1].from > 0.0);
+    assert!(record.stages[2].pieces.len() + 1 == record.scene.pieces.len() && record.stages[1].from > 0.0);
 }
 
 #[test]

@@ -2,12 +2,10 @@
 
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
-use groebot::model::Meshes;
 use groebot::nav::Room;
-use groebot::robots::{self, Outline};
 use groebot::sim::{FIGURES, Next, PRESETS, Run, Start};
 use groebot::solver::{Program, Solver};
-use groebot::task::{Body, Goal, Method};
+use groebot::task::Goal;
 use groebot::{Error, ErrorKind, Result, Watch};
 use nalgebra::Point2;
 use serde::Deserialize;
@@ -84,13 +82,8 @@ impl Desk {
                 Ok(json!({ "solutions": solutions }))
             }
             Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
-                let walker = robots::walker(&robot, Outline::Measured);
-                let described = robots::robot(&robot);
-                let unknown = || Error::new(ErrorKind::UnknownName, format!("no robot `{robot}` walks here"));
-                let (walker, described) = (walker.ok_or_else(unknown)??, described.ok_or_else(unknown)?);
-                let body = Body::new(&described, &walker.biped, &Meshes::default())?;
                 let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
-                let start = Start { walker, body, room, apart, middle, goal: place(&goal)?.into(), method: Method::Exact };
+                let start = Start::of_robot(&robot, room, middle, place(&goal)?.into(), apart)?;
                 let run = self.run.insert(Run::new(start, &watch)?);
                 let samples = run.walk().references.len();
                 Ok(told(run, 0..samples))
