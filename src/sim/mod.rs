@@ -2,6 +2,7 @@
 //!
 //! A [`Run`] goes step by step; between two steps its [`Figures`], its goal and the furniture may change, and the next step obeys. Metres, radians, seconds.
 
+pub mod export;
 mod figures;
 mod run;
 
