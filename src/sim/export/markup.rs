@@ -42,7 +42,7 @@ impl Markup {
     pub fn begin(dialect: Dialect) -> Self {
         let text = match dialect {
             Dialect::X3d => {
-                "<?xml version='1.0' encoding='UTF-8'?>\n<X3D profile='Immersive' version='4.0' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-4.0.xsd'>\n<Scene>\n"
+                "<?xml version='1.0' encoding='UTF-8'?>\n<X3D profile='Interchange' version='4.0' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-4.0.xsd'>\n<Scene>\n"
             }
             Dialect::Vrml => "#VRML V2.0 utf8\n",
         };

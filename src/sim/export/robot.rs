@@ -1,5 +1,7 @@
 //! A robot as a scene, at rest or as a trajectory moves it.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::bones;
@@ -11,7 +13,8 @@ use crate::spatial::Pose;
 use crate::spatial::exact::normalized;
 use crate::{Error, ErrorKind, Result};
 
-/// Readers compute in single precision: further from the origin than this \[m\] the place of the base is told by two nodes.
+/// Readers compute in single precision: where the base goes further from the origin than this \[m\], a node above it takes what singles tell of its place, and
+/// the base has the rest.
 const NEAR: f64 = 8.0;
 
 /// What is seen of a link.
@@ -59,17 +62,21 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The node that turns z up, and the robot's root below it.
+    /// The node that turns the robot's z axis to y, and the robot's root below it.
     fn add_base(&mut self, robot: &Robot, base: &[Pose]) {
-        let upright = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), -std::f64::consts::FRAC_PI_2);
-        self.nodes.push(Node::at("z up", None, Pose::from_parts(Translation3::identity(), upright)));
         let mut base = if base.is_empty() { vec![Pose::identity()] } else { base.to_vec() };
         if base.iter().any(|pose| pose.translation.vector.amax() > NEAR) {
-            let single = |pose: &Pose| pose.translation.vector.map(|x| f64::from(x as f32));
-            let rest = |pose: &Pose| Pose::from(Translation3::from(pose.translation.vector - single(pose)));
-            self.nodes.push(Node::moved("less than singles tell", Some(0), &base.iter().map(rest).collect::<Vec<_>>()));
-            base.iter_mut().for_each(|pose| pose.translation.vector = single(pose));
+            let mut far = Vec::with_capacity(base.len());
+            for pose in &mut base {
+                let single = pose.translation.vector.map(|x| f64::from(x as f32));
+                far.push(Pose::from(Translation3::new(single.x, single.z, -single.y)));
+                pose.translation.vector -= single;
+            }
+            self.nodes.push(Node::moved("far base", None, &far));
         }
+        let upright = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), -FRAC_PI_2);
+        let above = self.nodes.len().checked_sub(1);
+        self.nodes.push(Node::at("z up", above, Pose::from_parts(Translation3::identity(), upright)));
         self.nodes.push(Node::moved(robot.root(), Some(self.nodes.len() - 1), &base));
     }
 }

@@ -7,8 +7,8 @@ use nalgebra::{Point3, Vector3};
 use super::Body;
 use crate::model::Solid;
 
-/// Into how many pieces a circle is cut.
-const ROUND: u32 = 24;
+/// Into how many pieces a circle is cut; a multiple of four.
+const ROUND: u32 = 20;
 
 /// The triangles of a box about the origin: the bits of a corner's number, from the lowest, tell on which side of x, y and z it is.
 const BOX: [[u32; 3]; 12] = [

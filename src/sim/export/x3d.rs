@@ -132,12 +132,17 @@ fn shape(out: &mut Markup, part: &Part) {
         Body::Solid(Solid::Cylinder { .. }) => part.pose * Pose::from_parts(Translation3::identity(), upright),
         _ => part.pose,
     };
-    transform(out, "", &pose, [1.0; 3]);
+    let is_placed = pose != Pose::identity();
+    if is_placed {
+        transform(out, "", &pose, [1.0; 3]);
+    }
     out.node("", "Shape", &[], |out| {
         out.node("appearance", "Appearance", &[], |out| material(out, &part.material));
         geometry(out, &part.body);
     });
-    out.close();
+    if is_placed {
+        out.close();
+    }
 }
 
 fn material(out: &mut Markup, own: &Material) {
