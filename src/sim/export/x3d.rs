@@ -61,6 +61,9 @@ impl Scene {
         let away = (high - low).norm() / 2.0 / FRAC_PI_8.sin();
         let turn = UnitQuaternion::face_towards(&back, &Vector3::y());
         let (place, turn) = ((low + high) / 2.0 + back * away, axis_angle(&turn));
+        if !place.iter().all(|x| x.is_finite()) {
+            return;
+        }
         let told = [
             ("description", Field::Text("all")),
             ("position", Field::Numbers(place.as_slice())),
