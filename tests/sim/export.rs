@@ -279,6 +279,27 @@ fn a_mesh_that_is_missing_is_told() {
     assert!(scene.to_wrl().unwrap().contains("diffuseColor 1 0 0 transparency 0.5"));
 }
 
+#[test]
+fn meshes_are_put_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = "vertex 0 0 0\nvertex 1000 0 0\nvertex 0 500 0\n";
+    let stl = format!("solid s\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid s\n");
+    std::fs::write(folder.path().join("sole.stl"), stl).unwrap();
+    let text = r#"<robot name="r"><link name="a"><visual><origin xyz="0 0 2"/><geometry><mesh filename="sole.stl" scale="0.001 0.001 0.001"/></geometry>
+        </visual></link></robot>"#;
+    let meshes = Meshes::beside(&folder.path().join("robot.urdf"));
+    let scene = Scene::of_robot(&Robot::from_urdf(text).unwrap(), Some(&meshes), None).unwrap();
+    let glb = Glb::of(&scene);
+    let primitive = &glb.json["meshes"][0]["primitives"][0];
+    let points = glb.rows(&primitive["attributes"]["POSITION"]);
+    assert_eq!(points, [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 0.5, 2.0]]);
+    // Flat triangles have no normals.
+    assert!(primitive["attributes"].get("NORMAL").is_none());
+    let wrl = scene.to_wrl().unwrap();
+    assert!(wrl.contains("translation 0 0 2") && wrl.contains("coordIndex [ 0 1 2 -1 ]"), "{wrl}");
+    assert!(wrl.contains("coord Coordinate { point [ 0 0 0 1 0 0 0 0.5 0 ] }"), "{wrl}");
+}
+
 /// One sample, or the same one again and again, is a robot that stands.
 #[test]
 fn what_does_not_move_has_no_clock() {

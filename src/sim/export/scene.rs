@@ -153,11 +153,11 @@ impl Scene {
     /// [`ErrorKind::BadValue`].
     pub fn check(&self) -> Result<()> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
-        if let Some(at) = self.times.windows(2).position(|pair| !(pair[0] < pair[1])) {
-            return bad(format!("sample {}: its time is not behind the one before; let time go on", at + 2));
-        }
-        if self.times.iter().any(|time| !(time.is_finite() && *time >= 0.0)) {
+        if self.times.iter().any(|time| !(0.0..f64::INFINITY).contains(time)) {
             return bad("a time is not finite or before zero; begin at zero".to_owned());
+        }
+        if let Some(at) = self.times.windows(2).position(|pair| pair[0] >= pair[1]) {
+            return bad(format!("sample {}: its time is not behind the one before; let time go on", at + 2));
         }
         let mut open = Vec::new();
         for (place, node) in self.nodes.iter().enumerate() {

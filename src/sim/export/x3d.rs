@@ -15,6 +15,8 @@ use crate::spatial::Pose;
 
 /// From where it is looked, with y up.
 const FROM: [f64; 3] = [1.0, 0.5, 1.0];
+/// Where the light beside that of the viewer shines.
+const LIGHT: [f64; 3] = [-0.3, -1.0, -0.4];
 /// The colour of the sky.
 const SKY: [f64; 3] = [0.93, 0.94, 0.96];
 /// Faces that meet at a smaller angle are shown smooth \[rad\].
@@ -47,6 +49,12 @@ impl Scene {
         out.leaf("", "WorldInfo", "", &[("title", Field::Text(&shown(&self.title)))]);
         out.leaf("", "NavigationInfo", "", &[("type", Field::Words(&["EXAMINE", "ANY"]))]);
         out.leaf("", "Background", "", &[("skyColor", Field::Rows(&[SKY.to_vec()]))]);
+        out.leaf(
+            "",
+            "DirectionalLight",
+            "",
+            &[("direction", Field::Numbers(&LIGHT)), ("intensity", Field::Numbers(&[0.6]))],
+        );
         self.view(&mut out);
         self.tree(&mut out, &defined);
         self.motion(&mut out, &defined, &mut names);
