@@ -1,13 +1,10 @@
 //! `groebot export`: a motion as an animated scene, or a robot in another format.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{Outcome, console, moving};
-use crate::derive::{Description, InputFile};
 use crate::document::{TEXT_LIMIT, read_text};
 use crate::files::write_atomically;
-use crate::model::{Meshes, Robot};
-use crate::robots;
 use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
 
@@ -90,7 +87,7 @@ impl Arguments {
         if self.robot.is_some() || self.meshes {
             return Err(refused("--robot and --meshes are for motions and scenes; leave them out for urdf and mjcf"));
         }
-        let (robot, meshes) = described(&self.input)?;
+        let (robot, meshes) = moving::described(&self.input)?;
         Ok(if self.to == Format::Urdf { robot.to_urdf() } else { robot.to_mjcf(&meshes) })
     }
 
@@ -112,20 +109,5 @@ impl Arguments {
         let scene = scene.map_err(|error| error.in_file(file))?;
         scene.notes.iter().for_each(|note| eprintln!("warning: {note}"));
         Ok(scene)
-    }
-}
-
-/// A robot of this crate by its name, or the one that a file describes.
-pub(super) fn described(robot: &Path) -> Result<(Robot, Meshes)> {
-    if let Some(known) = robot.to_str().and_then(robots::robot) {
-        return Ok((known, Meshes::default()));
-    }
-    let input = InputFile::read(robot)?;
-    match input.description {
-        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
-        _ => {
-            let text = "this describes no robot with links; give one in URDF or TOML";
-            Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
-        }
     }
 }

@@ -1,8 +1,8 @@
-//! A motion in a file, and the robot that it moves.
+//! A robot by its name or its file, and a motion in a file with the robot that it moves.
 
 use std::path::Path;
 
-use super::export;
+use crate::derive::{Description, InputFile};
 use crate::document::{read_text, shown};
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
@@ -44,7 +44,7 @@ pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, 
     }
 }
 
-/// A robot of this crate by its name, or the one that a file describes.
+/// As [`described`], with the names of the robots for what is neither.
 pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
     if !name.exists() && name.to_str().and_then(robots::robot).is_none() {
         let text = format!(
@@ -53,5 +53,20 @@ pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
         );
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
-    export::described(name)
+    described(name)
+}
+
+/// A robot of this crate by its name, or the one that a file describes.
+pub fn described(robot: &Path) -> Result<(Robot, Meshes)> {
+    if let Some(known) = robot.to_str().and_then(robots::robot) {
+        return Ok((known, Meshes::default()));
+    }
+    let input = InputFile::read(robot)?;
+    match input.description {
+        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
+        _ => {
+            let text = "this describes no robot with links; give one in URDF or TOML";
+            Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
+        }
+    }
 }

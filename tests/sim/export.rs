@@ -251,7 +251,7 @@ fn what_cannot_be_shown_is_refused() {
     refused(&|own| own.nodes[2].parts[0].material.diffuse[0] = f64::NAN, "not finite");
     refused(&|own| own.nodes[3].parent = Some(7), "does not stand behind its parent");
     refused(&|own| own.nodes[3].parent = Some(3), "does not stand behind its parent");
-    refused(&|own| drop(own.nodes[1].turns.pop()), "node `palm`: it moves at another number of samples than 12");
+    refused(&|own| own.nodes[1].turns.truncate(11), "node `palm`: it moves at another number of samples than 12");
     refused(&|own| own.times[3] = own.times[2], "sample 4: its time is not behind the one before");
     refused(&|own| own.times[0] = -1.0, "begin at zero");
     // Singles are what glTF has, and it alone.
@@ -304,7 +304,9 @@ fn meshes_are_put_in() {
 #[test]
 fn what_does_not_move_has_no_clock() {
     let mut still = tumble(0.0);
-    (still.times.truncate(1), still.q.truncate(1), still.base.truncate(1));
+    still.times.truncate(1);
+    still.q.truncate(1);
+    still.base.truncate(1);
     let scene = Scene::of_robot(&finger(), None, Some(&still)).unwrap();
     let glb = Glb::of(&scene);
     assert!((glb.pose("tip", 0).translation.vector - tip(&still, 0).translation.vector).norm() < 1e-9);
@@ -331,7 +333,8 @@ mod vrml {
             opacity: 1.0,
         };
         assert_eq!((size, arm.parts[0].material), ([0.02, 0.25, 0.02], yellow));
-        let turn = UnitQuaternion::from_axis_angle(&-Vector3::x_axis(), 1.5708);
+        let angle = 15708.0 / 10000.0;
+        let turn = UnitQuaternion::from_axis_angle(&-Vector3::x_axis(), angle);
         assert!((outer.pose.rotation.angle_to(&turn)) < 1e-12 && outer.scale == [0.001; 3] && outer.parts.is_empty());
         assert!(scene.to_wrl().unwrap().contains("geometry Box { size 0.02 0.25 0.02 }"));
         // A whole file, its children in brackets, a remark and commas say the same.
@@ -386,6 +389,13 @@ mod vrml {
         }
         assert_eq!(Scene::from_vrml(" # nothing").unwrap_err().kind(), Syntax);
         assert_eq!(Scene::from_vrml(&long).unwrap_err().kind(), BadValue);
+    }
+
+    #[test]
+    fn many_nodes_of_one_name_are_written_at_once() {
+        let scene = Scene::from_vrml(&"Transform{}".repeat(90_000)).unwrap();
+        assert!(scene.to_wrl().unwrap().contains("DEF Transform_90000 Transform"));
+        assert_eq!(Glb::of(&scene).list("nodes").len(), 90_000);
     }
 
     /// Whatever is cut out of the figure, or put into it, is read or refused.

@@ -2,7 +2,6 @@
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
-use super::robot::Seen;
 use super::{Body, Material, Part};
 use crate::model::{Joint, Robot, Solid};
 use crate::spatial::Pose;
@@ -16,8 +15,16 @@ const THIN: f64 = 0.008;
 /// Bones that are shorter are left out; of the robot's size.
 const SHORT: f64 = 1e-3;
 
+/// What is seen of a link.
+#[derive(Clone, Default)]
+pub struct Seen {
+    pub parts: Vec<Part>,
+    /// Whether it has a shape that is not shown.
+    pub hidden: bool,
+}
+
 /// Adds the bones of the robot, and where it has no shapes the axes of its joints.
-pub(super) fn add(robot: &Robot, seen: &mut [Seen]) {
+pub fn add(robot: &Robot, seen: &mut [Seen]) {
     let is_bare = seen.iter().all(|link| link.parts.is_empty());
     let has_meshes = seen.iter().flat_map(|link| &link.parts).any(|part| matches!(part.body, Body::Surface(_)));
     let span = span(robot, seen);

@@ -5,6 +5,9 @@ use std::fmt::Write;
 /// Decimals of a number.
 const DECIMALS: f64 = 1e10;
 
+/// Deeper nodes are not moved in further.
+const DEEPEST: usize = 40;
+
 /// How a scene is written down.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Dialect {
@@ -123,7 +126,7 @@ impl Markup {
     }
 
     fn indent(&mut self) {
-        self.put(format_args!("{:1$}", "", 2 * self.depth));
+        self.put(format_args!("{:1$}", "", 2 * self.depth.min(DEEPEST)));
     }
 
     fn put(&mut self, text: std::fmt::Arguments<'_>) {

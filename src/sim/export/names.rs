@@ -1,15 +1,15 @@
 //! Names that X3D and VRML97 take. Main type: [`Names`].
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use crate::document::word;
 
 /// Words of VRML97 that cannot be names.
 const RESERVED: &str = " DEF USE PROTO EXTERNPROTO ROUTE TO IS NULL TRUE FALSE eventIn eventOut exposedField field ";
 
-/// Names that are given once each.
+/// Names that are given once each, with the last number that was put behind one.
 #[derive(Default)]
-pub struct Names(HashSet<String>);
+pub struct Names(HashMap<String, usize>);
 
 impl Names {
     /// The name of letters, digits and lines that is nearest to `name` and not yet given.
@@ -18,10 +18,13 @@ impl Names {
         if RESERVED.contains(&format!(" {legal} ")) {
             legal.push('_');
         }
-        let numbered = (2..).map(|number| format!("{legal}_{number}"));
-        let free = std::iter::once(legal.clone()).chain(numbered).find(|name| !self.0.contains(name));
-        let free = free.expect("numbers do not end");
-        self.0.insert(free.clone());
+        let (mut free, mut number) = (legal.clone(), self.0.get(&legal).copied().unwrap_or(1));
+        while self.0.contains_key(&free) {
+            number += 1;
+            free = format!("{legal}_{number}");
+        }
+        self.0.insert(legal, number);
+        self.0.entry(free.clone()).or_insert(1);
         free
     }
 }

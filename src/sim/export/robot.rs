@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::bones;
+use super::bones::{self, Seen};
 use super::{Body, Material, Node, Part, Scene};
 use crate::document::shown;
 use crate::model::{Joint, JointType, Link, Meshes, Robot, Shape, Solid};
@@ -16,14 +16,6 @@ use crate::{Error, ErrorKind, Result};
 /// Readers compute in single precision: where the base goes further from the origin than this \[m\], a node above it takes what singles tell of its place, and
 /// the base has the rest.
 const NEAR: f64 = 8.0;
-
-/// What is seen of a link.
-#[derive(Clone, Default)]
-pub(super) struct Seen {
-    pub parts: Vec<Part>,
-    /// Whether it has a shape that is not shown.
-    pub hidden: bool,
-}
 
 impl Scene {
     /// The robot, where `trajectory` moves it, else at rest; meshes only where their folders are given. A node a link, the last ones of the tree below
