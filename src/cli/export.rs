@@ -1,70 +1,113 @@
-//! `groebot export`: a robot in another format.
+//! `groebot export`: a motion as an animated scene, or a robot in another format.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::{Outcome, console};
-use crate::derive::{Description, InputFile};
+use super::{Outcome, console, moving};
+use crate::document::{TEXT_LIMIT, read_text};
 use crate::files::write_atomically;
-use crate::model::{Meshes, Robot};
-use crate::robots;
+use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "Examples:
-  groebot export nao_v5 --format mjcf -o nao.xml
-  groebot export robot.toml --format urdf -o robot.urdf
-  groebot export talos.urdf --format mjcf -o talos.xml
+  groebot export walk.csv --to glb -o walk.glb
+  groebot export walk.json --to x3d -o walk.x3d
+  groebot export walk.csv --robot talos.urdf --meshes --to glb -o walk.glb
+  groebot export nao --to wrl -o nao.wrl
+  groebot export arm.wrl --to glb -o arm.glb
+  groebot export nao_v5 --to mjcf -o nao.xml
+  groebot export robot.toml --to urdf -o robot.urdf
 
-Robots of groebot: nao_v5, rh0, teo. In MJCF the root moves freely over a floor, every joint has a position servo, and nothing but the floor is
-touched; meshes are named by their files.";
+Robots of groebot: nao_v5, rh0, teo. A walk, an arm's path or a recording becomes an animated scene: a node a link, y up, metres. VRML is read as RH0 Fig. 5-4 shows it, and no more of it.
+In MJCF the root moves freely over a floor, every joint has a position servo, and nothing but the floor is touched; meshes are named by their files.";
 
-/// A format of robots.
-#[derive(Clone, Copy, clap::ValueEnum)]
+/// A format of robots or scenes.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
-    /// As ROS reads it
+    /// Animated scene: binary glTF 2.0
+    Glb,
+    /// Animated scene: X3D 4.0 in XML
+    X3d,
+    /// Animated scene: VRML97
+    Wrl,
+    /// Robot, as ROS reads it
     Urdf,
-    /// As MuJoCo reads it
+    /// Robot, as MuJoCo reads it
     Mjcf,
 }
 
-/// Writes a robot, with masses, shapes, limits and actuators, in another format
+/// Writes a motion as an animated scene, or a robot, with masses, shapes, limits and actuators, in another format
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot of groebot, or a description in URDF or TOML
-    #[arg(value_name = "ROBOT-or-FILE")]
-    robot: PathBuf,
+    /// A motion in CSV or JSON, a robot of groebot, a description in URDF or TOML, or VRML
+    #[arg(value_name = "MOTION-or-ROBOT-or-FILE")]
+    input: PathBuf,
     /// The format
-    #[arg(long, value_enum)]
-    format: Format,
+    #[arg(long, visible_alias = "format", value_enum)]
+    to: Format,
+    /// The robot that moves, where the motion does not name one of groebot
+    #[arg(long, value_name = "ROBOT-or-FILE")]
+    robot: Option<PathBuf>,
+    /// Put the triangles of meshes into the scene: STL
+    #[arg(long)]
+    meshes: bool,
     /// Where it goes; standard output without it
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
-/// Writes the robot.
+/// Writes the robot or the scene.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (robot, meshes) = described(&arguments.robot)?;
-    let text = match arguments.format {
-        Format::Urdf => robot.to_urdf(),
-        Format::Mjcf => robot.to_mjcf(&meshes),
+    let bytes = match arguments.to {
+        Format::Urdf | Format::Mjcf => arguments.robot()?.into_bytes(),
+        Format::Glb if arguments.out.is_none() => {
+            return Err(refused("a glb is no text; give its file by -o").into());
+        }
+        Format::Glb => arguments.scene()?.to_glb()?,
+        Format::X3d => arguments.scene()?.to_x3d()?.into_bytes(),
+        Format::Wrl => arguments.scene()?.to_wrl()?.into_bytes(),
     };
     match &arguments.out {
-        Some(file) => Ok(write_atomically(file, text.as_bytes())?),
-        None => console::print(&text),
+        Some(file) => Ok(write_atomically(file, &bytes)?),
+        None => console::print(&String::from_utf8_lossy(&bytes)),
     }
 }
 
-/// A robot of this crate by its name, or the one that a file describes.
-pub(super) fn described(robot: &Path) -> Result<(Robot, Meshes)> {
-    if let Some(known) = robot.to_str().and_then(robots::robot) {
-        return Ok((known, Meshes::default()));
-    }
-    let input = InputFile::read(robot)?;
-    match input.description {
-        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
-        _ => {
-            let text = "this describes no robot with links; give one in URDF or TOML";
-            Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
+fn refused(text: &str) -> Error {
+    Error::new(ErrorKind::BadValue, text)
+}
+
+impl Arguments {
+    /// The robot in a format that tells no motion.
+    fn robot(&self) -> Result<String> {
+        if ["csv", "json", "wrl"].iter().any(|end| moving::ends(&self.input, end)) {
+            let text = "urdf and mjcf tell a robot, no motion and no scene; give --to glb, x3d or wrl, or a robot";
+            return Err(refused(text).in_file(&self.input));
         }
+        if self.robot.is_some() || self.meshes {
+            return Err(refused("--robot and --meshes are for motions and scenes; leave them out for urdf and mjcf"));
+        }
+        let (robot, meshes) = moving::described(&self.input)?;
+        Ok(if self.to == Format::Urdf { robot.to_urdf() } else { robot.to_mjcf(&meshes) })
+    }
+
+    fn scene(&self) -> Result<Scene> {
+        let file = &self.input;
+        let motion = moving::motion(file)?.map(|motion| motion.trajectory);
+        if motion.is_none() && self.robot.is_some() {
+            let text = "--robot says who moves, but this is no motion; give one in CSV or JSON, or leave it out";
+            return Err(refused(text).in_file(file));
+        }
+        if moving::ends(file, "wrl") {
+            return Scene::from_vrml(&read_text(file, TEXT_LIMIT)?).map_err(|error| error.in_file(file));
+        }
+        let (robot, meshes) = match &motion {
+            Some(motion) => moving::robot_of(motion, self.robot.as_deref()).map_err(|error| error.in_file(file))?,
+            None => moving::robot(file)?,
+        };
+        let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
+        let scene = scene.map_err(|error| error.in_file(file))?;
+        scene.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+        Ok(scene)
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::export::described;
+use super::moving::described;
 use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};

@@ -28,6 +28,7 @@ mod identify;
 mod ik;
 mod info;
 mod json;
+mod moving;
 mod navigate;
 mod page;
 mod part;

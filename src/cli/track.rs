@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::export::described;
+use super::moving::described;
 use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::control::{

@@ -4,21 +4,19 @@ use std::path::{Path, PathBuf};
 
 use super::files::CERTIFICATE;
 use super::floor::{PlaceArguments, room_text};
+use super::moving::{self, Motion};
 use super::progress::{Limits, Session};
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
-use super::{Outcome, console, export};
+use super::{Outcome, console};
 use crate::derive::{Ends, InputFile, Proved};
 use crate::document::{read_text, shown};
 use crate::files::write_atomically;
 use crate::gait::{Footprint, Side};
-use crate::model::{Meshes, Robot};
-use crate::motion::Trajectory;
-use crate::motion::table::TABLE_LIMIT;
+use crate::model::Robot;
 use crate::nav::Room;
 use crate::robots::{self, Outline};
-use crate::sim::TaskRecord;
 use crate::task::Goal;
-use crate::view::{Asked, Page, Sole, WalkRecord};
+use crate::view::{Asked, Page, Sole};
 use crate::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "Examples:
@@ -75,19 +73,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn page(&self) -> Result<Page> {
         let file = &self.shown;
-        let motion = self.motion()?;
+        let motion = moving::motion(file)?;
         if (motion.is_some() || file.is_dir()) && (self.room.is_some() || !self.tip.is_empty()) {
             let text = "--room and --tip are for robots at rest; leave them out for a motion or a derivation";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
         }
         match motion {
-            Some((trajectory, record, task)) => {
-                let (robot, meshes) = self.walking(&trajectory).map_err(|error| error.in_file(file))?;
+            Some(Motion { trajectory, walk, task }) => {
+                let (robot, meshes) =
+                    moving::robot_of(&trajectory, self.robot.as_deref()).map_err(|error| error.in_file(file))?;
                 let soles = soles(robot.name())?;
                 let title = file.file_name().unwrap_or_default().to_string_lossy();
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?.titled(&title);
-                let page =
-                    page.with_motion(&trajectory, record.as_ref(), &soles).map_err(|error| error.in_file(file))?;
+                let page = page.with_motion(&trajectory, walk.as_ref(), &soles).map_err(|error| error.in_file(file))?;
                 Ok(if let Some(task) = task { page.with_task(task) } else { page })
             }
             None if self.robot.is_some() => {
@@ -96,7 +94,7 @@ impl Arguments {
             }
             None if file.is_dir() => derivation(file),
             None => {
-                let (robot, meshes) = robot(file)?;
+                let (robot, meshes) = moving::robot(file)?;
                 let page = Page::of_robot(&robot, self.meshes.then_some(&meshes))?;
                 let page = self.solved(page, &robot).map_err(|error| error.in_file(file))?;
                 self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))
@@ -137,37 +135,6 @@ impl Arguments {
         let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))
     }
-
-    /// The motion of the file, if it is one by its name.
-    fn motion(&self) -> Result<Option<(Trajectory, Option<WalkRecord>, Option<TaskRecord>)>> {
-        let file = &self.shown;
-        let ends = |end: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end));
-        if ends("csv") {
-            return Ok(Some((Trajectory::read_csv(file)?, None, None)));
-        }
-        if !ends("json") {
-            return Ok(None);
-        }
-        let text = read_text(file, TABLE_LIMIT)?;
-        let records = || Ok((WalkRecord::from_json(&text)?, TaskRecord::from_json(&text)?));
-        let read = Trajectory::from_json(&text).and_then(|own| records().map(|(walk, task)| (own, walk, task)));
-        read.map(Some).map_err(|error| error.in_file(file))
-    }
-
-    /// The robot that `--robot` or else the trajectory names.
-    fn walking(&self, trajectory: &Trajectory) -> Result<(Robot, Meshes)> {
-        let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
-        match &self.robot {
-            Some(name) => robot(name),
-            None => own().ok_or_else(|| {
-                let text = format!(
-                    "its robot `{}` is none of groebot's; give its description by --robot, or nao, rh0 or teo",
-                    shown(&trajectory.robot)
-                );
-                Error::new(ErrorKind::UnknownName, text)
-            }),
-        }
-    }
 }
 
 /// The chain that was derived in a folder, with its solver.
@@ -183,18 +150,6 @@ fn derivation(folder: &Path) -> Result<Page> {
     let certificate = folder.join(CERTIFICATE);
     let certificate = if certificate.is_file() { Some(read_text(&certificate, PROGRAM_LIMIT)?) } else { None };
     Ok(Page::of_chain(&chain, program, certificate.as_deref()))
-}
-
-/// A robot of this crate by its name, or the one that a file describes.
-fn robot(name: &Path) -> Result<(Robot, Meshes)> {
-    if !name.exists() && name.to_str().and_then(robots::robot).is_none() {
-        let text = format!(
-            "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
-            shown(&name.to_string_lossy())
-        );
-        return Err(Error::new(ErrorKind::UnknownName, text));
-    }
-    export::described(name)
 }
 
 /// The soles of a robot of this crate, as they were measured.

@@ -155,6 +155,18 @@ impl Robot {
         &self.order
     }
 
+    /// The places of all joints, each behind those above it, and a limb's joints together.
+    pub(crate) fn limb_by_limb(&self) -> Vec<usize> {
+        let children = self.children();
+        let below = |link: usize| children[link].iter().rev();
+        let (mut order, mut open) = (Vec::new(), below(self.root).copied().collect::<Vec<_>>());
+        while let Some(joint) = open.pop() {
+            order.push(joint);
+            open.extend(below(self.ends[joint].1));
+        }
+        order
+    }
+
     /// The places of the parent and the child link of a joint.
     ///
     /// # Panics

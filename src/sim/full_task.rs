@@ -6,9 +6,9 @@ use nalgebra::{Point2, Point3};
 
 use super::clearance::{Clearance, Links};
 use super::destination::Destination;
+use super::interior::Interior;
 use super::record::{RecordedStage, TaskRecord};
 use super::run::{Next, Run};
-use super::scene::Scene;
 use crate::gait::{Action, Biped, Side, Walk};
 use crate::model::{Meshes, Robot};
 use crate::motion::{Bounds, Finding, findings};
@@ -135,11 +135,11 @@ impl Performed {
                 steps: own.steps,
                 goal: [goal.place.x, goal.place.y].into_iter().chain(goal.heading).collect(),
                 way: own.course.way.points.iter().map(|point| [point.x, point.y]).collect(),
-                pieces: Scene::of(&own.room).pieces,
+                pieces: Interior::of(&own.room).pieces,
                 milliseconds: own.milliseconds,
             }
         };
-        TaskRecord { scene: Scene::of(&self.stages[0].room), stages: self.stages.iter().map(stage).collect() }
+        TaskRecord { scene: Interior::of(&self.stages[0].room), stages: self.stages.iter().map(stage).collect() }
     }
 }
 

@@ -5,15 +5,16 @@
 #[cfg(feature = "clearance")]
 mod clearance;
 mod destination;
+pub mod export;
 mod figures;
 #[cfg(feature = "clearance")]
 mod full_task;
+mod interior;
 #[cfg(feature = "clearance")]
 mod prism;
 mod record;
 mod rooms;
 mod run;
-mod scene;
 
 #[cfg(feature = "clearance")]
 pub use clearance::{Clearance, Links, Thing};
@@ -21,7 +22,7 @@ pub use destination::Destination;
 pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset};
 #[cfg(feature = "clearance")]
 pub use full_task::{Change, Checks, Performed, Stage, What, perform};
+pub use interior::{Interior, Piece};
 pub use record::{RecordedStage, TaskRecord};
 pub use rooms::{ROOMS, room};
 pub use run::{Next, Run, Start};
-pub use scene::{Piece, Scene};

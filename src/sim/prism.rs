@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use super::clearance::Thing;
-use super::scene::corners;
+use super::interior::corners;
 use crate::nav::{Room, Shape};
 
 /// How high the walls of a room are \[m\].

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::scene::{Piece, Scene};
+use super::interior::{Interior, Piece};
 use crate::{Error, ErrorKind, Result};
 
 /// The room of a task and the ways through it, as `groebot task` writes them under `task`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TaskRecord {
     /// The room at first.
-    pub scene: Scene,
+    pub scene: Interior,
     /// The ways, each with what changed: at least one.
     pub stages: Vec<RecordedStage>,
 }

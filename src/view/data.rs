@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::sim::{Scene, TaskRecord};
+use crate::sim::{Interior, TaskRecord};
 
 /// The version of the format.
 pub const FORMAT: u32 = 1;
@@ -57,7 +57,7 @@ pub struct Run {
     pub start: [f64; 3],
     pub goal: Vec<f64>,
     pub apart: f64,
-    pub scene: Scene,
+    pub scene: Interior,
 }
 
 #[derive(Clone, Debug, Serialize)]

@@ -23,7 +23,7 @@ pub fn described(robot: &model::Robot, meshes: Option<&Meshes>) -> Result<Robot>
     if meshes.is_none() && hidden > 0 {
         notes.push(format!("Meshes of {hidden} links are left out; --meshes shows them."));
     }
-    let order = limb_by_limb(robot);
+    let order = robot.limb_by_limb();
     let joints: Vec<Joint> = order.iter().map(|place| joint(robot, &order, *place)).collect();
     let is_apart = |joint: &Joint| [3, 7, 11].iter().any(|place| joint.origin[*place].abs() > APART);
     if links.iter().all(|link| link.shapes.is_empty()) && !joints.iter().any(is_apart) {
@@ -34,18 +34,6 @@ pub fn described(robot: &model::Robot, meshes: Option<&Meshes>) -> Result<Robot>
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(Robot { name: robot.name().to_owned(), base: robot.root_place(), links, joints, notes })
-}
-
-/// The places of all joints, each behind those above it, and a limb's joints together.
-fn limb_by_limb(robot: &model::Robot) -> Vec<usize> {
-    let mut below = vec![Vec::new(); robot.links().len()];
-    (0..robot.joints().len()).rev().for_each(|joint| below[robot.ends(joint).0].push(joint));
-    let (mut order, mut open) = (Vec::new(), below[robot.root_place()].clone());
-    while let Some(joint) = open.pop() {
-        order.push(joint);
-        open.extend(&below[robot.ends(joint).1]);
-    }
-    order
 }
 
 /// The rows of the matrix of a pose.

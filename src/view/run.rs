@@ -5,7 +5,7 @@ use nalgebra::Point2;
 use super::data::Run;
 use crate::gait::Footprint;
 use crate::nav::Room;
-use crate::sim::{self, Scene, Start};
+use crate::sim::{self, Interior, Start};
 use crate::task::Goal;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -39,7 +39,7 @@ pub fn run(asked: &Asked<'_>) -> Result<Run> {
     };
     let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, destination.into(), *apart)?;
     sim::Run::new(begun, &Watch::none())?;
-    let scene = Scene::of(&room);
+    let scene = Interior::of(&room);
     let (robot, room) = ((*robot).to_owned(), (*text).to_owned());
     Ok(Run { robot, room, start: *start, goal: goal.to_vec(), apart: *apart, scene })
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use tempfile::tempdir;
 
-use super::{refused, run, succeed, text};
+use super::{node_tests, refused, root, run, succeed, text};
 
 #[test]
 fn a_robot_is_exported_and_walks_from_its_file() {
@@ -91,4 +91,79 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     assert!(refused(&["export", "derivations/ur5/0_chain.toml", "--format", "urdf"]).contains("no robot with links"));
     assert!(refused(&["export", "c3po", "--format", "urdf"]).contains("c3po"));
     assert_eq!(run(&["export", "teo"]).code, 2, "which format?");
+}
+
+const TELESCOPE: &str = "tests/corpus/urdf/telescope.urdf";
+const FIGURE: &str = "tests/corpus/vrml/rh0_figure_5_4.wrl";
+
+#[test]
+fn motions_robots_and_vrml_become_scenes() {
+    let folder = tempdir().unwrap();
+    let [csv, json, out] = ["walk.csv", "walk.json", "scene"].map(|name| folder.path().join(name));
+    succeed(&["walk", "nao", "--steps", "2", "-o", text(&csv), "--json", text(&json), "--quiet"]);
+    let written = |arguments: &[&str]| {
+        assert_eq!(succeed(&[&["export"], arguments, &["-o", text(&out)]].concat()), "");
+        fs::read(&out).unwrap()
+    };
+    for motion in [&csv, &json] {
+        let glb = written(&[text(motion), "--to", "glb"]);
+        assert!(glb.starts_with(b"glTF") && String::from_utf8_lossy(&glb).contains("\"animations\""));
+    }
+    let still = written(&["nao", "--format", "glb"]);
+    assert!(still.starts_with(b"glTF") && !String::from_utf8_lossy(&still).contains("\"animations\""));
+    let x3d = succeed(&["export", text(&csv), "--to", "x3d"]);
+    assert!(x3d.contains("<X3D profile='Interchange' version='4.0'") && x3d.contains("<TimeSensor DEF='Clock'"));
+    let wrl = succeed(&["export", text(&csv), "--robot", text(&root("src/robots/data/nao_v5.toml")), "--to", "wrl"]);
+    assert!(wrl.starts_with("#VRML V2.0 utf8\n") && wrl.contains("TO LTibia.set_rotation"));
+    assert!(succeed(&["export", text(&root(FIGURE)), "--to", "x3d"]).contains("<Box size='0.02 0.25 0.02'/>"));
+}
+
+#[test]
+fn what_is_no_scene_is_refused() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("out");
+    let at = |name: &str, content: &str| {
+        let file = folder.path().join(name);
+        fs::write(&file, content).unwrap();
+        file.to_str().unwrap().to_owned()
+    };
+    let says = |arguments: &[&str], words: &str| {
+        let error = refused(&[&["export"], arguments, &["-o", text(&out)]].concat());
+        assert!(error.contains(words) && !out.exists(), "{error}");
+    };
+    let head = "# groebot trajectory 1\n# robot: somebody\n";
+    let motion = at("motion.csv", &format!("{head}time [s],q:lift [m]\n0,0.1\n1,0.2\n"));
+    let telescope = root(TELESCOPE);
+    let telescope = text(&telescope);
+    says(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is none of groebot's");
+    says(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
+    says(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
+    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf tell a robot, no motion and no scene");
+    says(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf tell a robot");
+    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot says who moves, but this is no motion");
+    says(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
+    says(&[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"], "a.wrl: line 2: `Sphere` is not read here");
+    let not = format!("{head}time [s],q:lift [m]\n0,0.1\n1,NaN\n");
+    says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is no finite number");
+    let error = refused(&["export", &motion, "--robot", telescope, "--to", "glb"]);
+    assert!(error.contains("give its file by -o"), "{error}");
+    // What is not read of meshes is told, and the rest is written.
+    let meshed = fs::read_to_string(telescope).unwrap();
+    let gone = "<link name=\"mast\"><visual><geometry><mesh filename=\"gone.stl\"/></geometry></visual></link>";
+    let meshed = at("meshed.urdf", &meshed.replace("<link name=\"mast\"/>", gone));
+    let ran = run(&["export", &motion, "--robot", &meshed, "--meshes", "--to", "glb", "-o", text(&out)]);
+    assert!(ran.code == 0 && ran.err.starts_with("warning: the mesh `gone.stl` is not found"), "{}", ran.err);
+    assert!(out.exists());
+}
+
+#[test]
+fn scenes_are_read_by_other_programs() {
+    let tools = [
+        ("/usr/bin/tovrmlx3d", "install Debian's view3dscene"),
+        ("node_modules/three", "run `npm ci` in viewer/"),
+        ("node_modules/gltf-validator", "run `npm ci` in viewer/"),
+        ("node_modules/@gltf-transform/core", "run `npm ci` in viewer/"),
+        ("node_modules/x_ite", "run `npm ci` in viewer/"),
+    ];
+    node_tests(&["export"], &tools);
 }

@@ -1,12 +1,11 @@
 //! `groebot view`; and its pages in Chromium, by the tests of `viewer/tests`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use tempfile::tempdir;
 
-use super::{refused, root, run, succeed, text};
+use super::{node_tests, refused, root, run, succeed, text};
 
 const ARM: &str = "tests/corpus/urdf/ur5.urdf";
 
@@ -74,29 +73,9 @@ fn what_is_no_walk_and_no_robot_is_refused() {
     assert_eq!(run(&["view", "nao"]).code, 2);
 }
 
-/// The tests of the page; a tool that is missing is told.
 #[test]
 fn pages_work_in_chromium() {
-    let viewer = root("viewer");
-    let tools = [
-        (PathBuf::from("/usr/bin/chromium"), "install Debian's chromium"),
-        (viewer.join("node_modules/playwright-core"), "run `npm ci` in viewer/"),
-    ];
-    let missing = tools.iter().filter(|(file, _)| !file.exists());
-    let mut missing: Vec<String> = missing.map(|(file, cure)| format!("{}: {cure}", text(file))).collect();
-    if Command::new("node").arg("--version").output().is_err() {
-        missing.push("node: install nodejs".to_owned());
-    }
-    if !missing.is_empty() {
-        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
-        assert!(!required, "{}", missing.join("; "));
-        return println!("skipped, a tool is missing: {}", missing.join("; "));
-    }
-    let mut command = Command::new("node");
-    command.args(["--test", "--test-concurrency=1"]).current_dir(&viewer).env("GROEBOT", env!("CARGO_BIN_EXE_groebot"));
-    command.args(["walk", "robot", "trouble"].map(|name| format!("tests/{name}.test.mjs")));
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    node_tests(&["walk", "robot", "trouble"], &[]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
 
 mod clearance;
+mod export;
 mod full_task;
 mod random_rooms;
 

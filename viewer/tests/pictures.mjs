@@ -1,6 +1,7 @@
 // Draws the pictures of docs/simulator.md: npm run pictures.
 import path from "node:path";
 import { browse, groebot, inFolder, open, page, root } from "./page.mjs";
+import { shown, xite } from "./scenes.mjs";
 
 const PICTURES = [
   ["simulator_walk", ["walk.json"], { viewport: { width: 900, height: 580 } }, 4.3],
@@ -34,4 +35,11 @@ for (const [name, given, options, time] of PICTURES) {
   await opened.waitForTimeout(500);
   await opened.screenshot({ path: path.join(root, "docs", `${name}.png`) });
 }
+// The same walk, exported, in X_ITE.
+groebot("export", "walk.json", "--to", "x3d", "-o", inFolder("walk.x3d"));
+const player = await xite(browser);
+await (await shown(player, inFolder("walk.x3d"), {}))(430);
+// The name of the view goes away.
+await player.waitForTimeout(8000);
+await player.screenshot({ path: path.join(root, "docs/simulator_export.png") });
 await browser.close();

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::Arguments;
 use crate::cli::codegen::write_generated;
-use crate::cli::export::described;
+use crate::cli::moving::described;
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::{Base, Equations};

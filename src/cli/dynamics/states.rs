@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
 use super::Arguments;
-use crate::cli::export::described;
+use crate::cli::moving::described;
 use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;

@@ -1,4 +1,4 @@
-//! A furnished room as pictures and distances have it: prisms on a floor. Main type: [`Scene`].
+//! A furnished room as pictures and distances have it: prisms on a floor. Main type: [`Interior`].
 
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ const SIDES: usize = 48;
 
 /// A room \[m, rad\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Scene {
+pub struct Interior {
     /// How long it is along x and y.
     pub size: [f64; 2],
     /// How thick its walls are, which stand inside of its borders.
@@ -34,10 +34,15 @@ pub struct Piece {
     pub at: [f64; 3],
 }
 
-impl Scene {
+impl Interior {
     /// That of a room.
     pub fn of(room: &Room) -> Self {
-        Scene { size: room.size, wall: room.wall, origin: room.origin, pieces: room.pieces.iter().map(piece).collect() }
+        Interior {
+            size: room.size,
+            wall: room.wall,
+            origin: room.origin,
+            pieces: room.pieces.iter().map(piece).collect(),
+        }
     }
 }
 

@@ -1,0 +1,83 @@
+//! A robot by its name or its file, and a motion in a file with the robot that it moves.
+
+use std::path::Path;
+
+use crate::derive::{Description, InputFile};
+use crate::document::{read_text, shown};
+use crate::model::{Meshes, Robot};
+use crate::motion::Trajectory;
+use crate::motion::table::TABLE_LIMIT;
+use crate::robots;
+use crate::sim::TaskRecord;
+use crate::view::WalkRecord;
+use crate::{Error, ErrorKind, Result};
+
+/// Whether the name of a file ends so.
+pub fn ends(file: &Path, end: &str) -> bool {
+    file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end))
+}
+
+/// A motion, and what its file tells beside it.
+pub struct Motion {
+    pub trajectory: Trajectory,
+    pub walk: Option<WalkRecord>,
+    pub task: Option<TaskRecord>,
+}
+
+/// The motion of a file, if it is one by its name: CSV or JSON.
+pub fn motion(file: &Path) -> Result<Option<Motion>> {
+    if ends(file, "csv") {
+        return Ok(Some(Motion { trajectory: Trajectory::read_csv(file)?, walk: None, task: None }));
+    }
+    if !ends(file, "json") {
+        return Ok(None);
+    }
+    let text = read_text(file, TABLE_LIMIT)?;
+    let read = || {
+        let trajectory = Trajectory::from_json(&text)?;
+        Ok(Motion { trajectory, walk: WalkRecord::from_json(&text)?, task: TaskRecord::from_json(&text)? })
+    };
+    read().map(Some).map_err(|error: Error| error.in_file(file))
+}
+
+/// The robot of this name or file, or else the one that the trajectory names.
+pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, Meshes)> {
+    let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
+    match told {
+        Some(name) => robot(name),
+        None => own().ok_or_else(|| {
+            let text = format!(
+                "its robot `{}` is none of groebot's; give its description by --robot, or nao, rh0 or teo",
+                shown(&trajectory.robot)
+            );
+            Error::new(ErrorKind::UnknownName, text)
+        }),
+    }
+}
+
+/// As [`described`], with the names of the robots for what is neither.
+pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
+    if !name.exists() && name.to_str().and_then(robots::robot).is_none() {
+        let text = format!(
+            "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
+            shown(&name.to_string_lossy())
+        );
+        return Err(Error::new(ErrorKind::UnknownName, text));
+    }
+    described(name)
+}
+
+/// A robot of this crate by its name, or the one that a file describes.
+pub fn described(robot: &Path) -> Result<(Robot, Meshes)> {
+    if let Some(known) = robot.to_str().and_then(robots::robot) {
+        return Ok((known, Meshes::default()));
+    }
+    let input = InputFile::read(robot)?;
+    match input.description {
+        Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
+        _ => {
+            let text = "this describes no robot with links; give one in URDF or TOML";
+            Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
+        }
+    }
+}
