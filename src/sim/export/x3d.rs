@@ -53,7 +53,7 @@ impl Scene {
             "",
             "DirectionalLight",
             "",
-            &[("direction", Field::Numbers(&LIGHT)), ("intensity", Field::Numbers(&[0.6]))],
+            &[("direction", Field::Numbers(&LIGHT)), ("intensity", Field::Numbers(&[0.25]))],
         );
         self.view(&mut out);
         self.tree(&mut out, &defined);
