@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn page(&self) -> Result<Page> {
         let file = &self.shown;
-        match self.motion()? {
+        match motion(file)? {
             Some((trajectory, record)) => {
                 let (robot, meshes) = self.walking(&trajectory).map_err(|error| error.in_file(file))?;
                 let soles = soles(robot.name())?;
@@ -124,21 +124,6 @@ impl Arguments {
         page.with_run(&asked).map_err(|error| error.in_file(room))
     }
 
-    /// The motion of the file, if it is one by its name.
-    fn motion(&self) -> Result<Option<(Trajectory, Option<WalkRecord>)>> {
-        let file = &self.shown;
-        let ends = |end: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end));
-        if ends("csv") {
-            return Ok(Some((Trajectory::read_csv(file)?, None)));
-        }
-        if !ends("json") {
-            return Ok(None);
-        }
-        let text = read_text(file, TABLE_LIMIT)?;
-        let read = Trajectory::from_json(&text).and_then(|own| Ok((own, WalkRecord::from_json(&text)?)));
-        read.map(Some).map_err(|error| error.in_file(file))
-    }
-
     /// The robot that `--robot` or else the trajectory names.
     fn walking(&self, trajectory: &Trajectory) -> Result<(Robot, Meshes)> {
         let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
@@ -153,6 +138,20 @@ impl Arguments {
             }),
         }
     }
+}
+
+/// The motion of the file, if it is one by its name.
+pub(super) fn motion(file: &Path) -> Result<Option<(Trajectory, Option<WalkRecord>)>> {
+    let ends = |end: &str| file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end));
+    if ends("csv") {
+        return Ok(Some((Trajectory::read_csv(file)?, None)));
+    }
+    if !ends("json") {
+        return Ok(None);
+    }
+    let text = read_text(file, TABLE_LIMIT)?;
+    let read = Trajectory::from_json(&text).and_then(|own| Ok((own, WalkRecord::from_json(&text)?)));
+    read.map(Some).map_err(|error| error.in_file(file))
 }
 
 /// The chain that was derived in a folder, with its solver.

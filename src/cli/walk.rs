@@ -133,6 +133,9 @@ pub struct Arguments {
     /// Start and end in the crouch, without lowering and rising; for one step goal
     #[arg(long)]
     crouched: bool,
+    /// In how many samples the trunk is lowered, and rises [default: as many as a step has]; for one step goal
+    #[arg(long, value_name = "COUNT", conflicts_with = "crouched", value_parser = clap::value_parser!(u32).range(1..))]
+    descent_intervals: Option<u32>,
     /// The height of the axes of the hip over the floor [m] [default: the first of the robot's usual ones that works]
     #[arg(long, value_name = "METRES")]
     hip_height: Option<f64>,
@@ -276,10 +279,11 @@ impl Arguments {
     /// Puts the figures of one step goal in their places.
     fn one_step(&self, gait: &mut Gait) -> Result<()> {
         let Gait::OneStep(one_step) = gait else {
-            return match (self.dip, self.power, self.crouched) {
-                (None, None, false) => Ok(()),
+            return match (self.dip, self.power, self.crouched, self.descent_intervals) {
+                (None, None, false, None) => Ok(()),
                 _ => {
-                    Err(bad("--dip, --power and --crouched are for one step goal: --gait osg, rh0 or rh0-real".into()))
+                    let text = "--dip, --power, --crouched and --descent-intervals are for one step goal: --gait osg, rh0 or rh0-real";
+                    Err(bad(text.into()))
                 }
             };
         };
@@ -295,7 +299,9 @@ impl Arguments {
     fn request(&self, usual: &Usual, biped: &Biped, hip_height: f64) -> Result<Request> {
         let route = self.route(usual, usual.half_width(biped))?;
         let usual = if self.crouched { usual.clone() } else { usual.clone().from_upright(biped) };
-        Ok(usual.request(biped, route, hip_height))
+        let mut request = usual.request(biped, route, hip_height);
+        request.durations.lower = self.descent_intervals.map(|count| f64::from(count) * request.tick);
+        Ok(request)
     }
 
     fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {

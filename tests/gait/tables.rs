@@ -3,7 +3,7 @@
 //! What is fitted: the trunk goes down by the same length from sample to sample, so that 1 - cos q2 grows by a rate; the rate comes from two
 //! rows, and where the descent starts from two rows too. All other values follow, through the walk itself.
 
-use groebot::gait::{Durations, Usual, Walk};
+use groebot::gait::{Usual, Walk};
 use groebot::robots::{RH0_EXPERIMENT, RH0_SIMULATION};
 
 use super::rh0::{LINE, request, walker};
@@ -27,9 +27,7 @@ fn depth(q2: f64) -> f64 {
 fn lowered(usual: &Usual, text: &str, rate: f64, samples: usize) -> Walk {
     let crouch = usual.upright_hip - 2.0 * SEGMENT * rate * (samples - 1) as f64;
     let mut request = request(usual, text, crouch, true);
-    let tick = request.tick;
-    let shift = tick * (samples / 4) as f64;
-    request.durations = Durations { rest: 0.0, shift, swing: tick * samples as f64 - 2.0 * shift };
+    request.durations.lower = Some(request.tick * samples as f64);
     let (robot, legs) = walker();
     let lower = groebot::gait::plan(robot, legs, &request, &groebot::Watch::none()).unwrap();
     assert_eq!(lower.schedule.phases[0].samples, samples);
