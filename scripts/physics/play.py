@@ -24,8 +24,8 @@ except ImportError as error:
 STEP = 0.002
 GRAVITY = 9.80665
 # Servos by the size of the robot, m its mass and l 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m l^2.
-# NAO (m g l = 10.4 Nm) has 150 Nm/rad, 1.084 Nms/rad and 0.045 kg m^2.
-SERVO = "14.4,0.73,0.21"
+# Of NAO (m g l = 10.3 Nm) this makes 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+SERVO = "30,1.5,0.21"
 LENGTH = 0.63
 # A body that is described as a point has moments of this share of its mass and l^2: those of TEO's trunk.
 POINT = 0.2

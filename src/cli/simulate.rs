@@ -48,7 +48,7 @@ pub struct Arguments {
     /// The link of the right sole
     #[arg(long, value_name = "LINK", default_value = "r_sole")]
     right: String,
-    /// Stiffness, damping and inertia of the motors, by the size of the robot [default: 14.4,0.73,0.21]
+    /// Stiffness, damping and inertia of the motors, by the size of the robot [default: 30,1.5,0.21]
     #[arg(long, value_name = "STIFFNESS,DAMPING,INERTIA", value_delimiter = ',', num_args = 1)]
     servo: Option<Vec<f64>>,
     /// The coefficient of friction of soles on the floor
@@ -144,7 +144,7 @@ impl Arguments {
     fn case(&self) -> Result<Case> {
         let &[roll, pitch] = &self.slope[..] else { return Err(bad("--slope takes two numbers of degrees, such as 0,3")) };
         if self.servo.as_ref().is_some_and(|servo| servo.len() != 3 || servo.iter().any(|x| !(x.is_finite() && *x > 0.0))) {
-            return Err(bad("--servo takes three positive numbers, such as 14.4,0.73,0.21"));
+            return Err(bad("--servo takes three positive numbers, such as 30,1.5,0.21"));
         }
         if !(roll.abs() < 45.0 && pitch.abs() < 45.0) {
             return Err(bad("--slope is too steep; give less than 45 degrees"));

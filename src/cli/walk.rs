@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::files::is_json;
 use super::progress::{Limits, Session};
-use super::walker::{self, SoleArguments};
+use super::walker::{self, GaitName, SoleArguments};
 use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
@@ -58,21 +58,6 @@ enum FootName {
     Left,
     /// The right foot
     Right,
-}
-
-/// How the centre of mass is moved.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum GaitName {
-    /// The seed's sine: over one foot the centre of mass rests
-    Seed,
-    /// Preview control of the zero moment point: the centre of mass never rests
-    Preview,
-    /// One step goal by its generic laws: the centre of mass keeps to a circle on the sole
-    Osg,
-    /// One step goal by RH0's laws, with the figures of the thesis' simulations (5.3)
-    Rh0,
-    /// The same with the figures of the thesis' experiments (6.2)
-    Rh0Real,
 }
 
 /// Plans a walk that keeps its zero moment point over the feet, with joint angles by the derived solver
@@ -235,22 +220,10 @@ fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
     text
 }
 
-impl GaitName {
-    /// The word of the command line.
-    fn name(self) -> String {
-        clap::ValueEnum::to_possible_value(&self).expect("no gait is hidden").get_name().to_owned()
-    }
-}
-
 impl Arguments {
     /// The figures of the gait, the given ones in their places.
     fn usual(&self, walker: &Walker) -> Result<Usual> {
-        let gaits = &walker.gaits;
-        let wanted = self.gait.map_or(gaits[0].0.to_owned(), GaitName::name);
-        let Some((_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted).cloned() else {
-            let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-            return Err(bad(format!("this robot does not walk by `{wanted}`; give one of {names}")));
-        };
+        let mut usual = walker::usual(&walker.gaits, self.gait)?;
         let places = [
             (&mut usual.length, self.length),
             (&mut usual.lift, self.lift),
