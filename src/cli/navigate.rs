@@ -193,7 +193,9 @@ fn steps(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Us
         None => gaits.iter().map(|(_, usual)| usual.clone()).find(|usual| usual.gait.is_one_step()),
     };
     let usual = usual.filter(|usual| usual.gait.is_one_step());
-    usual.ok_or_else(|| bad("a way is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has"))
+    usual.ok_or_else(|| {
+        bad("a way is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has")
+    })
 }
 
 fn bad(text: &str) -> Error {

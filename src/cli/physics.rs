@@ -99,7 +99,11 @@ impl Stage {
         let file = |name: &str| File::create(at(name)).map_err(|error| Error::io(&at(name), &error));
         let mut command = Command::new(&self.python);
         command.args(["-B", "play.py", "robot.xml", "walk.csv", "answer.csv"]).args(&self.fixed).args(case.arguments());
-        command.current_dir(self.folder.path()).stdin(Stdio::null()).stdout(file("told.json")?).stderr(file("errors.txt")?);
+        command
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null())
+            .stdout(file("told.json")?)
+            .stderr(file("errors.txt")?);
         let mut running = Running(command.spawn().map_err(|error| self.no_mujoco(&error.to_string()))?);
         let status = loop {
             if let Some(status) = running.0.try_wait().map_err(|error| Error::io(&self.python, &error))? {
@@ -117,8 +121,9 @@ impl Stage {
             });
         }
         let told = read_text(&at("told.json"), TOLD_LIMIT)?;
-        let told = serde_json::from_str(&told)
-            .map_err(|error| Error::new(ErrorKind::Syntax, format!("what {} tells is not understood: {error}", self.python.display())))?;
+        let told = serde_json::from_str(&told).map_err(|error| {
+            Error::new(ErrorKind::Syntax, format!("what {} tells is not understood: {error}", self.python.display()))
+        })?;
         Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, told))
     }
 

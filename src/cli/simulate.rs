@@ -55,7 +55,14 @@ pub struct Arguments {
     #[arg(long, value_name = "F", default_value_t = 0.8)]
     friction: f64,
     /// How far the floor is turned: about x, the left side up, and about y, what is ahead down [degrees]
-    #[arg(long, value_name = "ROLL,PITCH", value_delimiter = ',', num_args = 1, default_value = "0,0", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "ROLL,PITCH",
+        value_delimiter = ',',
+        num_args = 1,
+        default_value = "0,0",
+        allow_hyphen_values = true
+    )]
     slope: Vec<f64>,
     /// All masses times this
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
@@ -104,10 +111,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let (answer, told) = stage.play(&nominal, &session.watch)?;
     drop(session);
-    let compared = Comparison::of(&plan, &answer, told.stiffness)?;
+    let compared = Comparison::of(&plan, &answer, told.stiffness / nominal.mass)?;
     arguments.write(&plan, &answer, &legs)?;
     if arguments.json {
-        let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared });
+        let value =
+            json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared });
         console::print(&super::json::text(&value))?;
     } else {
         console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&told), motors(&told)))?;
@@ -126,7 +134,10 @@ impl Arguments {
         soles(&plan).map_err(|error| error.in_file(file))?;
         let model = self.model.clone().unwrap_or_else(|| PathBuf::from(&plan.robot));
         if !model.exists() && model.to_str().and_then(crate::robots::robot).is_none() {
-            let text = format!("`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo by --model", shown(&model.to_string_lossy()));
+            let text = format!(
+                "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo by --model",
+                shown(&model.to_string_lossy())
+            );
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
         // MuJoCo looks for meshes from another folder.
@@ -134,7 +145,11 @@ impl Arguments {
         let unknown = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err());
         match unknown {
             Some(joint) => {
-                let text = format!("the walk moves `{}`, a joint that {} has not; give its robot by --model", shown(&joint.name), shown(robot.name()));
+                let text = format!(
+                    "the walk moves `{}`, a joint that {} has not; give its robot by --model",
+                    shown(&joint.name),
+                    shown(robot.name())
+                );
                 Err(Error::new(ErrorKind::UnknownName, text).in_file(file))
             }
             None => Ok((plan, robot, meshes)),
@@ -142,8 +157,14 @@ impl Arguments {
     }
 
     fn case(&self) -> Result<Case> {
-        let &[roll, pitch] = &self.slope[..] else { return Err(bad("--slope takes two numbers of degrees, such as 0,3")) };
-        if self.servo.as_ref().is_some_and(|servo| servo.len() != 3 || servo.iter().any(|x| !(x.is_finite() && *x > 0.0))) {
+        let &[roll, pitch] = &self.slope[..] else {
+            return Err(bad("--slope takes two numbers of degrees, such as 0,3"));
+        };
+        if self
+            .servo
+            .as_ref()
+            .is_some_and(|servo| servo.len() != 3 || servo.iter().any(|x| !(x.is_finite() && *x > 0.0)))
+        {
             return Err(bad("--servo takes three positive numbers, such as 30,1.5,0.21"));
         }
         if !(roll.abs() < 45.0 && pitch.abs() < 45.0) {
@@ -157,7 +178,13 @@ impl Arguments {
         if !(self.latency.is_finite() && self.latency >= 0.0) {
             return Err(bad("--latency is a time, 0 or more"));
         }
-        Ok(Case { friction: self.friction, slope: [roll, pitch], mass: self.mass, gain: self.gain, latency: self.latency })
+        Ok(Case {
+            friction: self.friction,
+            slope: [roll, pitch],
+            mass: self.mass,
+            gain: self.gain,
+            latency: self.latency,
+        })
     }
 
     fn write(&self, plan: &Trajectory, answer: &Trajectory, legs: &[Vec<String>; 2]) -> Result<()> {
@@ -165,7 +192,8 @@ impl Arguments {
             let text = if is_json(file) { answer.to_json().to_string() + "\n" } else { answer.to_csv() };
             write_atomically(file, text.as_bytes())?;
         }
-        let pictures = [(&self.plot, Quantity::Angle), (&self.plot_rates, Quantity::Rate), (&self.plot_torques, Quantity::Torque)];
+        let pictures =
+            [(&self.plot, Quantity::Angle), (&self.plot_rates, Quantity::Rate), (&self.plot_torques, Quantity::Torque)];
         for (file, quantity) in pictures {
             if let Some(file) = file {
                 write_atomically(file, quantity.picture(plan, answer, legs).as_bytes())?;
@@ -216,7 +244,7 @@ fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Re
     let one = |(done, case): (usize, &Case)| {
         watch.report("runs", done, cases.len() - done);
         let (answer, told) = stage.play(case, watch)?;
-        let compared = Comparison::of(plan, &answer, told.stiffness)?;
+        let compared = Comparison::of(plan, &answer, told.stiffness / case.mass)?;
         Ok(Run { case: *case, told, compared })
     };
     cases.iter().enumerate().map(one).collect()
@@ -266,7 +294,11 @@ fn verdict(told: &Told) -> String {
 
 fn motors(told: &Told) -> String {
     let Told { stiffness, damping, armature, .. } = told;
-    let points = if told.points.is_empty() { String::new() } else { format!("  moments         assumed of {}, which is described as a point\n", told.points.join(", ")) };
+    let points = if told.points.is_empty() {
+        String::new()
+    } else {
+        format!("  moments         assumed of {}, which is described as a point\n", told.points.join(", "))
+    };
     format!("{points}  motors          {stiffness:.1} N m/rad, {damping:.3} N m s/rad, {armature:.4} kg m^2\n")
 }
 

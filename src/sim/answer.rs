@@ -65,19 +65,21 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares, sample by sample, until the answer ends. `stiffness` is what all motors have \[N m/rad\]; the plan tells torques as `tau:JOINT`, the answer
-    /// must.
+    /// Compares, sample by sample, until the answer ends. `stiffness` is what all motors have \[N m/rad\], by the
+    /// factor that masses have been multiplied with; the plan may tell torques as `tau:JOINT`, the answer must.
     ///
     /// # Errors
     /// [`ErrorKind::MissingKey`] for tracks that a walk or an answer must have.
     pub fn of(plan: &Trajectory, answer: &Trajectory, stiffness: f64) -> Result<Self> {
         let soles = soles(plan)?;
         let samples = answer.times.len().min(plan.times.len());
-        let joints = (0..plan.joints.len()).filter(|joint| (1..samples).any(|row| plan.q[row][*joint] != plan.q[0][*joint]));
+        let joints =
+            (0..plan.joints.len()).filter(|joint| (1..samples).any(|row| plan.q[row][*joint] != plan.q[0][*joint]));
         let joints = joints.map(|joint| compared(plan, answer, joint, stiffness)).collect::<Result<_>>()?;
         let own = self::soles(answer)?;
         let (landed, lift) = landings(answer, own)?;
-        let planned = soles.iter().map(|sole| sole.stands[..samples].windows(2).filter(|pair| !pair[0] && pair[1]).count());
+        let planned =
+            soles.iter().map(|sole| sole.stands[..samples].windows(2).filter(|pair| !pair[0] && pair[1]).count());
         Ok(Comparison {
             joints,
             zmp: zmp(plan, answer, samples)?,
@@ -103,7 +105,10 @@ pub fn soles(walk: &Trajectory) -> Result<[&Contact; 2]> {
     let sole = |name: &str| walk.contacts.iter().find(|contact| contact.name == name);
     match (sole(SIDES[0]), sole(SIDES[1]), walk.base.is_empty() || walk.times.len() < 2) {
         (Some(left), Some(right), false) => Ok([left, right]),
-        _ => Err(Error::new(ErrorKind::MissingKey, "this is no walk: it takes two samples or more, a base, and the contacts `left` and `right`")),
+        _ => Err(Error::new(
+            ErrorKind::MissingKey,
+            "this is no walk: it takes two samples or more, a base, and the contacts `left` and `right`",
+        )),
     }
 }
 
@@ -149,7 +154,8 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The greatest distance of the answer's zero moment point from the planned one, and the root of the mean square.
 fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2]> {
-    let point = |walk: &Trajectory| walk.points.iter().position(|point| point.name == "zmp").ok_or_else(|| missing("zmp_x"));
+    let point =
+        |walk: &Trajectory| walk.points.iter().position(|point| point.name == "zmp").ok_or_else(|| missing("zmp_x"));
     let (should, is) = (point(plan)?, point(answer)?);
     let (soles, own) = (soles(plan)?, self::soles(answer)?);
     let distance = |row: usize| {
@@ -219,15 +225,24 @@ fn landings(answer: &Trajectory, soles: [&Contact; 2]) -> Result<(usize, f64)> {
 
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let way = |way: &Way| format!("{:.3} m ahead, {:.3} m to the left, turn {:.1} deg", way.ahead, way.left, way.turn.to_degrees());
+        let way = |way: &Way| {
+            format!("{:.3} m ahead, {:.3} m to the left, turn {:.1} deg", way.ahead, way.left, way.turn.to_degrees())
+        };
         writeln!(f, "  planned         {}, {} landings", way(&self.planned), self.landings[0])?;
         writeln!(f, "  walked          {}, {} landings", way(&self.walked), self.landings[1])?;
         writeln!(f, "  tilt            {:.2} deg at most", self.tilt.to_degrees())?;
         writeln!(f, "  least lift      {:.1} mm", 1e3 * self.lift)?;
         let [greatest, rms] = self.zmp.map(|distance| 1e3 * distance);
-        writeln!(f, "  ZMP             off by {rms:.1} mm rms, {greatest:.1} mm at most, of contact forces, seen from the foot that stands")?;
+        writeln!(
+            f,
+            "  ZMP             off by {rms:.1} mm rms, {greatest:.1} mm at most, of contact forces, seen from the foot that stands"
+        )?;
         let width = self.joints.iter().map(|joint| joint.joint.chars().count()).max().unwrap_or(0).max(5);
-        writeln!(f, "  {:<width$}  deviation [mrad]       rms   torque [N m]   foretold sag   rms of the rest", "joint")?;
+        writeln!(
+            f,
+            "  {:<width$}  deviation [mrad]       rms   torque [N m]   foretold sag   rms of the rest",
+            "joint"
+        )?;
         for joint in &self.joints {
             let milli = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{:.2}", 1e3 * value));
             writeln!(

@@ -22,7 +22,7 @@ const GAP: f64 = 34.0;
 /// Radians in a second as turns in a minute.
 const RPM: f64 = 30.0 / std::f64::consts::PI;
 /// The most points of a line.
-const MOST_POINTS: usize = 1500;
+const MOST_POINTS: usize = 800;
 
 type Line = Vec<(f64, f64)>;
 
@@ -80,7 +80,8 @@ impl Quantity {
 
 fn framed(corner: (f64, f64), width: f64, (start, end): (f64, f64), lines: &[Line; 2]) -> Frame {
     let values = lines.iter().flatten().map(|(_, value)| *value);
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
     let (low, high) = if low.is_finite() { (low, high) } else { (0.0, 0.0) };
     let room = (0.08 * (high - low)).max(1e-3);
     Frame { corner, size: (width, HEIGHT), low: (start, low - room), high: (end, high + room) }

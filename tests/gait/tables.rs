@@ -11,6 +11,15 @@ use super::rh0::{LINE, request, walker};
 /// Thigh and shank of RH0 \[m\], as inferred: `src/robots/data/rh0_right_leg.toml`.
 const SEGMENT: f64 = 0.28;
 
+#[test]
+fn the_currents_of_figure_6_5_are_those_of_one_leg() {
+    let (names, rows) = table(include_str!("../corpus/rh0/fig_6_5_currents.csv"));
+    assert_eq!((rows.len(), names[0].as_str(), names[6].as_str()), (7, "q1", "q12"));
+    // Columns 1 to 6 are the right leg's from the foot up, 7 to 12 the left one's: negatives to the last digit in all 42 pairs.
+    rows.iter().for_each(|row| (0..6).for_each(|joint| assert_eq!(row[joint], -row[joint + 6])));
+    assert_eq!(rows.iter().flatten().filter(|current| **current != 0.0).count(), 70);
+}
+
 /// The columns by name.
 fn table(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut lines = text.lines();
