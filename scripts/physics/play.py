@@ -86,6 +86,7 @@ class Robot:
             [g for g in range(model.ngeom) if model.geom_bodyid[g] in bodies and model.geom_contype[g]]
             for bodies in self.bodies
         ]
+        self.wrench = numpy.zeros(6)
         self.weight = model.body_subtreemass[0] * GRAVITY
 
     def mount(self, servo, gain):
@@ -135,17 +136,18 @@ class Robot:
 
     def pressure(self):
         """The sum of the floor's forces along its normal, times 1, x and y, and the part of each foot [N, N m]."""
-        total, feet, wrench = numpy.zeros(3), numpy.zeros(2), numpy.zeros(6)
-        for index in range(self.data.ncon):
-            contact = self.data.contact[index]
-            if self.floor not in (contact.geom1, contact.geom2):
+        sums, contacts = [0.0] * 5, self.data.contact
+        for index, ((one, other), (x, y, _)) in enumerate(zip(contacts.geom.tolist(), contacts.pos.tolist())):
+            if self.floor not in (one, other):
                 continue
-            mujoco.mj_contactForce(self.model, self.data, index, wrench)
-            x, y = contact.pos[:2]
-            total += wrench[0] * numpy.array([1.0, x, y])
-            body = self.model.geom_bodyid[contact.geom2 if contact.geom1 == self.floor else contact.geom1]
-            feet += [wrench[0] * (body in bodies) for bodies in self.bodies]
-        return numpy.concatenate([total, feet])
+            mujoco.mj_contactForce(self.model, self.data, index, self.wrench)
+            force = float(self.wrench[0])
+            for place, part in enumerate((1.0, x, y)):
+                sums[place] += force * part
+            foot = other if one == self.floor else one
+            for side in (0, 1):
+                sums[3 + side] += force * (foot in self.shapes[side])
+        return numpy.array(sums)
 
 
 class Table:

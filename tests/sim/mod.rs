@@ -1,5 +1,7 @@
 //! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
 
+mod answer;
+
 use std::f64::consts::TAU;
 
 use groebot::gait::{Footprint, Walk};
