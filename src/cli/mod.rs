@@ -1,7 +1,7 @@
 //! The command-line tool: one file a subcommand.
 //!
 //! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no way, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no way, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
 
 mod algebra;
 mod answers;
@@ -33,9 +33,11 @@ mod navigate;
 mod page;
 mod part;
 mod path;
+mod physics;
 mod plan;
 mod progress;
 mod report;
+mod simulate;
 mod solve;
 mod strata;
 mod targets;
@@ -70,10 +72,11 @@ const EXAMPLES: &str = "Examples:
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg
   groebot task rh0 --room living-room --goal sofa -o task.json --view task.html
   groebot view walk.csv -o walk.html
+  groebot simulate walk.csv --plot joints.svg
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no way, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no way, 5 the robot falls, 130 interrupted.";
 
 /// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
 #[derive(Parser)]
@@ -104,6 +107,7 @@ enum Command {
     Identify(identify::Arguments),
     Export(export::Arguments),
     Follow(follow::Arguments),
+    Simulate(simulate::Arguments),
     View(view::Arguments),
 }
 
@@ -115,6 +119,8 @@ enum Halt {
     PipeClosed,
     /// There is no way; that has been told.
     NoWay,
+    /// A robot fell; that has been told.
+    Fell,
     /// A solver was derived and written, and misses answers at some singular targets; that has been told.
     WeakSpots,
 }
@@ -123,6 +129,8 @@ enum Halt {
 const WEAK: u8 = 3;
 /// The exit status of [`Halt::NoWay`].
 const NO_WAY: u8 = 4;
+/// The exit status of [`Halt::Fell`].
+const FELL: u8 = 5;
 
 impl From<Error> for Halt {
     fn from(error: Error) -> Self {
@@ -162,12 +170,14 @@ pub fn run() -> ExitCode {
         Command::Identify(arguments) => identify::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Follow(arguments) => follow::run(arguments),
+        Command::Simulate(arguments) => simulate::run(arguments),
         Command::View(arguments) => view::run(arguments),
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,
         Err(Halt::WeakSpots) => ExitCode::from(WEAK),
         Err(Halt::NoWay) => ExitCode::from(NO_WAY),
+        Err(Halt::Fell) => ExitCode::from(FELL),
         Err(Halt::Error(error)) => {
             tell(&error);
             ExitCode::from(if error.kind() == ErrorKind::Cancelled { 130 } else { 1 })

@@ -10,7 +10,7 @@ use super::files::is_json;
 use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
 use super::progress::{Limits, Session};
-use super::walker::{self, Named, SoleArguments};
+use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::files::write_atomically;
 use crate::gait::{Footstep, Summary, Usual};
@@ -52,6 +52,9 @@ pub struct Arguments {
     /// The body from above, instead of what the description's shapes say: how long and how wide [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
+    /// How the centre of mass is moved [default: the robot's first gait by one step goal]
+    #[arg(long, value_enum)]
+    gait: Option<GaitName>,
     /// Start and end in the crouch, without lowering and rising
     #[arg(long)]
     crouched: bool,
@@ -125,7 +128,7 @@ impl Arguments {
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
             None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
         };
-        let usual = steps(&named.walker.gaits)?;
+        let usual = steps(&named.walker.gaits, self.gait)?;
         Pilot::new(named.walker, usual, body, !self.crouched, watch)
     }
 
@@ -183,10 +186,16 @@ impl MethodName {
     }
 }
 
-/// The first gait by one step goal.
-fn steps(gaits: &[(&'static str, Usual)]) -> Result<Usual> {
-    let found = gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
-    found.map(|(_, usual)| usual.clone()).ok_or_else(|| bad("this robot has no gait by one step goal"))
+/// The gait of that name, or the first one by one step goal.
+fn steps(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Usual> {
+    let usual = match wanted {
+        Some(_) => Some(walker::usual(gaits, wanted)?),
+        None => gaits.iter().map(|(_, usual)| usual.clone()).find(|usual| usual.gait.is_one_step()),
+    };
+    let usual = usual.filter(|usual| usual.gait.is_one_step());
+    usual.ok_or_else(|| {
+        bad("a way is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has")
+    })
 }
 
 fn bad(text: &str) -> Error {

@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::files::is_json;
 use super::progress::{Limits, Session};
-use super::walker::{self, SoleArguments};
+use super::walker::{self, GaitName, SoleArguments};
 use super::{Outcome, console};
 use crate::document::read_text;
 use crate::files::write_atomically;
@@ -58,21 +58,6 @@ enum FootName {
     Left,
     /// The right foot
     Right,
-}
-
-/// How the centre of mass is moved.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum GaitName {
-    /// The seed's sine: over one foot the centre of mass rests
-    Seed,
-    /// Preview control of the zero moment point: the centre of mass never rests
-    Preview,
-    /// One step goal by its generic laws: the centre of mass keeps to a circle on the sole
-    Osg,
-    /// One step goal by RH0's laws, with the figures of the thesis' simulations (5.3)
-    Rh0,
-    /// The same with the figures of the thesis' experiments (6.2)
-    Rh0Real,
 }
 
 /// Plans a walk that keeps its zero moment point over the feet, with joint angles by the derived solver
@@ -133,6 +118,9 @@ pub struct Arguments {
     /// Start and end in the crouch, without lowering and rising; for one step goal
     #[arg(long)]
     crouched: bool,
+    /// In how many samples the trunk is lowered, and rises [default: as many as a step has]; for one step goal
+    #[arg(long, value_name = "COUNT", conflicts_with = "crouched", value_parser = clap::value_parser!(u32).range(1..))]
+    descent_intervals: Option<u32>,
     /// The height of the axes of the hip over the floor [m] [default: the first of the robot's usual ones that works]
     #[arg(long, value_name = "METRES")]
     hip_height: Option<f64>,
@@ -232,22 +220,10 @@ fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
     text
 }
 
-impl GaitName {
-    /// The word of the command line.
-    fn name(self) -> String {
-        clap::ValueEnum::to_possible_value(&self).expect("no gait is hidden").get_name().to_owned()
-    }
-}
-
 impl Arguments {
     /// The figures of the gait, the given ones in their places.
     fn usual(&self, walker: &Walker) -> Result<Usual> {
-        let gaits = &walker.gaits;
-        let wanted = self.gait.map_or(gaits[0].0.to_owned(), GaitName::name);
-        let Some((_, mut usual)) = gaits.iter().find(|(name, _)| *name == wanted).cloned() else {
-            let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-            return Err(bad(format!("this robot does not walk by `{wanted}`; give one of {names}")));
-        };
+        let mut usual = walker::usual(&walker.gaits, self.gait)?;
         let places = [
             (&mut usual.length, self.length),
             (&mut usual.lift, self.lift),
@@ -276,10 +252,11 @@ impl Arguments {
     /// Puts the figures of one step goal in their places.
     fn one_step(&self, gait: &mut Gait) -> Result<()> {
         let Gait::OneStep(one_step) = gait else {
-            return match (self.dip, self.power, self.crouched) {
-                (None, None, false) => Ok(()),
+            return match (self.dip, self.power, self.crouched, self.descent_intervals) {
+                (None, None, false, None) => Ok(()),
                 _ => {
-                    Err(bad("--dip, --power and --crouched are for one step goal: --gait osg, rh0 or rh0-real".into()))
+                    let text = "--dip, --power, --crouched and --descent-intervals are for one step goal: --gait osg, rh0 or rh0-real";
+                    Err(bad(text.into()))
                 }
             };
         };
@@ -295,7 +272,9 @@ impl Arguments {
     fn request(&self, usual: &Usual, biped: &Biped, hip_height: f64) -> Result<Request> {
         let route = self.route(usual, usual.half_width(biped))?;
         let usual = if self.crouched { usual.clone() } else { usual.clone().from_upright(biped) };
-        Ok(usual.request(biped, route, hip_height))
+        let mut request = usual.request(biped, route, hip_height);
+        request.durations.lower = self.descent_intervals.map(|count| f64::from(count) * request.tick);
+        Ok(request)
     }
 
     fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {

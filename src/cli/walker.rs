@@ -7,10 +7,40 @@ use nalgebra::Point2;
 
 use crate::derive::{Description, InputFile, Proved};
 use crate::document::shown;
-use crate::gait::{Biped, LegSolver, Walker};
+use crate::gait::{Biped, LegSolver, Usual, Walker};
 use crate::model::{Meshes, Robot};
 use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result, Watch};
+
+/// How the centre of mass is moved.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub enum GaitName {
+    /// The seed's sine: over one foot the centre of mass rests
+    Seed,
+    /// Preview control of the zero moment point: the centre of mass never rests
+    Preview,
+    /// One step goal by its generic laws: the centre of mass keeps to a circle on the sole
+    Osg,
+    /// One step goal by RH0's laws, with the figures of the thesis' simulations (5.3)
+    Rh0,
+    /// The same with the figures of the thesis' experiments (6.2)
+    Rh0Real,
+}
+
+/// The figures of the gait of that name; of the first one without a name.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for a gait that this robot has not.
+pub fn usual(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Usual> {
+    let Some(wanted) = wanted else { return Ok(gaits[0].1.clone()) };
+    let value = clap::ValueEnum::to_possible_value(&wanted);
+    let wanted = value.as_ref().map_or("", |value| value.get_name());
+    let found = gaits.iter().find(|(name, _)| *name == wanted);
+    found.map(|(_, usual)| usual.clone()).ok_or_else(|| {
+        let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        Error::new(ErrorKind::BadValue, format!("this robot does not walk by `{wanted}`; give one of {names}"))
+    })
+}
 
 /// The soles of a robot that is described in a file.
 #[derive(clap::Args)]

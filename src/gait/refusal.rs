@@ -110,6 +110,7 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         ("torso height", style.torso_height),
         ("shift's duration", durations.shift),
         ("swing's duration", durations.swing),
+        ("lowering's duration", durations.lower.unwrap_or(1.0)),
         ("speed share", request.speed_share),
         ("time between samples", request.tick),
         ("most that phases are slowed", request.slowest),

@@ -50,10 +50,12 @@ pub struct Schedule {
 pub struct Durations {
     /// Each rest, before the first and behind the last step.
     pub rest: f64,
-    /// Each shift of the weight; lowering and rising last as long as two shifts and a swing.
+    /// Each shift of the weight.
     pub shift: f64,
     /// Each swing.
     pub swing: f64,
+    /// Lowering, and rising; without it as long as two shifts and a swing.
+    pub lower: Option<f64>,
 }
 
 impl Schedule {
@@ -65,7 +67,7 @@ impl Schedule {
                 Action::Rest => durations.rest,
                 Action::Shift(_) | Action::Balance(_) => durations.shift,
                 Action::Swing(_) => durations.swing,
-                Action::Lower | Action::Rise => 2.0 * durations.shift + durations.swing,
+                Action::Lower | Action::Rise => durations.lower.unwrap_or(2.0 * durations.shift + durations.swing),
             };
             Phase {
                 action: *action,

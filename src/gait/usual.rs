@@ -122,6 +122,6 @@ impl Usual {
     /// others has one.
     pub fn durations(&self) -> Durations {
         let (double, phases) = (self.period * self.double_support, if self.gait.is_one_step() { 2.0 } else { 1.0 });
-        Durations { rest: self.rest, shift: double / phases, swing: self.period - double }
+        Durations { rest: self.rest, shift: double / phases, swing: self.period - double, lower: None }
     }
 }

@@ -18,6 +18,7 @@ mod interrupted;
 mod navigate;
 mod plan;
 mod refused;
+mod simulate;
 mod solve;
 mod task;
 mod track;

@@ -31,7 +31,7 @@ fn a_walk_keeps_its_promises_or_is_refused() {
         let mut asked = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
         asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
         asked.margin = margin;
-        asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing };
+        asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
         asked.gait = if preview { Gait::Preview } else { Gait::Seed };
         match walk(&asked) {
             Err(error) => {

@@ -3,7 +3,7 @@
 use groebot::gait::Side;
 use groebot::robots::{Manipulator, Virtual};
 use groebot::spatial::Pose;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 /// The figures of RH0 5.3.1 \[m\].
 const LENGTH: f64 = 0.16;
@@ -22,6 +22,23 @@ fn reaches(side: Side, trunk: [f64; 3], ahead: f64) -> bool {
 /// (3-46), (3-48), (3-50), (3-52), first component, counted from the standing foot outwards.
 fn printed_aside(x: f64) -> f64 {
     RADIUS - (HALF_WIDTH + RADIUS) / LENGTH.powi(4) * x.powi(4)
+}
+
+#[test]
+fn ten_motors_do_not_turn_an_upright_trunk_over_a_level_foot() {
+    // RH0 6.2.2 uses joints 1 to 5 and 12 to 8: roll, three pitches (whose sum counts), roll. The greatest heading of a level foot, within 40 degrees of roll.
+    let turn = |axis: Vector3<f64>, degrees: i32| Rotation3::new(axis * f64::from(degrees).to_radians());
+    let (mut level, mut widest) = (0, 0.0_f64);
+    for (first, pitch) in (-8..=8).flat_map(|first| (-18..=18).map(move |pitch| (5 * first, 5 * pitch))) {
+        for last in (-8..=8).map(|last| 5 * last) {
+            let leg = turn(Vector3::x(), first) * turn(Vector3::y(), pitch) * turn(Vector3::x(), last);
+            if (leg * Vector3::z() - Vector3::z()).norm() < 1e-9 {
+                level += 1;
+                widest = widest.max((leg * Vector3::x()).y.abs());
+            }
+        }
+    }
+    assert!(level > 0 && widest < 1e-12, "{level} postures, {widest}");
 }
 
 #[test]

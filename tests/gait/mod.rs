@@ -48,7 +48,7 @@ fn request(regular: &Regular) -> Request {
         route: Route::regular(regular).unwrap(),
         gait: Gait::Seed,
         style: style(),
-        durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54 },
+        durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54, lower: None },
         margin: 0.01,
         speed_share: 0.9,
         tick: TICK,

@@ -9,7 +9,7 @@ fn dynamic() -> Request {
     let mut request = request(&Regular { steps: 8, length: 0.05, ..regular() });
     request.gait = Gait::Preview;
     request.style.lift = 0.03;
-    request.durations = Durations { rest: 1.5, shift: 0.24, swing: 0.56 };
+    request.durations = Durations { rest: 1.5, shift: 0.24, swing: 0.56, lower: None };
     request
 }
 

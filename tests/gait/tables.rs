@@ -3,13 +3,22 @@
 //! What is fitted: the trunk goes down by the same length from sample to sample, so that 1 - cos q2 grows by a rate; the rate comes from two
 //! rows, and where the descent starts from two rows too. All other values follow, through the walk itself.
 
-use groebot::gait::{Durations, Usual, Walk};
+use groebot::gait::{Usual, Walk};
 use groebot::robots::{RH0_EXPERIMENT, RH0_SIMULATION};
 
 use super::rh0::{LINE, request, walker};
 
 /// Thigh and shank of RH0 \[m\], as inferred: `src/robots/data/rh0_right_leg.toml`.
 const SEGMENT: f64 = 0.28;
+
+#[test]
+fn the_currents_of_figure_6_5_are_those_of_one_leg() {
+    let (names, rows) = table(include_str!("../corpus/rh0/fig_6_5_currents.csv"));
+    assert_eq!((rows.len(), names[0].as_str(), names[6].as_str()), (7, "q1", "q12"));
+    // Columns 1 to 6 are the right leg's from the foot up, 7 to 12 the left one's: negatives to the last digit in all 42 pairs.
+    rows.iter().for_each(|row| (0..6).for_each(|joint| assert_eq!(row[joint], -row[joint + 6])));
+    assert_eq!(rows.iter().flatten().filter(|current| **current != 0.0).count(), 70);
+}
 
 /// The columns by name.
 fn table(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
@@ -27,9 +36,7 @@ fn depth(q2: f64) -> f64 {
 fn lowered(usual: &Usual, text: &str, rate: f64, samples: usize) -> Walk {
     let crouch = usual.upright_hip - 2.0 * SEGMENT * rate * (samples - 1) as f64;
     let mut request = request(usual, text, crouch, true);
-    let tick = request.tick;
-    let shift = tick * (samples / 4) as f64;
-    request.durations = Durations { rest: 0.0, shift, swing: tick * samples as f64 - 2.0 * shift };
+    request.durations.lower = Some(request.tick * samples as f64);
     let (robot, legs) = walker();
     let lower = groebot::gait::plan(robot, legs, &request, &groebot::Watch::none()).unwrap();
     assert_eq!(lower.schedule.phases[0].samples, samples);

@@ -1,5 +1,6 @@
 //! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
 
+mod answer;
 mod clearance;
 mod export;
 mod full_task;

@@ -1,0 +1,272 @@
+"""Plays a walk open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which holds this script.
+
+    python play.py robot.xml walk.csv answer.csv [--feet LEFT,RIGHT] [--servo STIFFNESS,DAMPING,ARMATURE] [--friction F] [--slope ROLL,PITCH]
+                   [--mass FACTOR] [--gain FACTOR] [--latency SECONDS] [--frames FOLDER]
+
+robot.xml is what `groebot export ROBOT --format mjcf` writes, walk.csv a trajectory with a base and the contacts `left` and `right`. answer.csv is a
+trajectory, too, of the same times until the robot falls: joints, base, soles and whether they press on the floor, the zero moment point by the contact
+forces of the last 20 ms, torques. What the motors are and when the robot fell goes to standard output as JSON.
+"""
+
+import argparse
+import csv
+import json
+import math
+import sys
+
+try:
+    import mujoco
+    import numpy
+except ImportError as error:
+    print(error, file=sys.stderr)
+    sys.exit(7)
+
+STEP = 0.002
+GRAVITY = 9.80665
+# Servos by the size of the robot, m its mass and l 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m l^2.
+# Of NAO (m g l = 10.3 Nm) this makes 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+SERVO = "30,1.5,0.21"
+LENGTH = 0.63
+# A body that is described as a point has moments of this share of its mass and l^2: those of TEO's trunk.
+POINT = 0.2
+# How long the robot must stand behind the last row.
+AFTER = 1.0
+# For how long contact forces are added up.
+WINDOW = 0.02
+MOST_TILT = math.radians(45)
+LEAST_HEIGHT = 0.6
+# A foot presses with this share of the weight.
+PRESSED = 0.01
+POSE = ("x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]")
+
+
+def load(path):
+    """The columns of a trajectory by their names: `q:KNEE [rad]` is `q:KNEE`, `base_x [m]` is `base_x`; and its remarks."""
+    with open(path, newline="") as file:
+        lines = list(file)
+    remarks = [line for line in lines if line.startswith("#")]
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    return {name.rsplit(" ", 1)[0]: numpy.array([float(row[name]) for row in rows]) for name in rows[0]}, remarks
+
+
+class Robot:
+    """The model at the first row of a walk."""
+
+    def __init__(self, given, walk):
+        model = mujoco.MjModel.from_xml_path(given.robot)
+        self.model, self.walk, self.latency = model, walk, given.latency
+        self.torso, self.height = 1, walk["base_z"][0]
+        roll, pitch = (math.radians(angle) for angle in given.slope)
+        # Turning gravity instead of the floor keeps the floor at z = 0.
+        across, down = math.cos(pitch) * math.sin(roll), math.cos(pitch) * math.cos(roll)
+        model.opt.gravity[:] = [GRAVITY * math.sin(pitch), -GRAVITY * across, -GRAVITY * down]
+        model.geom_friction[:, 0] = given.friction
+        self.mount(given.servo, given.gain)
+        model.body_mass[:] *= given.mass
+        model.body_inertia[:] *= given.mass
+        # What MuJoCo makes of masses and armatures for its contacts.
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+        self.data = mujoco.MjData(model)
+        self.names = [model.actuator(i).name for i in range(model.nu)]
+        zeros = numpy.zeros(len(walk["time"]))
+        self.angles = numpy.column_stack([walk.get(f"q:{name}", zeros) for name in self.names])
+        rates = numpy.gradient(self.angles, walk["time"], axis=0)
+        # A servo damps what its joint turns faster than it should.
+        self.commands = self.angles + self.damping / self.stiffness * rates
+        self.data.qpos[:7] = [walk[f"base_{key}"][0] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        for joint in range(1, model.njnt):
+            self.data.qpos[model.jnt_qposadr[joint]] = walk.get(f"q:{model.joint(joint).name}", zeros)[0]
+        self.data.ctrl[:] = self.angles[0]
+        mujoco.mj_forward(model, self.data)
+        self.floor = model.geom("floor").id
+        self.feet = [model.body(name).id for name in given.feet]
+        # A sole is welded to the foot that carries its shapes.
+        self.bodies = [set(numpy.flatnonzero(model.body_weldid == model.body_weldid[body])) for body in self.feet]
+        self.shapes = [
+            [g for g in range(model.ngeom) if model.geom_bodyid[g] in bodies and model.geom_contype[g]]
+            for bodies in self.bodies
+        ]
+        self.wrench = numpy.zeros(6)
+        self.weight = model.body_subtreemass[0] * GRAVITY
+
+    def mount(self, servo, gain):
+        """Gives each joint its motor."""
+        model = self.model
+        mass, length = model.body_subtreemass[self.torso], LENGTH * self.height
+        self.stiffness = servo[0] * mass * GRAVITY * length * gain
+        self.damping = servo[1] * mass * math.sqrt(GRAVITY) * length**1.5
+        self.armature = servo[2] * mass * length**2
+        self.points = []
+        for body in range(1, model.nbody):
+            if model.body_mass[body] > 0.01 * mass and max(model.body_inertia[body]) < 1e-6 * mass * length**2:
+                model.body_inertia[body] = POINT * model.body_mass[body] * length**2
+                self.points.append(model.body(body).name)
+        for actuator in range(model.nu):
+            dof = model.jnt_dofadr[model.actuator_trnid[actuator, 0]]
+            model.actuator_gainprm[actuator, 0] = self.stiffness
+            model.actuator_biasprm[actuator, 1:3] = -self.stiffness, -self.damping
+            model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
+
+    def command(self, time):
+        """Servos go on a straight line from row to row."""
+        times, time = self.walk["time"], time - self.latency
+        row = min(max(int(numpy.searchsorted(times, time, "right")) - 1, 0), len(times) - 1)
+        after = min(row + 1, len(times) - 1)
+        share = (time - times[row]) / (times[after] - times[row]) if after > row else 0.0
+        self.data.ctrl[:] = self.commands[row] + max(share, 0.0) * (self.commands[after] - self.commands[row])
+
+    def fell(self):
+        tilted = self.data.xmat[self.torso][8] < math.cos(MOST_TILT)
+        return bool(tilted or self.data.qpos[2] < LEAST_HEIGHT * self.height)
+
+    def clearance(self, side):
+        """The height of a foot's lowest point."""
+        return min(self.lowest(geom) for geom in self.shapes[side])
+
+    def lowest(self, geom):
+        centre, turn = self.data.geom_xpos[geom], self.data.geom_xmat[geom].reshape(3, 3)
+        kind, size = self.model.geom_type[geom], self.model.geom_size[geom]
+        if kind == mujoco.mjtGeom.mjGEOM_BOX:
+            return centre[2] - numpy.abs(turn[2]) @ size
+        if kind == mujoco.mjtGeom.mjGEOM_MESH:
+            mesh = self.model.geom_dataid[geom]
+            start, count = self.model.mesh_vertadr[mesh], self.model.mesh_vertnum[mesh]
+            return centre[2] + (self.model.mesh_vert[start : start + count] @ turn[2]).min()
+        return centre[2] - size[0] - abs(turn[2, 2]) * size[1]
+
+    def pressure(self):
+        """The sum of the floor's forces along its normal, times 1, x and y, and the part of each foot [N, N m]."""
+        sums, contacts = [0.0] * 5, self.data.contact
+        for index, ((one, other), (x, y, _)) in enumerate(zip(contacts.geom.tolist(), contacts.pos.tolist())):
+            if self.floor not in (one, other):
+                continue
+            mujoco.mj_contactForce(self.model, self.data, index, self.wrench)
+            force = float(self.wrench[0])
+            for place, part in enumerate((1.0, x, y)):
+                sums[place] += force * part
+            foot = other if one == self.floor else one
+            for side in (0, 1):
+                sums[3 + side] += force * (foot in self.shapes[side])
+        return numpy.array(sums)
+
+
+class Table:
+    """What the robot did, a row a sample of the walk."""
+
+    def __init__(self, robot):
+        self.robot, self.rows = robot, []
+        self.zmp = numpy.array([robot.data.subtree_com[0][0], robot.data.subtree_com[0][1]])
+
+    def header(self):
+        joints = [f"q:{name} [{self.unit(name, 'rad', 'm')}]" for name in self.robot.names]
+        poses = [f"base_{end}" for end in POSE]
+        for side in ("left", "right"):
+            poses += [f"{side}_{end}" for end in POSE] + [f"{side}_stands [1]"]
+        figures = ["zmp_x [m]", "zmp_y [m]", "zmp_z [m]", "pressed [N]", "left_clearance [m]", "right_clearance [m]"]
+        torques = [f"tau:{name} [{self.unit(name, 'N m', 'N')}]" for name in self.robot.names]
+        return ["time [s]"] + joints + poses + figures + torques
+
+    def unit(self, name, turning, sliding):
+        slides = self.robot.model.joint(name).type[0] == mujoco.mjtJoint.mjJNT_SLIDE
+        return sliding if slides else turning
+
+    def add(self, time, pressure):
+        robot, data = self.robot, self.robot.data
+        if pressure[0] > PRESSED * robot.weight:
+            self.zmp = pressure[1:3] / pressure[0]
+        places = [robot.model.joint(name).qposadr[0] for name in robot.names]
+        row = [time, *data.qpos[places], *data.qpos[:3], *xyzw(data.qpos[3:7])]
+        for side, body in enumerate(robot.feet):
+            row += [*data.xpos[body], *xyzw(data.xquat[body]), int(pressure[3 + side] > PRESSED * robot.weight)]
+        row += [*self.zmp, 0.0, pressure[0], robot.clearance(0), robot.clearance(1), *data.actuator_force]
+        self.rows.append(row)
+
+    def write(self, path, remarks):
+        with open(path, "w") as file:
+            file.writelines([*remarks, ",".join(self.header()) + "\n"])
+            file.writelines(",".join(f"{value:.9f}" for value in row) + "\n" for row in self.rows)
+
+
+def xyzw(quaternion):
+    w, x, y, z = quaternion
+    return x, y, z, w
+
+
+def play(robot, film=None):
+    """Plays the walk; the table, and when the robot fell."""
+    table, times = Table(robot), robot.walk["time"]
+    pressures = [robot.pressure()]
+    table.add(times[0], pressures[0])
+    for row, (start, end) in enumerate(zip(times, [*times[1:], times[-1] + AFTER])):
+        steps = math.ceil((end - start) / STEP - 1e-6)
+        robot.model.opt.timestep = step = (end - start) / steps
+        for index in range(steps):
+            robot.command(start + index * step)
+            mujoco.mj_step(robot.model, robot.data)
+            left = (steps - 1 - index) * step
+            if left < WINDOW:
+                pressures.append(robot.pressure())
+            if robot.fell():
+                return table, start + (index + 1) * step
+            if film:
+                film(robot, start + (index + 1) * step)
+        if row + 1 < len(times):
+            mujoco.mj_kinematics(robot.model, robot.data)
+            table.add(end, numpy.mean(pressures[-round(WINDOW / STEP) :], axis=0))
+    return table, None
+
+
+def filming(folder):
+    from pathlib import Path
+
+    from PIL import Image
+
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    made = {"renderer": None, "next": 0.0}
+
+    def film(robot, time):
+        if time < made["next"]:
+            return
+        made["next"] += 0.1
+        renderer = made["renderer"] = made["renderer"] or mujoco.Renderer(robot.model, 480, 640)
+        camera = mujoco.MjvCamera()
+        camera.lookat[:] = robot.data.xpos[robot.torso]
+        camera.distance, camera.azimuth, camera.elevation = 3.2 * robot.height, 120.0, -12.0
+        renderer.update_scene(robot.data, camera=camera)
+        Image.fromarray(renderer.render()).save(f"{folder}/{time:06.2f}.png")
+
+    return film
+
+
+def arguments():
+    numbers = lambda text: [float(number) for number in text.split(",")]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("robot", help="MJCF of `groebot export`")
+    parser.add_argument("walk", help="CSV of `groebot walk`")
+    parser.add_argument("answer", help="where the answer goes, CSV")
+    parser.add_argument("--feet", type=lambda text: text.split(","), default="l_sole,r_sole", help="the links of the soles")
+    parser.add_argument("--servo", type=numbers, default=SERVO, help="stiffness, damping, armature by the size of the robot")
+    parser.add_argument("--friction", type=float, default=0.8)
+    parser.add_argument("--slope", type=numbers, default="0,0", help="how far the floor is turned about x and y [degrees]")
+    parser.add_argument("--mass", type=float, default=1.0, help="all masses times this")
+    parser.add_argument("--gain", type=float, default=1.0, help="stiffness times this")
+    parser.add_argument("--latency", type=float, default=0.0, help="commands are so late [s]")
+    parser.add_argument("--frames", help="folder for pictures, ten a second")
+    return parser.parse_args()
+
+
+def main():
+    given = arguments()
+    walk, remarks = load(given.walk)
+    robot = Robot(given, walk)
+    table, fell = play(robot, filming(given.frames) if given.frames else None)
+    table.write(given.answer, remarks)
+    told = {
+        "mujoco": mujoco.__version__, "fell": fell, "stiffness": robot.stiffness, "damping": robot.damping,
+        "armature": robot.armature, "mass": robot.weight / GRAVITY, "points": robot.points,
+    }
+    print(json.dumps(told))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+//! MuJoCo, an outside program: a Python with the package `mujoco` plays a walk by `scripts/physics/play.py`.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+use tempfile::TempDir;
+
+use crate::document::read_text;
+use crate::motion::Trajectory;
+use crate::motion::table::TABLE_LIMIT;
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// What plays.
+const SCRIPT: &str = include_str!("../../scripts/physics/play.py");
+/// The names of Python, without the variable that names another one.
+const PYTHON: &str = "python3";
+const VARIABLE: &str = "GROEBOT_PYTHON";
+/// The exit status of the script without MuJoCo.
+const NO_MUJOCO: i32 = 7;
+/// How often the script is looked at.
+const PAUSE: Duration = Duration::from_millis(10);
+/// What is read of what the script tells, in bytes.
+const TOLD_LIMIT: u64 = 1_000_000;
+
+/// What the world and the motors are in a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Case {
+    /// The coefficient of friction.
+    pub friction: f64,
+    /// How far the floor is turned about x and then y \[degrees\]: the left side is up, what is ahead is down.
+    pub slope: [f64; 2],
+    /// All masses times this.
+    pub mass: f64,
+    /// The stiffness of motors times this.
+    pub gain: f64,
+    /// How late commands are \[s\].
+    pub latency: f64,
+}
+
+/// What the script tells of a run.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Told {
+    /// The version of MuJoCo.
+    pub mujoco: String,
+    /// When the robot fell \[s\].
+    pub fell: Option<f64>,
+    /// The stiffness of each motor \[N m/rad\].
+    pub stiffness: f64,
+    /// Its damping \[N m s/rad\].
+    pub damping: f64,
+    /// Its inertia at the joint \[kg m^2\].
+    pub armature: f64,
+    /// The mass of the robot \[kg\].
+    pub mass: f64,
+    /// The bodies that are described as points, which have been given moments.
+    pub points: Vec<String>,
+}
+
+/// A folder with script, robot and walk.
+pub struct Stage {
+    folder: TempDir,
+    python: PathBuf,
+    /// What is the same in all runs.
+    fixed: Vec<String>,
+}
+
+/// A process that does not outlive its owner.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Stage {
+    /// Makes the folder for a robot in MJCF and a walk; `feet` are the links of the soles, `servo` stiffness, damping and armature by the robot's size.
+    pub fn new(robot: &str, walk: &Trajectory, feet: [&str; 2], servo: Option<&[f64]>) -> Result<Self> {
+        let folder = tempfile::tempdir().map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
+        for (name, text) in [("play.py", SCRIPT), ("robot.xml", robot), ("walk.csv", &walk.to_csv())] {
+            let file = folder.path().join(name);
+            fs::write(&file, text).map_err(|error| Error::io(&file, &error))?;
+        }
+        let mut fixed = vec![format!("--feet={}", feet.join(","))];
+        fixed.extend(servo.map(|servo| format!("--servo={}", listed(servo))));
+        let python = std::env::var_os(VARIABLE).filter(|name| !name.is_empty()).map_or(PYTHON.into(), PathBuf::from);
+        Ok(Stage { folder, python, fixed })
+    }
+
+    /// Plays the walk in a case: what the robot did, and what the script tells.
+    pub fn play(&self, case: &Case, watch: &Watch) -> Result<(Trajectory, Told)> {
+        let at = |name: &str| self.folder.path().join(name);
+        let file = |name: &str| File::create(at(name)).map_err(|error| Error::io(&at(name), &error));
+        let mut command = Command::new(&self.python);
+        command.args(["-B", "play.py", "robot.xml", "walk.csv", "answer.csv"]).args(&self.fixed).args(case.arguments());
+        command
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null())
+            .stdout(file("told.json")?)
+            .stderr(file("errors.txt")?);
+        let mut running = Running(command.spawn().map_err(|error| self.no_mujoco(&error.to_string()))?);
+        let status = loop {
+            if let Some(status) = running.0.try_wait().map_err(|error| Error::io(&self.python, &error))? {
+                break status;
+            }
+            watch.check()?;
+            sleep(PAUSE);
+        };
+        if !status.success() {
+            let errors = fs::read_to_string(at("errors.txt")).unwrap_or_default();
+            let last = errors.lines().last().unwrap_or("it tells nothing");
+            return Err(match status.code() {
+                Some(NO_MUJOCO) => self.no_mujoco(last),
+                _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo does not play this: {last}")),
+            });
+        }
+        let told = read_text(&at("told.json"), TOLD_LIMIT)?;
+        let told = serde_json::from_str(&told).map_err(|error| {
+            Error::new(ErrorKind::Syntax, format!("what {} tells is not understood: {error}", self.python.display()))
+        })?;
+        Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, told))
+    }
+
+    fn no_mujoco(&self, reason: &str) -> Error {
+        let text = format!(
+            "`{}` does not run MuJoCo ({reason}); get it by `python3 -m venv mujoco && mujoco/bin/pip install mujoco`, and name that Python: \
+             {VARIABLE}=mujoco/bin/python",
+            self.python.display()
+        );
+        Error::new(ErrorKind::Unsupported, text)
+    }
+}
+
+impl Case {
+    fn arguments(&self) -> [String; 5] {
+        let Case { friction, slope, mass, gain, latency } = self;
+        [
+            format!("--friction={friction}"),
+            format!("--slope={}", listed(slope)),
+            format!("--mass={mass}"),
+            format!("--gain={gain}"),
+            format!("--latency={latency}"),
+        ]
+    }
+}
+
+fn listed(numbers: &[f64]) -> String {
+    numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// The path from the root of the file system, where there is such a file.
+pub fn whole(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}

@@ -1,0 +1,307 @@
+//! `groebot simulate`: a walk is played open loop in MuJoCo, and what the robot does stands beside what was planned.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::files::is_json;
+use super::json::FORMAT;
+use super::moving::{self, Motion, described};
+use super::physics::{Case, Stage, Told, whole};
+use super::progress::{Limits, Session, seconds};
+use super::{Halt, Outcome, console};
+use crate::document::shown;
+use crate::files::write_atomically;
+use crate::model::Robot;
+use crate::motion::Trajectory;
+use crate::sim::{Comparison, Quantity, soles};
+use crate::{Error, ErrorKind, Result, Watch};
+
+const EXAMPLES: &str = "Examples:
+  groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --torques -o walk.csv
+  groebot simulate walk.csv -o answer.csv --plot joints.svg
+  groebot simulate walk.csv --friction 0.4 --slope 0,3 --mass 1.2
+  groebot simulate walk.csv --vary
+  groebot simulate walk.csv --model talos.urdf --left left_sole_link --right right_sole_link
+
+MuJoCo is an outside program: a Python with it is GROEBOT_PYTHON, or python3 (python3 -m venv mujoco && mujoco/bin/pip install mujoco). The robot is written for it as by `export`.
+
+Motors: position servos of one kind, torque = stiffness (command - q) - damping (q' - planned q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness
+in m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, m the robot's mass, l 0.63 of the height of its torso. Nothing is fed back but the servos' own angles. A body that is
+described as a point has moments 0.2 m l^2. Where the walk tells torques (`walk --torques`) the sag that they foretell stands beside the answer's deviation.
+The answer is a trajectory of the same times until the robot falls: joints, base, soles and whether they press, ZMP by the contact forces of 20 ms, torques.
+
+The exit status is 5 when the robot falls, of --vary when it falls in any run.";
+
+/// Plays a walk open loop in MuJoCo, and tells how far joints, zero moment point and way are from the plan
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The walk, CSV or JSON
+    walk: PathBuf,
+    /// The robot: nao, rh0, teo, or a description in URDF or TOML [default: the one that the walk names]
+    #[arg(long, value_name = "ROBOT-or-FILE")]
+    model: Option<PathBuf>,
+    /// The link of the left sole
+    #[arg(long, value_name = "LINK", default_value = "l_sole")]
+    left: String,
+    /// The link of the right sole
+    #[arg(long, value_name = "LINK", default_value = "r_sole")]
+    right: String,
+    /// Stiffness, damping and inertia of the motors, by the size of the robot [default: 30,1.5,0.21]
+    #[arg(long, value_name = "STIFFNESS,DAMPING,INERTIA", value_delimiter = ',', num_args = 1)]
+    servo: Option<Vec<f64>>,
+    /// The coefficient of friction of soles on the floor
+    #[arg(long, value_name = "F", default_value_t = 0.8)]
+    friction: f64,
+    /// How far the floor is turned: about x, the left side up, and about y, what is ahead down [degrees]
+    #[arg(
+        long,
+        value_name = "ROLL,PITCH",
+        value_delimiter = ',',
+        num_args = 1,
+        default_value = "0,0",
+        allow_hyphen_values = true
+    )]
+    slope: Vec<f64>,
+    /// All masses times this
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    mass: f64,
+    /// The stiffness of motors times this
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    gain: f64,
+    /// How late commands are [s]
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    latency: f64,
+    /// Slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them together: what falls and what stands
+    #[arg(long, conflicts_with_all = ["out", "plot", "plot_rates", "plot_torques"])]
+    vary: bool,
+    /// Give up after this time
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "3600")]
+    time: std::time::Duration,
+    /// Where the answer goes: CSV, or JSON when the name ends in .json
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Where the picture of the legs' joints goes, references and answers, SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// The same of their rates
+    #[arg(long, value_name = "FILE")]
+    plot_rates: Option<PathBuf>,
+    /// The same of their torques
+    #[arg(long, value_name = "FILE")]
+    plot_torques: Option<PathBuf>,
+    /// JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// Plays, compares and writes what is asked for.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let (plan, robot, meshes) = arguments.read()?;
+    let nominal = arguments.case()?;
+    let feet = [&arguments.left[..], &arguments.right];
+    let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right name the soles"))?;
+    let stage = Stage::new(&robot.to_mjcf(&meshes), &plan, feet, arguments.servo.as_deref())?;
+    let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
+    if arguments.vary {
+        let runs = varied(&stage, &plan, &nominal, &session.watch)?;
+        drop(session);
+        return tell_all(&runs, arguments.json);
+    }
+    let (answer, told) = stage.play(&nominal, &session.watch)?;
+    drop(session);
+    let compared = Comparison::of(&plan, &answer, told.stiffness / nominal.mass)?;
+    arguments.write(&plan, &answer, &legs)?;
+    if arguments.json {
+        let value =
+            json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared });
+        console::print(&super::json::text(&value))?;
+    } else {
+        console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&told), motors(&told)))?;
+    }
+    if told.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
+}
+
+impl Arguments {
+    /// The walk, and who walks.
+    fn read(&self) -> Result<(Trajectory, Robot, crate::model::Meshes)> {
+        let file = &self.walk;
+        let Some(Motion { trajectory: plan, .. }) = moving::motion(file)? else {
+            let text = "this is no walk by its name; give one of `groebot walk` or `groebot navigate`, .csv or .json";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+        };
+        soles(&plan).map_err(|error| error.in_file(file))?;
+        let model = self.model.clone().unwrap_or_else(|| PathBuf::from(&plan.robot));
+        if !model.exists() && model.to_str().and_then(crate::robots::robot).is_none() {
+            let text = format!(
+                "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo by --model",
+                shown(&model.to_string_lossy())
+            );
+            return Err(Error::new(ErrorKind::UnknownName, text));
+        }
+        // MuJoCo looks for meshes from another folder.
+        let (robot, meshes) = described(&if model.exists() { whole(&model) } else { model })?;
+        let unknown = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err());
+        match unknown {
+            Some(joint) => {
+                let text = format!(
+                    "the walk moves `{}`, a joint that {} has not; give its robot by --model",
+                    shown(&joint.name),
+                    shown(robot.name())
+                );
+                Err(Error::new(ErrorKind::UnknownName, text).in_file(file))
+            }
+            None => Ok((plan, robot, meshes)),
+        }
+    }
+
+    fn case(&self) -> Result<Case> {
+        let &[roll, pitch] = &self.slope[..] else {
+            return Err(bad("--slope takes two numbers of degrees, such as 0,3"));
+        };
+        if self
+            .servo
+            .as_ref()
+            .is_some_and(|servo| servo.len() != 3 || servo.iter().any(|x| !(x.is_finite() && *x > 0.0)))
+        {
+            return Err(bad("--servo takes three positive numbers, such as 30,1.5,0.21"));
+        }
+        if !(roll.abs() < 45.0 && pitch.abs() < 45.0) {
+            return Err(bad("--slope is too steep; give less than 45 degrees"));
+        }
+        for (name, value) in [("--mass", self.mass), ("--gain", self.gain), ("--friction", self.friction)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(bad(&format!("{name} is {value}; give a positive number")));
+            }
+        }
+        if !(self.latency.is_finite() && self.latency >= 0.0) {
+            return Err(bad("--latency is a time, 0 or more"));
+        }
+        Ok(Case {
+            friction: self.friction,
+            slope: [roll, pitch],
+            mass: self.mass,
+            gain: self.gain,
+            latency: self.latency,
+        })
+    }
+
+    fn write(&self, plan: &Trajectory, answer: &Trajectory, legs: &[Vec<String>; 2]) -> Result<()> {
+        if let Some(file) = &self.out {
+            let text = if is_json(file) { answer.to_json().to_string() + "\n" } else { answer.to_csv() };
+            write_atomically(file, text.as_bytes())?;
+        }
+        let pictures =
+            [(&self.plot, Quantity::Angle), (&self.plot_rates, Quantity::Rate), (&self.plot_torques, Quantity::Torque)];
+        for (file, quantity) in pictures {
+            if let Some(file) = file {
+                write_atomically(file, quantity.picture(plan, answer, legs).as_bytes())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The joints of both legs, from the root to the soles.
+fn legs(robot: &Robot, feet: [&str; 2]) -> Result<[Vec<String>; 2]> {
+    let leg = |foot: &str| -> Result<Vec<String>> {
+        let path = robot.path(None, Some(foot))?;
+        let joints = path.joints.iter().map(|(joint, _)| &robot.joints()[*joint]);
+        Ok(joints.filter(|joint| joint.kind.is_single()).map(|joint| joint.name.clone()).collect())
+    };
+    Ok([leg(feet[0])?, leg(feet[1])?])
+}
+
+/// A run of --vary.
+struct Run {
+    case: Case,
+    told: Told,
+    compared: Comparison,
+}
+
+/// Slopes, frictions and masses, one after the other and together.
+fn cases(nominal: &Case) -> Vec<Case> {
+    let mut cases = vec![*nominal];
+    for angle in [1.0, 2.0, 3.0] {
+        let slopes = [[0.0, -angle], [0.0, angle], [angle, 0.0], [-angle, 0.0]];
+        cases.extend(slopes.map(|slope| Case { slope, ..*nominal }));
+    }
+    cases.extend([0.4, 0.6, 1.0].map(|friction| Case { friction, ..*nominal }));
+    cases.extend([0.8, 1.2].map(|mass| Case { mass, ..*nominal }));
+    for slope in [[0.0, -3.0], [0.0, 3.0], [3.0, 0.0], [-3.0, 0.0]] {
+        for friction in [0.4, 1.0] {
+            cases.extend([0.8, 1.2].map(|mass| Case { slope, friction, mass, ..*nominal }));
+        }
+    }
+    cases.extend([0.8, 1.2].map(|gain| Case { gain, ..*nominal }));
+    cases.extend([0.02, 0.04].map(|latency| Case { latency, ..*nominal }));
+    cases
+}
+
+fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Result<Vec<Run>> {
+    let cases = cases(nominal);
+    let one = |(done, case): (usize, &Case)| {
+        watch.report("runs", done, cases.len() - done);
+        let (answer, told) = stage.play(case, watch)?;
+        let compared = Comparison::of(plan, &answer, told.stiffness / case.mass)?;
+        Ok(Run { case: *case, told, compared })
+    };
+    cases.iter().enumerate().map(one).collect()
+}
+
+fn tell_all(runs: &[Run], as_json: bool) -> Outcome {
+    if as_json {
+        let run = |Run { case, told, compared }: &Run| json!({ "case": case, "run": told, "comparison": compared });
+        let value = json!({ "format": FORMAT, "runs": runs.iter().map(run).collect::<Vec<_>>() });
+        console::print(&super::json::text(&value))?;
+    } else {
+        let rows: String = runs.iter().map(row).collect();
+        console::print(&format!(
+            "roll_deg,pitch_deg,friction,mass,gain,latency_s,fell_s,off_mm,turn_off_deg,tilt_deg,landings,planned_landings,lift_mm,zmp_rms_mm,deviation_mrad\n{rows}"
+        ))?;
+    }
+    if runs.iter().any(|run| run.told.fell.is_some()) { Err(Halt::Fell) } else { Ok(()) }
+}
+
+fn row(Run { case, told, compared }: &Run) -> String {
+    let fell = told.fell.map_or("stands".to_owned(), |time| format!("{time:.2}"));
+    let deviation = compared.joints.iter().map(|joint| joint.greatest.abs()).fold(0.0, f64::max);
+    format!(
+        "{},{},{},{},{},{},{fell},{:.0},{:.1},{:.1},{},{},{:.1},{:.1},{:.1}\n",
+        case.slope[0],
+        case.slope[1],
+        case.friction,
+        case.mass,
+        case.gain,
+        case.latency,
+        1e3 * compared.off(),
+        (compared.walked.turn - compared.planned.turn).to_degrees(),
+        compared.tilt.to_degrees(),
+        compared.landings[1],
+        compared.landings[0],
+        1e3 * compared.lift,
+        1e3 * compared.zmp[1],
+        1e3 * deviation
+    )
+}
+
+fn verdict(told: &Told) -> String {
+    let Told { mujoco, mass, fell, .. } = told;
+    let fate = fell.map_or("it stands to the end".to_owned(), |time| format!("it falls at {time:.2} s"));
+    format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
+}
+
+fn motors(told: &Told) -> String {
+    let Told { stiffness, damping, armature, .. } = told;
+    let points = if told.points.is_empty() {
+        String::new()
+    } else {
+        format!("  moments         assumed of {}, which is described as a point\n", told.points.join(", "))
+    };
+    format!("{points}  motors          {stiffness:.1} N m/rad, {damping:.3} N m s/rad, {armature:.4} kg m^2\n")
+}
+
+fn bad(text: &str) -> Error {
+    Error::new(ErrorKind::BadValue, text)
+}

@@ -1,0 +1,151 @@
+//! `groebot simulate`, as a user would; what needs MuJoCo takes it from `GROEBOT_PYTHON` or python3.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{Ran, groebot, refused, root, succeed, text};
+
+/// Walks in a folder, and the file.
+fn walked(arguments: &[&str]) -> (TempDir, String) {
+    let folder = tempdir().unwrap();
+    let file = text(&folder.path().join("walk.csv")).to_owned();
+    succeed(&[&["walk"], arguments, &["--torques", "--quiet", "-o", &file]].concat());
+    (folder, file)
+}
+
+fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
+    let mut command = groebot(&[&["simulate"], arguments].concat());
+    if let Some(python) = python {
+        command.env("GROEBOT_PYTHON", python);
+    }
+    let output = command.output().unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert!(!err.contains("panicked"), "{err}");
+    Ran { code: output.status.code().unwrap(), out, err }
+}
+
+/// What a run tells as JSON; `None`, aloud, without MuJoCo (an error with `GROEBOT_REQUIRE_TOOLS=1`).
+fn told(arguments: &[&str], code: i32) -> Option<Value> {
+    let ran = simulated(&[arguments, &["--json"]].concat(), None);
+    if ran.code == 1 && ran.err.contains("does not run MuJoCo") {
+        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
+        assert!(!required, "{}", ran.err);
+        println!("skipped: {}", ran.err);
+        return None;
+    }
+    assert_eq!((ran.code, ran.err.as_str()), (code, ""));
+    Some(serde_json::from_str(&ran.out).unwrap())
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn what_is_no_walk_is_refused() {
+    let (folder, walk) = walked(&["nao", "--steps", "2"]);
+    let arm = folder.path().join("arm.csv");
+    fs::write(&arm, "# groebot trajectory 1\n# robot: ur5\ntime [s],q:a [rad]\n0,0\n1,1\n").unwrap();
+    let cases: [(&[&str], &str); 10] = [
+        (&["walk.txt"], "this is no walk by its name"),
+        (&["/nowhere/walk.csv"], "No such file"),
+        (&[text(&arm)], "the contacts `left` and `right`"),
+        (&[&walk, "--model", "teapot"], "give a file, nao, rh0 or teo by --model"),
+        (&[&walk, "--model", "rh0"], "a joint that rh0 has not"),
+        (&[&walk, "--left", "l_shoe"], "l_shoe"),
+        (&[&walk, "--slope", "3"], "--slope takes two numbers"),
+        (&[&walk, "--slope", "50,0"], "less than 45 degrees"),
+        (&[&walk, "--servo", "1,2"], "three positive numbers"),
+        (&[&walk, "--mass", "0"], "--mass is 0; give a positive number"),
+    ];
+    for (arguments, reason) in cases {
+        let error = refused(&[&["simulate"], arguments].concat());
+        assert!(error.contains(reason), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn without_mujoco_it_says_how_to_get_it() {
+    let (folder, walk) = walked(&["nao", "--steps", "2"]);
+    let nowhere = folder.path().join("no_python");
+    let ran = simulated(&[&walk], Some(&nowhere));
+    assert!(ran.code == 1 && ran.err.contains("pip install mujoco") && ran.err.contains("no_python"), "{}", ran.err);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let script = |text: &str| {
+            fs::write(&nowhere, format!("#!/bin/sh\n{text}\n")).unwrap();
+            fs::set_permissions(&nowhere, fs::Permissions::from_mode(0o755)).unwrap();
+            simulated(&[&walk, "--time", "1"], Some(&nowhere)).err
+        };
+        let missing = script("echo \"No module named 'mujoco'\" >&2; exit 7");
+        assert!(missing.contains("No module named 'mujoco'") && missing.contains("GROEBOT_PYTHON="), "{missing}");
+        assert!(script("echo odd >&2; exit 1").contains("MuJoCo does not play this: odd"));
+        assert!(script("echo odd").contains("is not understood"));
+        assert!(script("exec sleep 60").contains("the time budget of 1.0 s"));
+    }
+}
+
+#[test]
+fn nao_stands() {
+    let (_folder, walk) = walked(&["nao", "--steps", "4"]);
+    let Some(told) = told(&[&walk], 0) else { return };
+    let compared = &told["comparison"];
+    assert_eq!((&told["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([4, 4])));
+    assert!((number(&told["run"]["mass"]) - 5.30575).abs() < 1e-4);
+    let [planned, walked] = ["planned", "walked"].map(|way| number(&compared[way]["ahead"]));
+    assert!((planned - 0.12).abs() < 1e-6 && (walked - planned).abs() < 0.02, "{planned} {walked}");
+    assert!(number(&compared["tilt"]) < 3f64.to_radians());
+}
+
+/// RH0 6.2 with two steps. The ZMP by contact forces is within 8 mm rms of the plan (of 30 mm that RA_AS leaves); a hip's roll is off by what
+/// stiffness and the plan's torque foretell within a tenth.
+#[test]
+fn rh0_stands_and_sags_as_its_motors_foretell() {
+    let (folder, walk) = walked(&["rh0", "--gait", "rh0-real", "--crouched", "--plan", "out right, in left"]);
+    let at = |name: &str| folder.path().join(name);
+    let (out, plot) = (at("answer.csv"), at("joints.svg"));
+    let Some(told) = told(&[&walk, "-o", text(&out), "--plot", text(&plot)], 0) else { return };
+    let compared = &told["comparison"];
+    assert_eq!((&told["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
+    assert_eq!(told["run"]["points"], serde_json::json!(["Trunk"]), "its moments are assumed");
+    assert!(number(&compared["zmp"][1]) < 0.008, "{}", compared["zmp"]);
+    let joints = compared["joints"].as_array().unwrap();
+    let roll = joints.iter().find(|joint| joint["joint"] == "RHipRoll").or(joints.first()).unwrap();
+    let (greatest, sag) = (number(&roll["greatest"]), number(&roll["sag"]));
+    assert!(sag.abs() > 5e-3 && (greatest / sag - 1.0).abs() < 0.1, "{roll}");
+    let answer = fs::read_to_string(&out).unwrap();
+    assert!(answer.starts_with("# groebot trajectory 1\n# robot: rh0\n"));
+    assert_eq!(answer.lines().count(), 3 + 1 + 2 * 323, "as many samples as the walk");
+    let picture = fs::read_to_string(&plot).unwrap();
+    assert_eq!(picture.matches("class=\"title\"").count(), 12);
+    // The circle of 30 mm at 0.67 m holds no more than 3.4 degrees.
+    let Some(fallen) = self::told(&[&walk, "--slope", "5,0"], 5) else { return };
+    assert!(number(&fallen["run"]["fell"]) < 46.0);
+}
+
+/// RH0 Fig. 6-5: the rates of the descent that takes 271 intervals, from the 268th on, within 0.001 rpm.
+#[test]
+fn the_rates_of_figure_6_5_come_out() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("joints.csv");
+    let plan = ["walk", "rh0", "--gait", "rh0-real", "--plan", "turn left 10", "--descent-intervals", "271", "--quiet"];
+    succeed(&[&plan[..], &["--thesis", text(&file)]].concat());
+    let table = |path: &Path| -> Vec<Vec<String>> {
+        fs::read_to_string(path).unwrap().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let (printed, ours) = (table(&root("tests/corpus/rh0/fig_6_5_rates.csv")), table(&file));
+    for (row, rates) in printed[1..].iter().enumerate() {
+        for (name, rate) in printed[0].iter().zip(rates) {
+            let column = ours[0].iter().position(|own| own == name).unwrap();
+            let angle = |sample: usize| ours[1 + sample][column].parse::<f64>().unwrap();
+            // Degrees in 0.072 s as turns in a minute.
+            let rpm = (angle(269 + row) - angle(268 + row)) / 0.072 / 6.0;
+            assert!((rpm - rate.parse::<f64>().unwrap()).abs() < 1e-3, "row {row}, {name}: {rpm} for {rate}");
+        }
+    }
+    assert!(refused(&["walk", "nao", "--descent-intervals", "9"]).contains("for one step goal"));
+}
