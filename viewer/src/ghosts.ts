@@ -74,6 +74,7 @@ export class Ghosts {
 
   private clear(): void {
     this.group.clear();
+    this.bodies.forEach((body) => body.dispose());
     this.bodies.length = 0;
   }
 
