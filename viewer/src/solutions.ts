@@ -85,8 +85,23 @@ export class Solutions {
 
   private choose(solver: LimbSolver): void {
     this.chosen = solver;
-    element("certificate").textContent = solver.limb.certificate ? `Certificate ${solver.limb.certificate}` : "";
+    this.showCertificate(solver.limb.certificate);
     this.solve(solver.reached());
+  }
+
+  private showCertificate(hash: string | undefined): void {
+    const [shown, copy] = [element("certificate"), element("certificate-copy")];
+    const told = worded("code", hash ?? "");
+    shown.replaceChildren(...(hash ? ["Certificate ", told] : []));
+    copy.hidden = !hash;
+    copy.onclick = async () => {
+      try {
+        await navigator.clipboard.writeText(hash!);
+      } catch {
+        // Where the browser lets no page copy, it stands selected for the hand.
+        getSelection()?.selectAllChildren(told);
+      }
+    };
   }
 
   private solve(target: Frame): void {
