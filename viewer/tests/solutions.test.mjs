@@ -120,6 +120,10 @@ test("a singular pose tells its self-motion, joints beyond limits their names", 
   assert.ok(far.some(({ outside }) => outside.length > 0) && far.some(({ within }) => within));
   assert.match(await leg.locator("#solutions ol").innerText(), /beyond the limits of /);
   assert.match(await leg.locator("#certificate").innerText(), /^Certificate [0-9a-f]{64}$/);
+  const [hash] = (await leg.locator("#certificate").innerText()).match(/[0-9a-f]{64}/);
+  await leg.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await leg.getByRole("button", { name: "Copy the hash" }).click();
+  assert.equal(await leg.evaluate(() => navigator.clipboard.readText()), hash);
 });
 
 test("sliders lead the target, and the panel closes by its key", async () => {
