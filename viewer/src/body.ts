@@ -69,6 +69,15 @@ export class Body {
     for (const material of [this.plain, this.bone]) Object.assign(material, { opacity, transparent: true, depthWrite: false });
   }
 
+  /** Gives back what the picture's memory holds for it. */
+  dispose(): void {
+    this.group.traverse((part) => {
+      if (!(part instanceof Mesh)) return;
+      part.geometry.dispose();
+      part.material.dispose();
+    });
+  }
+
   private isIn(link: number): boolean {
     return this.only?.has(link) ?? true;
   }

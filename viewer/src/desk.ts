@@ -247,6 +247,8 @@ export class Desk {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target as HTMLElement;
     const takes = (kinds: string) => target.matches(kinds);
+    // Who types means the field.
+    if (takes("input:not([type=range]), select, textarea")) return;
     const { app } = this;
     const times = app.data.motion?.times;
     const actions: Record<string, () => void> = {
@@ -257,8 +259,8 @@ export class Desk {
     if (app.data.limbs.length > 0) actions["s"] = () => this.toggle("solutions");
     if (app.data.run) actions["r"] = () => this.toggle("run");
     if (this.picture) VIEW_NAMES.forEach((view, place) => (actions[String(place + 1)] = () => this.look(view)));
-    if (times && !takes("button, select, summary")) actions[" "] = () => this.player.toggle();
-    if (times && !takes("select, aside input")) {
+    if (times && !takes("button, summary")) actions[" "] = () => this.player.toggle();
+    if (times && !takes("aside input")) {
       const far = event.shiftKey ? 10 : 1;
       actions["ArrowLeft"] = () => this.go(() => app.step(-far));
       actions["ArrowRight"] = () => this.go(() => app.step(far));

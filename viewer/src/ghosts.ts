@@ -13,6 +13,8 @@ const OPACITY = [0.16, 0.6] as const;
 
 export class Ghosts {
   private readonly bodies: Body[] = [];
+  /** Those along a self-motion. */
+  private readonly fan: Body[] = [];
   private readonly group = new Group();
   private readonly handle = new Group();
   private readonly controls: TransformControls;
@@ -50,6 +52,7 @@ export class Ghosts {
       body.group.visible = place < frames.length && place !== taken;
       if (body.group.visible) body.show(frames[place]!);
     });
+    this.spread([]);
     this.moving = true;
     matrix(multiply(this.app.frames[limb.base]!, target)).decompose(this.handle.position, this.handle.quaternion, this.handle.scale);
     this.handle.updateMatrixWorld(true);
@@ -57,8 +60,9 @@ export class Ghosts {
     this.stage.draw();
   }
 
-  /** Makes one ghost stand out, or none. */
-  point(place: number | undefined): void {
+  /** Makes one ghost stand out, with those along its self-motion; or none. */
+  point(place: number | undefined, along: Frame[][] = []): void {
+    this.spread(along);
     this.bodies.forEach((body, own) => body.fade(OPACITY[own === place ? 1 : 0]));
     this.stage.draw();
   }
@@ -69,12 +73,21 @@ export class Ghosts {
   }
 
   paint(): void {
-    this.bodies.forEach((body) => body.paint("accent"));
+    for (const body of [...this.bodies, ...this.fan]) body.paint("accent");
   }
 
   private clear(): void {
     this.group.clear();
-    this.bodies.length = 0;
+    for (const body of [...this.bodies, ...this.fan]) body.dispose();
+    this.bodies.length = this.fan.length = 0;
+  }
+
+  private spread(along: Frame[][]): void {
+    while (this.limb && this.fan.length < along.length) this.fan.push(this.ghost(this.limb));
+    this.fan.forEach((body, place) => {
+      body.group.visible = place < along.length;
+      if (body.group.visible) body.show(along[place]!);
+    });
   }
 
   private ghost(limb: Limb): Body {

@@ -1,10 +1,11 @@
 /** The solutions of a limb for a target: all of them, each with its frames. */
 
 import type { App } from "./app";
-import type { Limb } from "./data";
+import type { Joint, Limb } from "./data";
 import type { Engine } from "./engine";
 import { complete, forward } from "./kinematics";
 import { inverse, multiply, type Frame } from "./pose";
+import { selfMotion } from "./selfmotion";
 
 /** What `groebot.solutions()` tells. */
 export interface Solution {
@@ -27,6 +28,8 @@ interface Answer {
 
 /** How far beyond a limit counts as at it [rad or m]. */
 const ROUNDING = 1e-9;
+/** From value to value of a free joint [rad or m]. */
+const FREE = { turns: Math.PI / 6, slides: 0.05 };
 
 export class LimbSolver {
   readonly solutions: Solution[] = [];
@@ -46,8 +49,7 @@ export class LimbSolver {
   }
 
   /** Where the tip is now. */
-  reached(): Frame {
-    const { frames } = this.app;
+  reached(frames = this.app.frames): Frame {
     return multiply(inverse(frames[this.limb.base]!), frames[this.limb.tip]!);
   }
 
@@ -58,18 +60,13 @@ export class LimbSolver {
     const at = (place: number) => target[place]! / this.limb.metres;
     const numbers = [at(3), at(7), at(11), ...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((place) => target[place]!)];
     const { solutions } = this.engine.ask<Answer>({ solve: { solver: this.solver, target: numbers } });
-    const { robot } = this.app.data;
-    const joints = this.limb.joints.map((place) => robot.joints[place]!);
+    const { joints } = this;
     this.solutions.length = this.frames.length = 0;
     for (const { q, branch, residual, free } of solutions) {
       const values = q.map((value, place) => (joints[place]!.kind === "prismatic" ? value * this.limb.metres : value));
-      const isOutside = (place: number) => {
-        const { limits } = joints[place]!;
-        return limits !== undefined && (values[place]! < limits[0] - ROUNDING || values[place]! > limits[1] + ROUNDING);
-      };
-      const outside = joints.filter((_, place) => isOutside(place)).map(({ name }) => name);
+      const outside = this.outside(values);
       this.solutions.push({ q: values, branch, residual, within: outside.length === 0, outside, free: free.map((place) => joints[place]!.name) });
-      this.frames.push(forward(robot, this.valuesOf(values), this.app.base));
+      this.frames.push(this.framesOf(values));
     }
     this.updateMs = performance.now() - started;
   }
@@ -85,6 +82,30 @@ export class LimbSolver {
       if (best < 0 || away(solution) < away(this.solutions[best]!)) best = place;
     });
     return best;
+  }
+
+  /** Joint values along the self-motion about the first free joint of a solution, within limits; none where it has no free joint. */
+  selfMotion(place: number): number[][] {
+    const solution = this.solutions[place];
+    const free = this.joints.findIndex(({ name }) => name === solution?.free[0]);
+    if (!solution || free < 0) return [];
+    const step = this.joints[free]!.kind === "prismatic" ? FREE.slides : FREE.turns;
+    return selfMotion((q) => this.reached(this.framesOf(q)), solution.q, free, step, (q) => this.outside(q).length === 0);
+  }
+
+  /** The frames of all links at the limb's joint values. */
+  framesOf(q: number[]): Frame[] {
+    return forward(this.app.data.robot, this.valuesOf(q), this.app.base);
+  }
+
+  private get joints(): Joint[] {
+    return this.limb.joints.map((place) => this.app.data.robot.joints[place]!);
+  }
+
+  /** The names of the joints that are beyond their limits. */
+  private outside(q: number[]): string[] {
+    const isOutside = ({ limits }: Joint, value: number) => limits !== undefined && (value < limits[0] - ROUNDING || value > limits[1] + ROUNDING);
+    return this.joints.filter((joint, place) => isOutside(joint, q[place]!)).map(({ name }) => name);
   }
 
   private valuesOf(q: number[]): number[] {

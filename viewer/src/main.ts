@@ -34,6 +34,8 @@ export interface Groebot {
   drag(limb: string, numbers: number[]): void;
   /** All solutions of the last target. */
   solutions(): Solution[];
+  /** Joint values along the self-motion of a solution, by its place, within limits; none where no joint is free. */
+  self_motion(place: number): number[][];
   /** How long they took, without drawing [ms]. */
   readonly update_ms: number;
   /** The figures of the gait by their names; null where the gait has none. */
@@ -145,6 +147,7 @@ window.groebot = {
   },
   drag: (limb, numbers) => solved().drag(limb, numbers),
   solutions: () => solved().solutions.map((solution) => ({ ...solution, q: [...solution.q] })),
+  self_motion: (place) => solved().selfMotion(place),
   get update_ms() {
     return solved().updateMs;
   },

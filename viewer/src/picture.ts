@@ -8,7 +8,7 @@ import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
 import type { Frame, Vector } from "./pose";
-import { RoomView, type Spot } from "./room";
+import { RoomView, type Dragging } from "./room";
 import type { Run } from "./run";
 import { Stage } from "./stage";
 
@@ -80,7 +80,7 @@ export class Picture {
   }
 
   /** The room of a run, whose goal and furniture are dragged. */
-  withRoom(run: Run, dropped: (name: string, at: Spot) => void): RoomView {
+  withRoom(run: Run, dropped: Dragging["dropped"]): RoomView {
     this.room = new RoomView(run, this.stage, this.canvas, { dropped, holds: (isHeld) => this.eye.hold(isHeld) });
     this.room.paint();
     return this.room;

@@ -7,6 +7,7 @@ export class Player {
   /** Asked at the end for more of the motion; whether there is some. */
   more: (() => boolean) | undefined;
   private last: number | undefined;
+  private frame = 0;
 
   /** `changed` hears when it starts and stops. */
   constructor(private readonly app: App, private readonly changed: () => void) {}
@@ -22,13 +23,19 @@ export class Player {
     if (this.app.time >= times.at(-1)! && !this.more) this.app.seek(times[0]!);
     this.last = performance.now();
     this.changed();
-    requestAnimationFrame((now) => this.tick(now));
+    this.ask();
   }
 
   pause(): void {
     if (!this.isPlaying) return;
     this.last = undefined;
+    cancelAnimationFrame(this.frame);
     this.changed();
+  }
+
+  /** Asks for the next frame: one at a time. */
+  private ask(): void {
+    this.frame = requestAnimationFrame((now) => this.tick(now));
   }
 
   private tick(now: number): void {
@@ -37,6 +44,6 @@ export class Player {
     this.last = now;
     this.app.seek(this.app.time + this.speed * passed);
     if (this.app.time >= this.app.data.motion!.times.at(-1)! && !this.more?.()) return this.pause();
-    requestAnimationFrame((next) => this.tick(next));
+    this.ask();
   }
 }

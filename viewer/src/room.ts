@@ -1,7 +1,7 @@
 /** The room of a run: walls, furniture, goal and way, dragged on the floor. */
 
 import {
-  BoxGeometry, CylinderGeometry, ExtrudeGeometry, Group, Mesh, MeshLambertMaterial, Plane, PlaneGeometry, Raycaster, Shape, Vector2, Vector3, type Object3D,
+  BoxGeometry, CylinderGeometry, ExtrudeGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Plane, PlaneGeometry, Raycaster, Shape, Vector2, Vector3, type Object3D,
 } from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
@@ -20,29 +20,37 @@ export interface Furnished {
   readonly told: { furniture: { name: string; at: Spot }[]; way: [number, number][] | null; enclosure?: [number, number][] };
 }
 
+/** The goal among what is dragged: furniture may have any name. */
+export const GOAL = Symbol("goal");
+export type Thing = string | typeof GOAL;
+
 /** Hears where something was put, and of the beginning and end of a drag. */
 export interface Dragging {
-  dropped(name: string, at: Spot): void;
+  dropped(thing: Thing, at: Spot): void;
   holds(isHeld: boolean): void;
 }
 
 /** How high walls are drawn: low, so that one sees over them [m]. */
 const WALL = 0.25;
 const FLOOR = new Plane(new Vector3(0, 0, 1), 0);
-/** The name of the goal among what is dragged. */
-export const GOAL = "goal";
+/** The side of a cell that stands alone [m]. */
+const CELL = 0.05;
+/** Middles of cells that are nearer than this are beside the same line [m]. */
+const SAME = 1e-4;
 
 export class RoomView {
   readonly group = new Group();
-  private readonly things = new Map<string, Group>();
+  private readonly things = new Map<Thing, Group>();
   private readonly solid = new MeshLambertMaterial();
   private readonly wall = new MeshLambertMaterial({ transparent: true, opacity: 0.5 });
   private readonly mark = new MeshLambertMaterial();
   private readonly closed = new MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   private readonly line = new LineMaterial({ linewidth: 3, dashed: true, dashSize: 0.12, gapSize: 0.08, depthWrite: false });
   private readonly way = new Line2(new LineGeometry(), this.line);
-  private readonly cells = new Group();
-  private held: { name: string; group: Group; from: Vector3; off: Vector3 } | undefined;
+  private readonly tile = new PlaneGeometry();
+  private cells: InstancedMesh | undefined;
+  private enclosure: [number, number][] | undefined;
+  private held: { thing: Thing; group: Group; pointer: number; from: Vector3; off: Vector3 } | undefined;
 
   /** Without `dragging` all stays where it is. */
   constructor(
@@ -59,25 +67,27 @@ export class RoomView {
     this.addThing(GOAL, [pole, foot, flag]);
     this.way.frustumCulled = false;
     this.way.position.z = 0.004;
-    this.group.add(this.way, this.cells);
+    this.group.add(this.way);
     stage.scene.add(this.group);
     if (dragging) {
       canvas.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
       canvas.addEventListener("pointermove", (event) => this.move(event));
-      for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, () => this.up());
+      canvas.addEventListener("pointerup", (event) => this.end(event, true));
+      canvas.addEventListener("pointercancel", (event) => this.end(event, false));
     }
     this.show();
   }
 
-  /** Puts all where the room has it. */
+  /** Puts all where the room has it, but for what is held. */
   show(): void {
     const { told, goal } = this.room;
-    const there = new Map(told.furniture.map(({ name, at }) => [name, at]));
+    const there = new Map<Thing, Spot>(told.furniture.map(({ name, at }) => [name, at]));
     there.set(GOAL, [goal[0]!, goal[1]!, goal[2] ?? 0]);
-    for (const [name, thing] of this.things) {
-      const at = there.get(name);
-      thing.visible = at !== undefined;
-      if (at) this.put(thing, at);
+    for (const [thing, group] of this.things) {
+      if (group === this.held?.group) continue;
+      const at = there.get(thing);
+      group.visible = at !== undefined;
+      if (at) this.put(group, at);
     }
     this.way.visible = told.way !== null && told.way.length > 1;
     if (this.way.visible) {
@@ -85,7 +95,7 @@ export class RoomView {
       this.way.geometry = new LineGeometry().setPositions(told.way!.flatMap(([x, y]) => [x, y, 0]));
       this.way.computeLineDistances();
     }
-    this.showClosed(told.enclosure ?? []);
+    this.showClosed(told.enclosure);
     this.stage.draw();
   }
 
@@ -102,13 +112,12 @@ export class RoomView {
     thing.rotation.z = yaw;
   }
 
-  private addThing(name: string, parts: Mesh[]): void {
-    const thing = new Group();
-    thing.name = name;
+  private addThing(thing: Thing, parts: Mesh[]): void {
+    const group = new Group();
     for (const part of parts) part.castShadow = part.receiveShadow = true;
-    thing.add(...parts);
-    this.things.set(name, thing);
-    this.group.add(thing);
+    group.add(...parts);
+    this.things.set(thing, group);
+    this.group.add(group);
   }
 
   private piece(outline: [number, number][], height: number): Mesh {
@@ -129,17 +138,18 @@ export class RoomView {
   }
 
   /** The cells that enclose start or goal, where there is no way. */
-  private showClosed(cells: [number, number][]): void {
-    this.cells.clear();
-    if (cells.length === 0) return;
-    const [xs, ys] = [cells.map(([x]) => x), cells.map(([, y]) => y)];
-    const side = Math.min(...[...new Set(xs.map((x) => x.toFixed(6)))].map(Number).sort((a, b) => a - b).map((x, place, all) => (place ? x - all[place - 1]! : Infinity)));
-    const tile = new PlaneGeometry(Number.isFinite(side) ? side : 0.05, Number.isFinite(side) ? side : 0.05);
-    cells.forEach((_, place) => {
-      const mesh = new Mesh(tile, this.closed);
-      mesh.position.set(xs[place]!, ys[place]!, 0.003);
-      this.cells.add(mesh);
-    });
+  private showClosed(enclosure: [number, number][] | undefined): void {
+    if (enclosure === this.enclosure) return;
+    this.enclosure = enclosure;
+    this.cells?.removeFromParent().dispose();
+    this.cells = undefined;
+    if (!enclosure?.length) return;
+    const yaw = this.room.scene.origin[2];
+    const side = sideOf(enclosure, yaw);
+    this.cells = new InstancedMesh(this.tile, this.closed, enclosure.length);
+    const turned = new Matrix4().makeRotationZ(yaw).scale(new Vector3(side, side, 1));
+    enclosure.forEach(([x, y], place) => this.cells!.setMatrixAt(place, turned.setPosition(x, y, 0.003)));
+    this.group.add(this.cells);
   }
 
   /** Where a pointer is on the floor. */
@@ -155,29 +165,42 @@ export class RoomView {
   }
 
   private down(event: PointerEvent): void {
-    if (event.button !== 0 || !this.group.visible) return;
+    if (event.button !== 0 || this.held || !this.group.visible) return;
     const ray = this.ray(event);
     const hit = ray.intersectObjects([...this.things.values()].filter(({ visible }) => visible))[0];
-    const group = hit?.object.parent as Group | undefined;
+    const found = [...this.things].find(([, group]) => group === hit?.object.parent);
     const at = this.onFloor(event, ray);
-    if (!group || !at) return;
+    if (!found || !at) return;
+    const [thing, group] = found;
     this.dragging?.holds(true);
     this.canvas.setPointerCapture(event.pointerId);
-    this.held = { name: group.name, group, from: group.position.clone(), off: group.position.clone().sub(at) };
+    this.held = { thing, group, pointer: event.pointerId, from: group.position.clone(), off: group.position.clone().sub(at) };
   }
 
   private move(event: PointerEvent): void {
-    const at = this.held && this.onFloor(event);
+    const at = this.held?.pointer === event.pointerId && this.onFloor(event);
     if (!this.held || !at) return;
     this.held.group.position.copy(at).add(this.held.off).setZ(0);
     this.stage.draw();
   }
 
-  private up(): void {
-    if (!this.held) return;
-    const { name, group, from } = this.held;
+  /** Ends a drag: what was dropped is told, else it is put back. */
+  private end(event: PointerEvent, isDropped: boolean): void {
+    if (this.held?.pointer !== event.pointerId) return;
+    const { thing, group, from } = this.held;
     this.held = undefined;
     this.dragging?.holds(false);
-    if (group.position.distanceTo(from) > 1e-6) this.dragging?.dropped(name, [group.position.x, group.position.y, group.rotation.z]);
+    const { position: { x, y }, rotation: { z: yaw } } = group;
+    if (isDropped && group.position.distanceTo(from) > 1e-6) this.dragging?.dropped(thing, [x, y, yaw]);
+    else this.show();
   }
+}
+
+/** The side of square cells by their middles, in a room turned by `yaw` [m, rad]. */
+function sideOf(middles: [number, number][], yaw: number): number {
+  const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+  const own = [middles.map(([x, y]) => c * x + s * y), middles.map(([x, y]) => c * y - s * x)];
+  const gaps = own.flatMap((along) => along.sort((a, b) => a - b).slice(1).map((value, place) => value - along[place]!));
+  const side = gaps.filter((gap) => gap > SAME).reduce((least, gap) => Math.min(least, gap), Infinity);
+  return Number.isFinite(side) ? side : CELL;
 }

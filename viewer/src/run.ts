@@ -1,6 +1,6 @@
 /** A robot that walks through a room while its goal, the furniture and the figures of its gait change. */
 
-import type { Contact, Motion, Robot, RunData, Scene } from "./data";
+import type { Contact, Motion, Polygon, Robot, RunData, Scene } from "./data";
 import type { Engine } from "./engine";
 import type { Furnished, Spot } from "./room";
 
@@ -49,6 +49,37 @@ interface Told extends Walked {
 }
 
 const SIDES = ["left", "right"] as const;
+const PLACE = ["x", "y", "heading"] as const;
+
+/** A column of numbers that grows: what is appended costs in proportion to itself, and views that were taken stay. */
+class Column {
+  private held = new Float64Array(512);
+  private count = 0;
+
+  push(value: number): void {
+    if (this.count === this.held.length) {
+      const before = this.held;
+      this.held = new Float64Array(2 * before.length);
+      this.held.set(before);
+    }
+    this.held[this.count++] = value;
+  }
+
+  get view(): Float64Array {
+    return this.held.subarray(0, this.count);
+  }
+}
+
+/** The tracks of a motion, a number each: time, joints, torso, soles, centre of mass, zero moment point, margin. */
+function row({ time, q, torso, soles, com, zmp, margin }: Sample): number[] {
+  return [time, ...q, ...torso, ...soles.flat(), ...com, ...zmp, 0, margin];
+}
+
+/** Throws where something is no number, before the engine is asked. */
+function check(values: readonly number[], names: readonly string[]): void {
+  const place = values.findIndex((value) => !Number.isFinite(value));
+  if (place >= 0) throw new Error(`give a number for ${names[place]}`);
+}
 
 export class Run implements Furnished {
   /** What the last answer told but for samples. */
@@ -62,6 +93,9 @@ export class Run implements Furnished {
   /** Hear of new samples and of new plans. */
   readonly watchers: (() => void)[] = [];
   private samples: Sample[] = [];
+  private columns: Column[] = [];
+  private stands: [string, string] = ["", ""];
+  private support: Polygon[] = [];
 
   constructor(private readonly engine: Engine, private readonly robot: Robot, readonly data: RunData) {
     this.begin();
@@ -74,7 +108,7 @@ export class Run implements Furnished {
   /** Stands at the start again, all as it was. */
   begin(): void {
     const { robot, room, start, goal, apart } = this.data;
-    this.samples = [];
+    [this.samples, this.columns, this.stands, this.support] = [[], [], ["", ""], []];
     this.goal = [...goal];
     this.take(this.engine.ask({ run: { robot, room, start, goal, apart } }));
   }
@@ -89,6 +123,7 @@ export class Run implements Furnished {
   }
 
   setGoal(goal: number[]): void {
+    check(goal, PLACE);
     this.replan({ goal });
     this.goal = goal;
     this.tell();
@@ -96,11 +131,13 @@ export class Run implements Furnished {
 
   /** A piece of furniture elsewhere; nowhere takes it away. */
   furnish(name: string, at: Spot | null): void {
+    if (at) check(at, PLACE);
     this.replan({ furniture: { name, at } });
     this.tell();
   }
 
   set(name: string, value: number): void {
+    check([value], [name]);
     this.replan({ set: { name, value } });
     this.tell();
   }
@@ -138,30 +175,29 @@ export class Run implements Furnished {
 
   private grow({ samples, steps }: Walked): void {
     if (samples.length === 0 && this.samples.length > 0) return;
-    this.samples = this.samples.concat(samples);
-    const all = this.samples;
-    const track = (value: (sample: Sample) => number) => Float64Array.from(all, value);
-    const tracks = (values: (sample: Sample) => number[], width: number) => Array.from({ length: width }, (_, place) => track((sample) => values(sample)[place]!));
-    const contact = (name: string, side: 0 | 1): Contact => ({
-      name,
-      poses: tracks(({ soles }) => soles[side], 7),
-      stands: all.map(({ stands }) => (stands[side] ? "1" : "0")).join(""),
-      outline: this.told.outlines[side],
-    });
+    samples.forEach((sample) => this.append(sample));
+    const views = this.columns.map(({ view }) => view);
+    const next = (width: number) => views.splice(0, width);
+    const contact = (side: 0 | 1): Contact => ({ name: SIDES[side], poses: next(7), stands: this.stands[side], outline: this.told.outlines[side] });
+    // In the order of `row`.
     this.motion = {
-      times: track(({ time }) => time),
+      times: next(1)[0]!,
       joints: this.told.joints.map((name) => this.robot.joints.findIndex((joint) => joint.name === name)),
-      q: tracks(({ q }) => q, this.told.joints.length),
-      base: tracks(({ torso }) => torso, 7),
-      contacts: [contact("left", 0), contact("right", 1)],
-      points: [
-        { name: "com", at: tracks(({ com }) => com, 3) },
-        { name: "zmp", at: tracks(({ zmp }) => [...zmp, 0], 3) },
-      ],
-      figures: [{ name: "margin", unit: "m", values: track(({ margin }) => margin) }],
-      support: all.map(({ support }) => Float64Array.from(support.flat())),
+      q: next(this.told.joints.length),
+      base: next(7),
+      contacts: [contact(0), contact(1)],
+      points: [{ name: "com", at: next(3) }, { name: "zmp", at: next(3) }],
+      figures: [{ name: "margin", unit: "m", values: next(1)[0]! }],
+      support: this.support,
       steps,
       phases: [],
     };
+  }
+
+  private append(sample: Sample): void {
+    this.samples.push(sample);
+    row(sample).forEach((value, place) => (this.columns[place] ??= new Column()).push(value));
+    sample.stands.forEach((stands, side) => (this.stands[side] += stands ? "1" : "0"));
+    this.support.push(Float64Array.from(sample.support.flat()));
   }
 }

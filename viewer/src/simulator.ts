@@ -3,11 +3,12 @@
 import type { App } from "./app";
 import { element, worded } from "./desk";
 import type { Picture } from "./picture";
-import { GOAL, type RoomView, type Spot } from "./room";
+import { GOAL, type RoomView, type Spot, type Thing } from "./room";
 import type { Run } from "./run";
 
 /** x, y and heading: name, unit, step. */
 const PLACE: [string, string, number][] = [["x", "m", 0.1], ["y", "m", 0.1], ["Heading", "\u00b0", 5]];
+const DEGREE = Math.PI / 180;
 
 export class Simulator {
   private readonly fields = new Map<string, HTMLInputElement>();
@@ -18,16 +19,17 @@ export class Simulator {
 
   /** `grown` hears of new samples. */
   constructor(private readonly run: Run, private readonly app: App, private readonly canvas: HTMLCanvasElement, picture: Picture | undefined, private readonly grown: () => void) {
-    this.room = picture?.withRoom(run, (name, at) => this.attempt(() => this.place(name, at)));
+    this.room = picture?.withRoom(run, (thing, at) => this.attempt(() => this.dropped(thing, at)));
     for (const { name, what, unit, value } of run.told.figures) if (value !== null) this.addFigure(name, what, unit);
     element<HTMLSelectElement>("preset").append(...run.told.presets.map(({ name }) => new Option(name)));
     element("preset").onchange = () => this.preset();
-    this.choice.append(...[GOAL, ...run.told.furniture.map(({ name }) => name)].map((name) => new Option(name)));
+    this.choice.append(...["goal", ...run.told.furniture.map(({ name }) => name)].map((name) => new Option(name, name)));
     this.choice.onchange = () => this.show();
-    this.spot = PLACE.map(([name, unit, step]) => this.input("place", name, unit, step, () => this.attempt(() => this.typed())));
+    this.spot = PLACE.map(([name, unit, step]) => this.input("place", name, unit, step, () => this.typed()));
     element("run-step").onclick = () => this.attempt(() => this.step());
     element("run-reset").onclick = () => this.attempt(() => this.reset());
     element("run-film").onclick = () => this.toggleFilm();
+    element<HTMLButtonElement>("run-film").disabled = !picture;
     element("run-csv").onclick = () => offer(new Blob([run.csv()], { type: "text/csv" }), "walk.csv");
     run.watchers.push(() => this.show());
     this.show();
@@ -52,9 +54,18 @@ export class Simulator {
     this.grown();
   }
 
-  place(name: string, at: Spot): void {
-    if (name === GOAL) this.run.setGoal(this.run.goal.length > 2 ? at : at.slice(0, 2));
-    else this.run.furnish(name, at);
+  /** The goal is the first of the choice. */
+  private get chosen(): Thing {
+    return this.choice.selectedIndex === 0 ? GOAL : this.choice.value;
+  }
+
+  private place(thing: Thing, at: number[]): void {
+    if (thing === GOAL) this.run.setGoal(at);
+    else this.run.furnish(thing, at as Spot);
+  }
+
+  private dropped(thing: Thing, at: Spot): void {
+    this.place(thing, thing === GOAL ? at.slice(0, this.run.goal.length) : at);
   }
 
   private reset(): void {
@@ -64,13 +75,13 @@ export class Simulator {
     this.app.seek(0);
   }
 
-  /** Does something that may be refused; the reason is told, and all fields show what holds. */
-  private attempt(act: () => void): void {
+  /** Does something that may be refused; the reason is told, and all fields show what holds, `typed` too. */
+  private attempt(act: () => void, typed?: HTMLInputElement): void {
     try {
       act();
-      this.show();
+      this.show(typed);
     } catch (error) {
-      this.show();
+      this.show(typed);
       this.state(error instanceof Error ? error.message : String(error), true);
     }
   }
@@ -80,26 +91,31 @@ export class Simulator {
     element("run-state").classList.toggle("fault", isFault);
   }
 
-  private show(): void {
-    const { told, goal, hasArrived } = this.run;
+  private show(typed?: HTMLInputElement): void {
+    const { told, hasArrived } = this.run;
     this.room?.show();
-    for (const { name, value } of told.figures) {
-      const field = this.fields.get(name);
-      if (field && value !== null) field.value = String(Number(value.toPrecision(4)));
-    }
-    const own = this.choice.value === GOAL ? goal : told.furniture.find(({ name }) => name === this.choice.value)?.at;
-    [own?.[0], own?.[1], ((own?.[2] ?? 0) * 180) / Math.PI].forEach((value, place) => {
-      const input = this.spot[place]!;
-      if (document.activeElement !== input) input.value = value === undefined ? "" : String(Number(value.toFixed(4)));
-    });
-    this.spot[2]!.disabled = this.choice.value === GOAL && goal.length < 3;
+    this.fill(typed);
     if (told.blocked) this.state(told.blocked, true);
     else this.state(hasArrived ? "It stands at the goal" : `${this.run.motion.steps.length} steps`);
   }
 
+  /** Writes what holds into all fields but the one that somebody types in; into that one too where it is `typed`. */
+  private fill(typed?: HTMLInputElement): void {
+    const write = (input: HTMLInputElement | undefined, value: string) => {
+      if (input && (input === typed || document.activeElement !== input)) input.value = value;
+    };
+    const { figures, furniture } = this.run.told;
+    for (const { name, value } of figures) if (value !== null) write(this.fields.get(name), String(Number(value.toPrecision(4))));
+    const own: number[] = this.chosen === GOAL ? this.run.goal : (furniture.find(({ name }) => name === this.chosen)?.at ?? []);
+    this.spot.forEach((input, place) => {
+      const value = own[place];
+      write(input, value === undefined ? "" : String(Number((place < 2 ? value : value / DEGREE).toFixed(4))));
+    });
+  }
+
   private addFigure(name: string, what: string, unit: string): void {
     const label = unit === "1" ? "" : unit === "deg" ? "\u00b0" : unit;
-    const input = this.input("figures", name, label, "any", () => this.attempt(() => this.set(name, input.valueAsNumber)));
+    const input = this.input("figures", name, label, "any", () => this.set(name, input.valueAsNumber));
     input.parentElement!.title = what;
     input.ariaLabel = `${name}, ${what}, ${unit}`;
     this.fields.set(name, input);
@@ -108,16 +124,19 @@ export class Simulator {
   private input(parent: string, name: string, unit: string, step: number | "any", changed: () => void): HTMLInputElement {
     const [label, input] = [document.createElement("label"), document.createElement("input")];
     Object.assign(input, { type: "number", step, inputMode: "decimal" });
-    input.addEventListener("change", changed);
+    input.addEventListener("change", () => this.attempt(changed, input));
+    input.addEventListener("blur", () => this.fill());
     label.append(`${name} `, worded("small", unit), input);
     element(parent).append(label);
     return input;
   }
 
+  /** Takes x, y and heading; a goal may be without heading. */
   private typed(): void {
     const [x, y, heading] = this.spot.map(({ valueAsNumber }) => valueAsNumber) as Spot;
-    if (![x, y, heading].every(Number.isFinite)) throw new Error("give numbers for x, y and heading");
-    this.place(this.choice.value, [x, y, (heading * Math.PI) / 180]);
+    const { value, validity } = this.spot[2]!;
+    const isBare = this.chosen === GOAL && value === "" && !validity.badInput;
+    this.place(this.chosen, isBare ? [x, y] : [x, y, heading * DEGREE]);
   }
 
   /** Takes the figures of a preset, one by one; what is refused stays as it was. */
@@ -141,14 +160,18 @@ export class Simulator {
   private toggleFilm(): void {
     if (this.film) return this.film.stop();
     const parts: Blob[] = [];
+    const stream = this.canvas.captureStream(30);
+    const release = () => stream.getTracks().forEach((track) => track.stop());
     try {
-      this.film = new MediaRecorder(this.canvas.captureStream(30), { mimeType: "video/webm" });
+      this.film = new MediaRecorder(stream, { mimeType: "video/webm" });
     } catch {
+      release();
       return this.state("This browser records no film", true);
     }
     this.film.ondataavailable = ({ data }) => parts.push(data);
     this.film.onstop = () => {
       this.film = undefined;
+      release();
       element("run-film").ariaPressed = "false";
       offer(new Blob(parts, { type: "video/webm" }), "walk.webm");
     };

@@ -58,6 +58,10 @@ export class Solutions {
     return this.chosen.solutions;
   }
 
+  selfMotion(place: number): number[][] {
+    return this.chosen.selfMotion(place);
+  }
+
   get updateMs(): number {
     return this.chosen.updateMs;
   }
@@ -85,8 +89,23 @@ export class Solutions {
 
   private choose(solver: LimbSolver): void {
     this.chosen = solver;
-    element("certificate").textContent = solver.limb.certificate ? `Certificate ${solver.limb.certificate}` : "";
+    this.showCertificate(solver.limb.certificate);
     this.solve(solver.reached());
+  }
+
+  private showCertificate(hash: string | undefined): void {
+    const [shown, copy] = [element("certificate"), element("certificate-copy")];
+    const told = worded("code", hash ?? "");
+    shown.replaceChildren(...(hash ? ["Certificate ", told] : []));
+    copy.hidden = !hash;
+    copy.onclick = async () => {
+      try {
+        await navigator.clipboard.writeText(hash!);
+      } catch {
+        // Where the browser lets no page copy, it stands selected for the hand.
+        getSelection()?.selectAllChildren(told);
+      }
+    };
   }
 
   private solve(target: Frame): void {
@@ -141,13 +160,22 @@ export class Solutions {
     facts!.textContent = [...words, `residual ${solution.residual.toExponential(1)}`].join(" \u00b7 ");
   }
 
+  /** Makes a solution stand out, with its self-motion where it has one. */
+  private point(place: number): void {
+    const { chosen } = this;
+    this.ghosts?.point(place, chosen.selfMotion(place).map((q) => chosen.framesOf(q)));
+  }
+
   private row(place: number): HTMLLIElement {
     const [item, press] = [document.createElement("li"), document.createElement("button")];
     press.type = "button";
     press.append(worded("strong", ""), worded("small", ""));
-    press.addEventListener("click", () => this.take(place));
+    press.addEventListener("click", () => {
+      this.take(place);
+      this.point(place);
+    });
     for (const [begin, end] of [["pointerenter", "pointerleave"], ["focus", "blur"]] as const) {
-      press.addEventListener(begin, () => this.ghosts?.point(place));
+      press.addEventListener(begin, () => this.point(place));
       press.addEventListener(end, () => this.ghosts?.point(undefined));
     }
     item.append(press);

@@ -115,11 +115,30 @@ test("a singular pose tells its self-motion, joints beyond limits their names", 
   const free = (await shown.evaluate(() => groebot.solutions())).flatMap((solution) => solution.free);
   assert.ok(free.includes("Wrist3"), `free: ${free}`);
   assert.match(await shown.locator("#solutions ol").innerText(), /self-motion about Wrist3/);
+  const target = reached([0.3, -0.9, 1.1, 0.4, 0, 0.7]);
+  const motions = await shown.evaluate(() => groebot.solutions().map(({ free }, place) => [free.length > 0, groebot.self_motion(place)]));
+  for (const [isFree, along] of motions) {
+    assert.equal(along.length > 0, isFree);
+    for (const q of along) assert.ok(reached(q).every((value, place) => Math.abs(value - target[place]) < 1e-6));
+    assert.equal(new Set(along.map((q) => q[5].toFixed(6))).size, along.length);
+  }
+  const canvas = async () => (await picture(shown), shown.locator("#canvas").screenshot());
+  const row = shown.locator("#solutions li:visible button").filter({ hasText: "self-motion" }).first();
+  await row.click();
+  const spread = await canvas();
+  await row.blur();
+  await shown.getByRole("heading", { name: "Solutions" }).hover();
+  // The robot itself takes that solution, which has no ghost of its own.
+  assert.ok(!spread.equals(await canvas()), "ghosts stand along the self-motion");
   const leg = await open(browser, page("leg.html", path.join(root, "derivations/nao_left_leg")));
   const far = await leg.evaluate(() => groebot.solutions());
   assert.ok(far.some(({ outside }) => outside.length > 0) && far.some(({ within }) => within));
   assert.match(await leg.locator("#solutions ol").innerText(), /beyond the limits of /);
   assert.match(await leg.locator("#certificate").innerText(), /^Certificate [0-9a-f]{64}$/);
+  const [hash] = (await leg.locator("#certificate").innerText()).match(/[0-9a-f]{64}/);
+  await leg.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await leg.getByRole("button", { name: "Copy the hash" }).click();
+  assert.equal(await leg.evaluate(() => navigator.clipboard.readText()), hash);
 });
 
 test("sliders lead the target, and the panel closes by its key", async () => {
