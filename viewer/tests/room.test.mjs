@@ -58,6 +58,10 @@ test("furniture of any name is moved, also one that is called goal", async () =>
   const moved = await room(opened);
   assert.ok(Math.hypot(moved.furniture.goal[0] - 3.4, moved.furniture.goal[1] - 0.5) < 0.02, JSON.stringify(moved));
   assert.deepEqual(moved.goal, [3, 1.2]);
+  await opened.evaluate(() => groebot.furniture("goal", null));
+  assert.equal((await room(opened)).furniture.goal, undefined);
+  await opened.evaluate(() => groebot.furniture("goal", [3.6, 0.4, 0.2]));
+  assert.deepEqual((await room(opened)).furniture.goal, [3.6, 0.4, 0.2]);
 });
 
 test("a step does not take from the hand what is dragged; a drag that is cancelled drops nothing", async () => {

@@ -2,7 +2,7 @@
 
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
-use groebot::nav::Room;
+use groebot::nav::{Piece, Room};
 use groebot::sim::{FIGURES, Next, PRESETS, Run, Start};
 use groebot::solver::{Program, Solver};
 use groebot::task::Goal;
@@ -62,6 +62,8 @@ enum Request {
 pub struct Desk {
     solvers: Vec<Solver>,
     run: Option<Run>,
+    /// The furniture of the room at first: what was taken away may come back.
+    furniture: Vec<Piece>,
 }
 
 impl Desk {
@@ -84,6 +86,7 @@ impl Desk {
             Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
                 let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
                 let start = Start::of_robot(&robot, room, middle, place(&goal)?.into(), apart)?;
+                self.furniture.clone_from(&start.room.pieces);
                 let run = self.run.insert(Run::new(start, &watch)?);
                 let samples = run.walk().references.len();
                 Ok(told(run, 0..samples))
@@ -101,8 +104,12 @@ impl Desk {
                 Ok(told(run, 0..0))
             }
             Request::Furniture { name, at } => {
+                let away = self.furniture.iter().find(|piece| piece.name == name).cloned();
                 let run = self.running()?;
-                let room = run.room().clone();
+                let mut room = run.room().clone();
+                if at.is_some() && room.piece(&name).is_err() {
+                    room.pieces.extend(away);
+                }
                 let room = match at {
                     Some([x, y, yaw]) => room.with_moved(&name, Point2::new(x, y), yaw)?,
                     None => room.without(&name)?,
@@ -169,8 +176,7 @@ fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
             told["enclosure"] = blocked.enclosure.cells.iter().map(middle).collect();
         }
     }
-    let piece =
-        |piece: &groebot::nav::Piece| json!({ "name": piece.name, "at": [piece.place.x, piece.place.y, piece.yaw] });
+    let piece = |piece: &Piece| json!({ "name": piece.name, "at": [piece.place.x, piece.place.y, piece.yaw] });
     told["furniture"] = run.room().pieces.iter().map(piece).collect();
     told
 }
