@@ -1,40 +1,17 @@
 //! How near the links of a robot come to what stands around it, by distances of the crate parry3d. Main type: [`Clearance`].
 
-use std::fmt;
-
 use nalgebra::Point3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::query::{PointQuery, distance};
 use parry3d_f64::shape::{ConvexPolyhedron, HalfSpace, SharedShape};
 
-use super::prism::{Prism, prisms};
+use super::prism::{Prism, Thing, prisms};
 use crate::gait::{Biped, Posture};
 use crate::model::{Meshes, Robot, Solid};
 use crate::nav::Room;
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result, Watch};
-
-/// What a link may come near to.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Thing {
-    /// Furniture of that name.
-    Furniture(String),
-    /// A wall of the room.
-    Wall,
-    /// The floor, which feet are not asked about.
-    Floor,
-}
-
-impl fmt::Display for Thing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Thing::Furniture(name) => f.write_str(name),
-            Thing::Wall => f.write_str("wall"),
-            Thing::Floor => f.write_str("floor"),
-        }
-    }
-}
 
 /// How near a link comes to a thing.
 #[derive(Clone, Debug, PartialEq)]

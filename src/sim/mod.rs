@@ -22,12 +22,14 @@ mod run;
 pub use answer::{Comparison, JointComparison, SIDES, Way, soles};
 pub use answer_picture::Quantity;
 #[cfg(feature = "clearance")]
-pub use clearance::{Clearance, Links, Thing};
+pub use clearance::{Clearance, Links};
 pub use destination::Destination;
 pub use figures::{FIGURES, Figure, Figures, PRESETS, Preset};
 #[cfg(feature = "clearance")]
 pub use full_task::{Change, Checks, Performed, Stage, What, perform};
 pub use interior::{Interior, Piece};
+#[cfg(feature = "clearance")]
+pub use prism::Thing;
 pub use record::{RecordedStage, TaskRecord};
 pub use rooms::{ROOMS, room};
 pub use run::{Next, Run, Start};

@@ -1,13 +1,35 @@
 //! What stands on a floor as convex prisms. Main type: [`Prism`].
 
+use std::fmt;
+
 use nalgebra::Point2;
 
-use super::clearance::Thing;
 use super::interior::corners;
 use crate::nav::{Room, Shape};
 
 /// How high the walls of a room are \[m\].
 pub const WALL_HEIGHT: f64 = 2.5;
+
+/// What a link may come near to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Thing {
+    /// Furniture of that name.
+    Furniture(String),
+    /// A wall of the room.
+    Wall,
+    /// The floor, which feet are not asked about.
+    Floor,
+}
+
+impl fmt::Display for Thing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Thing::Furniture(name) => f.write_str(name),
+            Thing::Wall => f.write_str("wall"),
+            Thing::Floor => f.write_str("floor"),
+        }
+    }
+}
 
 /// All over a convex polygon of the floor, up to a height \[m\].
 #[derive(Clone, Debug, PartialEq)]

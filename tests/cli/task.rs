@@ -78,7 +78,7 @@ fn bad_input_of_tasks_is_refused() {
     let task = |more: &[&str]| refused(&[&["task", "rh0", "--room", text(&room)][..], more].concat());
     for (more, words) in [
         (&["--goal", "chair"][..], "the room tells no start; give --start"),
-        (&["--goal", "chairs", start[0], start[1]], "no furniture `chairs` to get to; did you mean `chair`?"),
+        (&["--goal", "chairs", start[0], start[1]], "no furniture `chairs` to get to (did you mean `chair`?)"),
         (&["--goal", "1", start[0], start[1]], "--goal takes two or three numbers"),
         (&["--goal", "chair", start[0], start[1], "--then", "ball=1,1"], "give NAME=X,Y@STEPS"),
         (&["--goal", "chair", start[0], start[1], "--then", "bull=1,1@3"], "did you mean `ball`"),

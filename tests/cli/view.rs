@@ -105,7 +105,13 @@ fn derivations_and_rooms_become_pages() {
     let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
     let told = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
-    assert!(told.contains("does not walk in the page"), "{told}");
+    assert!(told.contains("walks here; give nao, rh0 or teo"), "{told}");
+    // The room's own start; one in the wall is refused here, not in the page.
+    assert!(read(&["rh0", "--room", "living-room", "--goal", "7.2,3.4"]).contains("\"start\":[1.0,2.6,0.0]"));
+    let told = refused(&with(&page, &["rh0", "--room", "living-room", "--start", "0.05,0.05", "--goal", "7.2,3.4"]));
+    assert!(told.contains("nearest free place"), "{told}");
+    let told = refused(&with(&page, &[text(&root("derivations/ur5")), "--room", text(&room), "--goal", "1,1"]));
+    assert!(told.contains("--room and --tip are for robots at rest"), "{told}");
     let told = refused(&with(&page, &[text(&root("derivations/nao_legs"))]));
     assert!(told.contains("no chain of a robot"), "{told}");
     assert_eq!(run(&with(&page, &["rh0", "--room", text(&room)])).code, 2);
