@@ -95,7 +95,8 @@ fn distances_are_those_of_points_along_capsules() {
         assert!(own.sample == at || (own.distance - least).abs() < 2e-5, "{own:?} {at}");
         compared += 1;
     }
-    assert!(compared >= 20, "{compared}");
+    // Five links are capsules; two pieces have corners.
+    assert!(compared >= 10, "{compared}");
     // Walls and the floor, which feet stand on, are there, too.
     assert!(found.iter().any(|own| own.thing == Thing::Wall));
     let floor: Vec<_> = found.iter().filter(|own| own.thing == Thing::Floor).collect();
