@@ -86,7 +86,7 @@ pub fn read_room(file: &Path) -> Result<Room> {
 /// As [`moved`], [`Room::with_moved`] and [`Room::without`].
 pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
     furniture.iter().try_fold(room, |room, told| match moved(told)? {
-        (name, Some((place, yaw))) => room.with_moved(name, place, yaw),
+        (name, Some(at)) => room.with_moved(name, at.point(), at.yaw),
         (name, None) => room.without(name),
     })
 }
@@ -95,7 +95,7 @@ pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for another text.
-pub fn moved(told: &str) -> Result<(&str, Option<(Point2<f64>, f64)>)> {
+pub fn moved(told: &str) -> Result<(&str, Option<Footprint>)> {
     let wrong = || bad(&format!("{told}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none for a piece of furniture"));
     let (name, place) = told.split_once('=').ok_or_else(wrong)?;
     if place == "none" {
@@ -103,8 +103,8 @@ pub fn moved(told: &str) -> Result<(&str, Option<(Point2<f64>, f64)>)> {
     }
     let numbers: Option<Vec<f64>> = place.split(',').map(|word| word.trim().parse().ok()).collect();
     match numbers.as_deref() {
-        Some(&[x, y]) => Ok((name, Some((Point2::new(x, y), 0.0)))),
-        Some(&[x, y, yaw]) => Ok((name, Some((Point2::new(x, y), yaw.to_radians())))),
+        Some(&[x, y]) => Ok((name, Some(Footprint { x, y, yaw: 0.0 }))),
+        Some(&[x, y, yaw]) => Ok((name, Some(Footprint { x, y, yaw: yaw.to_radians() }))),
         _ => Err(wrong()),
     }
 }

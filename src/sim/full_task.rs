@@ -2,14 +2,14 @@
 
 use std::time::Instant;
 
-use nalgebra::{Point2, Point3};
+use nalgebra::Point3;
 
 use super::clearance::{Clearance, Links};
 use super::destination::Destination;
 use super::interior::Interior;
 use super::record::{RecordedStage, TaskRecord};
 use super::run::{Next, Run};
-use crate::gait::{Action, Biped, Side, Walk};
+use crate::gait::{Action, Biped, Footprint, Side, Walk};
 use crate::model::{Meshes, Robot};
 use crate::motion::{Bounds, Finding, findings};
 use crate::nav::Room;
@@ -22,7 +22,7 @@ pub enum What {
     /// The goal.
     Goal(Destination),
     /// A piece of furniture, by its name: it stands elsewhere \[m\], turned anticlockwise \[rad\], or nowhere.
-    Furniture(String, Option<(Point2<f64>, f64)>),
+    Furniture(String, Option<Footprint>),
 }
 
 /// A change on the way.
@@ -93,7 +93,7 @@ impl Change {
     fn made(&self, room: Room, goal: Destination) -> Result<(Room, Destination)> {
         match &self.what {
             What::Goal(goal) => Ok((room, goal.clone())),
-            What::Furniture(name, Some((place, yaw))) => Ok((room.with_moved(name, *place, *yaw)?, goal)),
+            What::Furniture(name, Some(at)) => Ok((room.with_moved(name, at.point(), at.yaw)?, goal)),
             What::Furniture(name, None) => Ok((room.without(name)?, goal)),
         }
     }

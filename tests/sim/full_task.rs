@@ -31,7 +31,7 @@ fn does(room: &Room, goal: Destination, changes: &[Change]) -> Result<(Performed
 }
 
 fn moved(name: &str, x: f64, y: f64, after: usize) -> Change {
-    Change { after, what: What::Furniture(name.to_owned(), Some((Point2::new(x, y), 0.0))) }
+    Change { after, what: What::Furniture(name.to_owned(), Some(Footprint { x, y, yaw: 0.0 })) }
 }
 
 /// All checks hold, and their figures are those that the thesis asks for.

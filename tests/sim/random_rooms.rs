@@ -4,7 +4,7 @@ use std::collections::{BinaryHeap, HashSet};
 use std::f64::consts::TAU;
 
 use groebot::Watch;
-use groebot::gait::Footprint;
+use groebot::gait::{Footprint, Side};
 use groebot::model::Meshes;
 use groebot::nav::{Map, Piece, Room, Shape};
 use groebot::robots;
@@ -64,7 +64,7 @@ fn place(random: &mut Random, room: &Room, free: &Map) -> Option<Point2<f64>> {
 /// So many headings has the search.
 const HEADINGS: usize = 16;
 
-/// Whether the footprint gets from a place to another one: an A* over the middles of cells and headings, by steps to the eight cells around it and turns to the next heading.
+/// Whether the footprint, body and soles side by side, gets from a place to another one: an A* over the middles of cells and headings, by steps to the eight cells around it and turns to the next heading.
 fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> bool {
     let map = floor.map();
     let [start, goal] = [from.point(), *to].map(|at| map.cell_at(&at).unwrap());
@@ -73,7 +73,11 @@ fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> 
     let has_room = |cell: usize, heading: usize| {
         let at = map.centre(cell);
         let yaw = TAU * heading as f64 / HEADINGS as f64;
-        floor.beside_body(&pilot.outline_at(&Footprint { x: at.x, y: at.y, yaw })).is_none()
+        let middle = Footprint { x: at.x, y: at.y, yaw };
+        let feet = middle.feet(pilot.half_width());
+        let sole = |side: Side| pilot.walker().biped.sole_at(side, &feet[side as usize]);
+        floor.beside_body(&pilot.outline_at(&middle)).is_none()
+            && [Side::Left, Side::Right].iter().all(|side| floor.under_sole(&sole(*side)).is_none())
     };
     let rest = |cell: usize| ((map.centre(cell) - map.centre(goal)).norm() * 1e6) as u64;
     let mut open = BinaryHeap::from([(std::cmp::Reverse(rest(start)), 0u64, start, heading(from.yaw))]);
@@ -126,9 +130,20 @@ fn outcome(seed: u64) -> Option<(bool, String)> {
             let biped = &pilot.walker().biped;
             let checks = Checks::of(&robot, &Meshes::default(), biped, &performed, &watch).unwrap();
             let near = checks.clearances[0].distance;
+            let odd = if checks.hold() {
+                String::new()
+            } else {
+                format!(
+                    "{:?}; soles off by {:e} and {:e}",
+                    checks.findings.first(),
+                    checks.soles_off,
+                    checks.soles_under
+                )
+                .replace(',', ";")
+            };
             let (stage, steps) = (&performed.stages[0], performed.walk.schedule.route.steps.len());
             let line = format!(
-                "{:.3},{steps},{near:.4},{:.4},{:.2}",
+                "{:.3},{steps},{near:.4},{:.4},{:.2},{odd}",
                 stage.course.way.length(),
                 checks.margin,
                 stage.milliseconds
