@@ -162,8 +162,8 @@ pub struct Checks {
     pub samples_per_step: (usize, usize),
 }
 
-/// Soles that stand may be so far off the floor \[m\]: rounding.
-const OFF: f64 = 1e-9;
+/// Soles that stand may be so far off the floor \[m\]: near a stretched knee the closed form has half of the digits, 6e-9 m in 200 rooms.
+const OFF: f64 = 1e-6;
 
 impl Checks {
     /// Those of a task of `robot`, at all its samples.

@@ -100,7 +100,7 @@ fn distances_are_those_of_points_along_capsules() {
     // Walls and the floor, which feet stand on, are there, too.
     assert!(found.iter().any(|own| own.thing == Thing::Wall));
     let floor: Vec<_> = found.iter().filter(|own| own.thing == Thing::Floor).collect();
-    assert!(floor.len() > 8 && floor.iter().all(|own| own.distance > 0.02), "{floor:?}");
+    assert!(floor.len() >= 5 && floor.iter().all(|own| own.distance > 0.02), "{floor:?}");
 }
 
 /// Where a link stands in furniture the distance is nought, and no check holds.
