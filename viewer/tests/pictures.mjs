@@ -8,12 +8,16 @@ const PICTURES = [
   ["simulator_joints", ["nao"], { viewport: { width: 900, height: 580 } }],
   ["simulator_solutions", [path.join(root, "derivations/ur5")], { viewport: { width: 900, height: 580 } }],
   ["simulator_room", ["rh0", "--room", "living-room", "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
-  ["simulator_task", ["task.json"], { viewport: { width: 1000, height: 640 } }, 40],
+  ["simulator_task", ["task.json"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_phone", ["walk.json"], { viewport: { width: 390, height: 760 }, colorScheme: "dark" }, 6.1],
 ];
 
 /** What is done before a picture. */
 const ACTS = {
+  simulator_task: async (opened) => {
+    await opened.getByRole("button", { name: "Top" }).click();
+    await opened.evaluate(() => groebot.seek(40));
+  },
   simulator_joints: (opened) => opened.getByLabel("LShoulderRoll", { exact: true }).fill("0.9"),
   simulator_solutions: (opened) => opened.evaluate(() => groebot.drag("ur5", [-0.4, -0.2, 0.3, 0.6, 0, 0.8, 0, 1, 0, -0.8, 0, 0.6])),
   simulator_room: (opened) =>
