@@ -5,6 +5,7 @@ use std::path::Path;
 use nalgebra::Point2;
 use serde_json::{Value, json};
 
+use super::moving::ends;
 use crate::document::{TEXT_LIMIT, read_text};
 use crate::gait::Footprint;
 use crate::nav::{Enclosure, Map, Room, Way};
@@ -27,36 +28,21 @@ pub struct FloorArguments {
 }
 
 impl FloorArguments {
-    /// The map of a file.
+    /// The map of a file, and the start that it tells where it is a room.
     ///
     /// # Errors
     /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
-    pub fn map(&self, file: &Path) -> Result<Map> {
-        let map = if is_room(file) {
-            self.room(file)?.map().map_err(|error| error.in_file(file))?
+    pub fn map(&self, file: &Path) -> Result<(Map, Option<[f64; 3]>)> {
+        let (map, start) = if ends(file, "toml") || known(file).is_some() {
+            let room = refurnished(read_room(file)?, &self.furniture)?;
+            (room.map().map_err(|error| error.in_file(file))?, room.start)
         } else if self.furniture.is_empty() {
-            Map::read(file, self.resolution)?
+            (Map::read(file, self.resolution)?, None)
         } else {
             return Err(bad("--furniture is for rooms; give one in TOML").in_file(file));
         };
-        Ok(if self.unknown_free { map.with_unknown_free() } else { map })
+        Ok((if self.unknown_free { map.with_unknown_free() } else { map }, start))
     }
-
-    /// The start that a room tells; of another map none.
-    ///
-    /// # Errors
-    /// As [`read_room`].
-    pub fn start(&self, file: &Path) -> Result<Option<[f64; 3]>> {
-        if is_room(file) { Ok(read_room(file)?.start) } else { Ok(None) }
-    }
-
-    fn room(&self, file: &Path) -> Result<Room> {
-        refurnished(read_room(file)?, &self.furniture)
-    }
-}
-
-fn is_room(file: &Path) -> bool {
-    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml")) || known(file).is_some()
 }
 
 /// A room that is known by name; a file of that name comes first.

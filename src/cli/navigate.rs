@@ -88,10 +88,10 @@ pub(super) enum MethodName {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
-    let map = arguments.floor.map(&arguments.map)?;
+    let (map, told) = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
-    let (start, goal) = (arguments.places.start(arguments.floor.start(&arguments.map)?)?, arguments.places.goal()?);
+    let (start, goal) = (arguments.places.start(told)?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
     let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;

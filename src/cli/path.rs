@@ -94,7 +94,7 @@ struct Found {
 /// Finds the way and tells it.
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits::default())?;
-    let map = arguments.floor.map(&arguments.map)?;
+    let (map, _) = arguments.floor.map(&arguments.map)?;
     let map = if arguments.radius == 0.0 { map } else { for_radius(map, arguments.radius)? };
     let [start, goal] = [("start", &arguments.start), ("goal", &arguments.goal)].map(|(name, told)| match told[..] {
         [x, y] => Ok(Point2::new(x, y)),

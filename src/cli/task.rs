@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::floor::{self, goal_at, moved, read_room, refurnished, start_at};
@@ -13,10 +14,11 @@ use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::document::{one_among, shown};
 use crate::files::write_atomically;
-use crate::gait::{Biped, Footprint, Summary};
+use crate::gait::{Footprint, Summary};
 use crate::nav::Room;
 use crate::robots::Outline;
 use crate::sim::{Change, Checks, Destination, Performed, Run, Start, Thing, What, perform};
+use crate::spatial::angle::RPM;
 use crate::task::{Blocked, Body, Floor, Plan};
 use crate::view::{Page, WalkRecord};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -167,26 +169,24 @@ impl Arguments {
     }
 
     fn write(&self, named: &Named, performed: &Performed, told: &Value) -> Result<()> {
+        if self.out.is_none() && self.view.is_none() {
+            return Ok(());
+        }
         let biped = &named.walker.biped;
         let trajectory = performed.walk.trajectory(biped);
         let mut value = performed.walk.json_value(biped, &trajectory);
-        let page = self.view.as_ref().map(|file| Ok((file, page(named, performed, &value.to_string())?)));
+        if let Some(file) = &self.view {
+            let record = WalkRecord::deserialize(&value["walk"]).expect("a record is what was just written");
+            let page = Page::of_robot(&named.robot, None)?.titled(&format!("{}: the full task", biped.name));
+            let page = page.with_motion(&trajectory, Some(&record), &soles(named.robot.name())?)?;
+            write_atomically(file, page.with_task(performed.record()).to_html().as_bytes())?;
+        }
         if let Some(file) = &self.out {
             value["task"] = told.clone();
             write_atomically(file, (value.to_string() + "\n").as_bytes())?;
         }
-        let Some((file, page)) = page.transpose()? else { return Ok(()) };
-        write_atomically(file, page.to_html().as_bytes())
+        Ok(())
     }
-}
-
-/// The page of a task, by the text of its walk.
-fn page(named: &Named, performed: &Performed, walk: &str) -> Result<Page> {
-    let biped: &Biped = &named.walker.biped;
-    let record = WalkRecord::from_json(walk)?;
-    let page = Page::of_robot(&named.robot, None)?.titled(&format!("{}: the full task", biped.name));
-    let page = page.with_motion(&performed.walk.trajectory(biped), record.as_ref(), &soles(named.robot.name())?)?;
-    Ok(page.with_task(performed.record()))
 }
 
 /// A place by its numbers, or before the furniture of that name.
@@ -215,16 +215,11 @@ fn told(performed: &Performed, checks: &Checks) -> Value {
         "soles_off": checks.soles_off,
         "soles_under": checks.soles_under,
         "margin": checks.margin,
-        "fastest": { "joint": checks.fastest.0, "rpm": rpm(checks.fastest.1) },
+        "fastest": { "joint": checks.fastest.0, "rpm": RPM * checks.fastest.1 },
         "findings": checks.findings.len(),
         "samples_per_step": [checks.samples_per_step.0, checks.samples_per_step.1],
     });
     told
-}
-
-/// Radians a second as turns a minute.
-fn rpm(rate: f64) -> f64 {
-    rate * 60.0 / std::f64::consts::TAU
 }
 
 fn summary(performed: &Performed, checks: &Checks) -> String {
@@ -245,7 +240,7 @@ fn summary(performed: &Performed, checks: &Checks) -> String {
         "{ways}{nearest}  soles           off the floor by {:.1e} m where they stand\n  fastest         {} turns at {:.1} rpm\n  samples         {samples} a step\n",
         checks.soles_off,
         checks.fastest.0,
-        rpm(checks.fastest.1),
+        RPM * checks.fastest.1,
     )
 }
 

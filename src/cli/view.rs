@@ -15,7 +15,6 @@ use crate::gait::{Footprint, Side};
 use crate::model::Robot;
 use crate::nav::Room;
 use crate::robots::{self, Outline};
-use crate::task::Goal;
 use crate::view::{Asked, Page, Sole};
 use crate::{Error, ErrorKind, Result};
 
@@ -129,8 +128,7 @@ impl Arguments {
         let text = room_text(room)?;
         let told = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
         let Footprint { x, y, yaw } = self.places.start(told)?;
-        let Goal { place, heading } = self.places.goal()?;
-        let goal: Vec<f64> = [place.x, place.y].into_iter().chain(heading).collect();
+        let goal = self.places.goal()?.numbers();
         let robot = self.shown.to_string_lossy();
         let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))

@@ -35,6 +35,15 @@ impl Link {
         Link { name: name.to_owned(), ..Link::default() }
     }
 
+    /// What it looks like, else what it collides with, of what `show` can show; and whether it has a shape and none of them can be shown.
+    pub fn seen<T>(&self, mut show: impl FnMut(&Shape) -> Option<T>) -> (Vec<T>, bool) {
+        let mut all = |shapes: &[Shape]| -> Vec<T> { shapes.iter().filter_map(&mut show).collect() };
+        let visuals = all(&self.visuals);
+        let seen = if visuals.is_empty() { all(&self.collisions) } else { visuals };
+        let hidden = seen.is_empty() && !(self.visuals.is_empty() && self.collisions.is_empty());
+        (seen, hidden)
+    }
+
     /// What it weighs, in doubles and its own frame.
     pub fn inertia(&self) -> Inertia {
         self.mass.as_ref().map_or(Inertia::none(), Mass::inertia)

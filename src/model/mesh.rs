@@ -75,6 +75,18 @@ impl Meshes {
         let file = self.find(path).ok_or_else(missing)?;
         read_stl(&file, *scale).map_err(|error| error.in_file(&file))
     }
+
+    /// The triangles of a mesh; where they cannot be read the reason joins `notes`, once.
+    pub fn triangles_or_note(&self, solid: &Solid, notes: &mut Vec<String>) -> Option<Surface> {
+        self.triangles(solid)
+            .map_err(|error| {
+                let note = error.to_string();
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+            })
+            .ok()
+    }
 }
 
 fn read_stl(file: &Path, [x, y, z]: [f64; 3]) -> Result<Surface> {

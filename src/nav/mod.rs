@@ -33,6 +33,7 @@ pub use potential::{Forces, Potential, Stuck};
 pub use read::Meaning;
 pub use room::{Piece, Room};
 pub use shape::Shape;
+pub(crate) use shape::signed_area;
 pub use smooth::{Part, Smooth};
 pub use way::{Enclosure, Way};
 pub use weighted::Quickest;

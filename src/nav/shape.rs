@@ -116,6 +116,12 @@ impl Shape {
     }
 }
 
+/// Twice the area of a polygon: positive where its corners go round anticlockwise.
+pub(crate) fn signed_area(corners: &[Point2<f64>]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()
+}
+
 /// Whether a side has points inside of the unit square with this lower left corner, farther than dust from its sides (W. Liang and B. Barsky, ACM Transactions on Graphics 3, 1984).
 fn enters((a, b): (Point2<f64>, Point2<f64>), corner: &Point2<f64>) -> bool {
     let way = b - a;

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Point2, Rotation2, Vector2, Vector3};
 use serde::Serialize;
 
+use crate::gait::Footprint;
 use crate::motion::{Contact, Trajectory};
 use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result};
@@ -161,9 +162,7 @@ fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2
     let distance = |row: usize| {
         let side = usize::from(!soles[0].stands[row]);
         let seen = |sole: &Contact, walk: &Trajectory, point: usize| {
-            let (x, y, yaw) = print(&sole.poses[row]);
-            let at = walk.points[point].at[row];
-            turned(Point2::new(at.x - x, at.y - y), -yaw)
+            seen_from(&print(&sole.poses[row]), walk.points[point].at[row].xy())
         };
         (seen(own[side], answer, is) - seen(soles[side], plan, should)).norm()
     };
@@ -172,27 +171,26 @@ fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2
 }
 
 /// Where a sole is seen from above, and its heading.
-fn print(pose: &Pose) -> (f64, f64, f64) {
+fn print(pose: &Pose) -> Footprint {
     let ahead = pose.rotation * Vector3::x();
-    (pose.translation.x, pose.translation.y, ahead.y.atan2(ahead.x))
+    Footprint { x: pose.translation.x, y: pose.translation.y, yaw: ahead.y.atan2(ahead.x) }
 }
 
-fn turned(point: Point2<f64>, angle: f64) -> Point2<f64> {
-    let (sine, cosine) = angle.sin_cos();
-    Point2::new(cosine * point.x - sine * point.y, sine * point.x + cosine * point.y)
+/// A point as it is seen from a footprint.
+fn seen_from(print: &Footprint, at: Point2<f64>) -> Vector2<f64> {
+    Rotation2::new(-print.yaw) * (at - print.point())
 }
 
 /// The middle of the feet at a sample.
-fn middle(soles: [&Contact; 2], row: usize) -> (f64, f64, f64) {
+fn middle(soles: [&Contact; 2], row: usize) -> Footprint {
     let [left, right] = soles.map(|sole| print(&sole.poses[row]));
-    ((left.0 + right.0) / 2.0, (left.1 + right.1) / 2.0, left.2 + angle::wrap(right.2 - left.2) / 2.0)
+    left.middle(&right)
 }
 
 /// The way of the middle of the feet; turns are followed from sample to sample.
 fn way(soles: [&Contact; 2], samples: usize) -> Way {
-    let (first, last) = (middle(soles, 0), middle(soles, samples - 1));
-    let seen = turned(Point2::new(last.0 - first.0, last.1 - first.1), -first.2);
-    let turn = (1..samples).map(|row| angle::wrap(middle(soles, row).2 - middle(soles, row - 1).2)).sum();
+    let seen = seen_from(&middle(soles, 0), middle(soles, samples - 1).point());
+    let turn = (1..samples).map(|row| angle::wrap(middle(soles, row).yaw - middle(soles, row - 1).yaw)).sum();
     Way { ahead: seen.x, left: seen.y, turn }
 }
 

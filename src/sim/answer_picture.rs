@@ -3,6 +3,7 @@
 use crate::drawing::frame::Frame;
 use crate::drawing::svg::{Svg, Swatch};
 use crate::motion::Trajectory;
+use crate::spatial::angle::RPM;
 
 /// What of the joints is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +20,6 @@ const WIDTH: f64 = 1000.0;
 const EDGE: f64 = 62.0;
 const HEIGHT: f64 = 96.0;
 const GAP: f64 = 34.0;
-/// Radians in a second as turns in a minute.
-const RPM: f64 = 30.0 / std::f64::consts::PI;
 /// The most points of a line.
 const MOST_POINTS: usize = 800;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Vector2};
 
 use crate::document::shown;
-use crate::nav::{Field, Map, Method, Room, Shape};
+use crate::nav::{Field, Map, Method, Room, Shape, signed_area};
 use crate::task::{Floor, Goal, Pilot};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -84,10 +84,10 @@ fn places(shape: &Shape, away: f64) -> Vec<Goal> {
         }
         Shape::Polygon(corners) => {
             let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-            let area: f64 = sides.clone().map(|(a, b)| a.x * b.y - b.x * a.y).sum();
+            let outwards = signed_area(corners).signum();
             let along = |(a, b): (&Point2<f64>, &Point2<f64>)| {
                 let way = b - a;
-                let out = Vector2::new(way.y, -way.x) * (area.signum() / way.norm());
+                let out = Vector2::new(way.y, -way.x) * (outwards / way.norm());
                 let count = (way.norm() / ASIDE).ceil().max(1.0);
                 let shares = (0..count as usize).map(move |place| (place as f64 + 0.5) / count);
                 let at = *a;

@@ -128,16 +128,13 @@ fn plan(
 impl Performed {
     /// Its room and its ways, as they are written.
     pub fn record(&self) -> TaskRecord {
-        let stage = |own: &Stage| {
-            let goal = &own.course.goal;
-            RecordedStage {
-                from: self.walk.time(own.first),
-                steps: own.steps,
-                goal: [goal.place.x, goal.place.y].into_iter().chain(goal.heading).collect(),
-                way: own.course.way.points.iter().map(|point| [point.x, point.y]).collect(),
-                pieces: Interior::of(&own.room).pieces,
-                milliseconds: own.milliseconds,
-            }
+        let stage = |own: &Stage| RecordedStage {
+            from: self.walk.time(own.first),
+            steps: own.steps,
+            goal: own.course.goal.numbers(),
+            way: own.course.way.points.iter().map(|point| [point.x, point.y]).collect(),
+            pieces: Interior::of(&own.room).pieces,
+            milliseconds: own.milliseconds,
         };
         TaskRecord { scene: Interior::of(&self.stages[0].room), stages: self.stages.iter().map(stage).collect() }
     }

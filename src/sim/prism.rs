@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::Point2;
 
 use super::interior::corners;
-use crate::nav::{Room, Shape};
+use crate::nav::{Room, Shape, signed_area};
 
 /// How high the walls of a room are \[m\].
 pub const WALL_HEIGHT: f64 = 2.5;
@@ -46,7 +46,7 @@ pub fn prisms(room: &Room) -> Vec<(Thing, Vec<Prism>)> {
     let walls = room.walls().into_iter().map(|shape| (Thing::Wall, shape, WALL_HEIGHT));
     let covered = |(thing, shape, height): (Thing, Shape, f64)| {
         let mut open = corners(&shape);
-        if area(&open) < 0.0 {
+        if signed_area(&open) < 0.0 {
             open.reverse();
         }
         let parts = triangles(open).into_iter().map(|corners| Prism { corners, height });
@@ -61,7 +61,7 @@ fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
     loop {
         let count = open.len();
         let around = |at: usize| [(at + count - 1) % count, at, (at + 1) % count];
-        let turn = |at: usize| area(&around(at).map(|corner| open[corner]));
+        let turn = |at: usize| signed_area(&around(at).map(|corner| open[corner]));
         if (0..count).all(|at| turn(at) >= 0.0) {
             parts.push(open);
             return parts;
@@ -70,7 +70,7 @@ fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
             let own = around(*at);
             let triangle = own.map(|corner| open[corner]);
             let is_inside = |point: &Point2<f64>| {
-                (0..3).all(|side| area(&[triangle[side], triangle[(side + 1) % 3], *point]) >= 0.0)
+                (0..3).all(|side| signed_area(&[triangle[side], triangle[(side + 1) % 3], *point]) >= 0.0)
             };
             turn(*at) > 0.0 && (0..count).all(|other| own.contains(&other) || !is_inside(&open[other]))
         };
@@ -82,10 +82,4 @@ fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
         parts.push(around(ear).map(|corner| open[corner]).to_vec());
         open.remove(ear);
     }
-}
-
-/// Twice the area of a polygon: positive where its corners go round anticlockwise.
-fn area(corners: &[Point2<f64>]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()
 }

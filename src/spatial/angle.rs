@@ -2,6 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
+/// A radian a second in turns a minute.
+pub const RPM: f64 = 30.0 / PI;
+
 /// The angle of (-pi, pi] that differs from `angle` by whole turns of the double `TAU`, without rounding.
 ///
 /// NaN when `angle` is not finite.

@@ -37,6 +37,25 @@ pub struct Goal {
     pub heading: Option<f64>,
 }
 
+impl Goal {
+    /// That of x and y \[m\], and a heading \[rad\] if one is told.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    pub fn of(numbers: &[f64]) -> Result<Self> {
+        match *numbers {
+            [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
+            [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading) }),
+            _ => Err(Error::new(ErrorKind::BadValue, "a goal has two or three numbers: x, y, heading")),
+        }
+    }
+
+    /// Its numbers, as [`Goal::of`] takes them.
+    pub fn numbers(&self) -> Vec<f64> {
+        [self.place.x, self.place.y].into_iter().chain(self.heading).collect()
+    }
+}
+
 /// A way for the middle of a walker's feet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {

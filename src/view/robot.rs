@@ -44,11 +44,7 @@ pub fn frame(pose: &Pose) -> Frame {
 }
 
 fn link(own: &model::Link, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Link {
-    let mut seen =
-        |shapes: &[model::Shape]| -> Vec<Shape> { shapes.iter().filter_map(|own| shape(own, meshes, notes)).collect() };
-    let visuals = seen(&own.visuals);
-    let shapes = if visuals.is_empty() { seen(&own.collisions) } else { visuals };
-    let hidden = shapes.is_empty() && !(own.visuals.is_empty() && own.collisions.is_empty());
+    let (shapes, hidden) = own.seen(|own| shape(own, meshes, notes));
     Link { name: own.name.clone(), shapes, hidden }
 }
 
@@ -59,19 +55,13 @@ fn shape(own: &model::Shape, meshes: Option<&Meshes>, notes: &mut Vec<String>) -
         model::Solid::Cylinder { radius, length } => Solid::Cylinder { radius, length },
         model::Solid::Sphere { radius } => Solid::Sphere { radius },
         model::Solid::Capsule { radius, length } => Solid::Capsule { radius, length },
-        mesh @ model::Solid::Mesh { .. } => match meshes?.triangles(&mesh) {
-            Ok(surface) => Solid::Mesh {
+        mesh @ model::Solid::Mesh { .. } => {
+            let surface = meshes?.triangles_or_note(&mesh, notes)?;
+            Solid::Mesh {
                 positions: bytes::singles(surface.points.iter().flat_map(|p| [p.x as f32, p.y as f32, p.z as f32])),
                 triangles: bytes::wholes(surface.triangles.iter().flatten().copied()),
-            },
-            Err(error) => {
-                let note = error.to_string();
-                if !notes.contains(&note) {
-                    notes.push(note);
-                }
-                return None;
             }
-        },
+        }
     };
     Some(Shape { pose: frame(&own.pose()), solid, colour: own.colour })
 }

@@ -1,13 +1,11 @@
 //! A run of the simulator as a page asks for it. Main type: [`Asked`].
 
-use nalgebra::Point2;
-
 use super::data::Run;
 use crate::gait::Footprint;
 use crate::nav::Room;
 use crate::sim::{self, Interior, Start};
 use crate::task::Goal;
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::{Result, Watch};
 
 /// What runs where.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,12 +30,7 @@ pub fn run(asked: &Asked<'_>) -> Result<Run> {
     let Asked { robot, room: text, start, goal, apart } = asked;
     let room = Room::from_toml(text)?;
     let [x, y, yaw] = *start;
-    let destination = match **goal {
-        [x, y] => Goal { place: Point2::new(x, y), heading: None },
-        [x, y, heading] => Goal { place: Point2::new(x, y), heading: Some(heading) },
-        _ => return Err(Error::new(ErrorKind::BadValue, "a goal has two or three numbers: x, y, heading")),
-    };
-    let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, destination.into(), *apart)?;
+    let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, Goal::of(goal)?.into(), *apart)?;
     sim::Run::new(begun, &Watch::none())?;
     let scene = Interior::of(&room);
     let (robot, room) = ((*robot).to_owned(), (*text).to_owned());

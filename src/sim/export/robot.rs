@@ -27,7 +27,11 @@ impl Scene {
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>, trajectory: Option<&Trajectory>) -> Result<Self> {
         let values = values(robot, trajectory)?;
         let mut scene = Scene { title: robot.name().to_owned(), ..Scene::default() };
-        let mut seen: Vec<Seen> = robot.links().iter().map(|own| link(own, meshes, &mut scene.notes)).collect();
+        let mut link = |own: &Link| {
+            let (parts, hidden) = own.seen(|shape| part(shape, meshes, &mut scene.notes));
+            Seen { parts, hidden }
+        };
+        let mut seen: Vec<Seen> = robot.links().iter().map(&mut link).collect();
         bones::add(robot, &mut seen);
         if seen.iter().all(|link| link.parts.is_empty()) {
             let text = format!(
@@ -122,29 +126,10 @@ fn place(robot: &Robot, track: &JointTrack) -> Result<usize> {
     }
 }
 
-/// What the link looks like, else what it collides with.
-fn link(own: &Link, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Seen {
-    let mut seen =
-        |shapes: &[Shape]| -> Vec<Part> { shapes.iter().filter_map(|own| part(own, meshes, notes)).collect() };
-    let visuals = seen(&own.visuals);
-    let parts = if visuals.is_empty() { seen(&own.collisions) } else { visuals };
-    let hidden = parts.is_empty() && !(own.visuals.is_empty() && own.collisions.is_empty());
-    Seen { parts, hidden }
-}
-
 /// The shape, unless it is a mesh that is not asked for or cannot be read.
 fn part(own: &Shape, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Option<Part> {
     let body = match &own.solid {
-        mesh @ Solid::Mesh { .. } => match meshes?.triangles(mesh) {
-            Ok(surface) => Body::Surface(surface),
-            Err(error) => {
-                let note = error.to_string();
-                if !notes.contains(&note) {
-                    notes.push(note);
-                }
-                return None;
-            }
-        },
+        mesh @ Solid::Mesh { .. } => Body::Surface(meshes?.triangles_or_note(mesh, notes)?),
         solid => Body::Solid(solid.clone()),
     };
     let [red, green, blue, opacity] = own.colour.unwrap_or([0.78, 0.8, 0.84, 1.0]);

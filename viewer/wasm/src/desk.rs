@@ -85,7 +85,7 @@ impl Desk {
             }
             Request::Run { robot, room, start: [x, y, yaw], goal, apart } => {
                 let (room, middle) = (Room::from_toml(&room)?, Footprint { x, y, yaw });
-                let start = Start::of_robot(&robot, room, middle, place(&goal)?.into(), apart)?;
+                let start = Start::of_robot(&robot, room, middle, Goal::of(&goal)?.into(), apart)?;
                 self.furniture.clone_from(&start.room.pieces);
                 let run = self.run.insert(Run::new(start, &watch)?);
                 let samples = run.walk().references.len();
@@ -100,7 +100,7 @@ impl Desk {
             }
             Request::Goal(goal) => {
                 let run = self.running()?;
-                run.go_to(place(&goal)?.into(), &watch)?;
+                run.go_to(Goal::of(&goal)?.into(), &watch)?;
                 Ok(told(run, 0..0))
             }
             Request::Furniture { name, at } => {
@@ -137,14 +137,6 @@ impl Desk {
 
     fn running(&mut self) -> Result<&mut Run> {
         self.run.as_mut().ok_or_else(|| Error::new(ErrorKind::MissingKey, "nothing runs yet; ask for a run first"))
-    }
-}
-
-fn place(goal: &[f64]) -> Result<Goal> {
-    match *goal {
-        [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
-        [x, y, heading] => Ok(Goal { place: Point2::new(x, y), heading: Some(heading) }),
-        _ => Err(Error::new(ErrorKind::BadValue, "a goal has two or three numbers: x, y, heading")),
     }
 }
 
