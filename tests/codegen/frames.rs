@@ -6,7 +6,7 @@ use std::fs;
 use groebot::codegen::rust;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::harness::{c_sources, compile_c, feed, rustc, write_c};
+use super::harness::{compile_solver, feed, rustc, write_c};
 use super::random;
 use super::stored::named;
 
@@ -24,11 +24,7 @@ fn a_base_and_a_tool_are_taken_off_a_pose() {
     fs::write(path.join("5_solver.rs"), rust::emit(&program)).unwrap();
     fs::write(path.join("main.c"), C_DRIVER).unwrap();
     fs::write(path.join("module.rs"), RUST_DRIVER).unwrap();
-    let sources = c_sources(&program);
-    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-    if compile_c(path, &[&["main.c"], &files[..], &["-lm", "-o", "c99"]].concat()).is_none()
-        || rustc(path, &["module.rs"]).is_none()
-    {
+    if compile_solver(&program, path, &[], "c99").is_none() || rustc(path, &["module.rs"]).is_none() {
         return;
     }
     let mut between = random();

@@ -1,11 +1,12 @@
 //! Compiles the printed solvers of a program, runs them, and compares each answer with [`Program::solve`].
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::OnceLock;
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 use groebot::ErrorKind;
 use groebot::codegen::{self, c99::Pair};
@@ -136,11 +137,27 @@ pub fn write_pair(folder: &Path, pair: &Pair) {
     fs::write(folder.join("5_solver.c"), &pair.source).unwrap();
 }
 
-/// The C files that a solver of this program consists of, beside a driver.
-pub fn c_sources(program: &Program) -> Vec<String> {
-    let names = if codegen::has_six_axes(program) { &["groebot.c", "groebot_six_axes.c"][..] } else { &["groebot.c"] };
-    let runtime = names.iter().map(|name| c_runtime().join(name).to_str().unwrap().to_owned());
-    ["5_solver.c".to_owned()].into_iter().chain(runtime).collect()
+/// Compiles a solver in C with its driver `main.c`; `None` when the compiler is missing.
+pub fn compile_solver(program: &Program, folder: &Path, flags: &[&str], name: &str) -> Option<()> {
+    let parts = if codegen::has_six_axes(program) { &["groebot.c", "groebot_six_axes.c"][..] } else { &["groebot.c"] };
+    let objects = parts.iter().map(|part| runtime_object(part, flags)).collect::<Option<Vec<_>>>()?;
+    let objects: Vec<&str> = objects.iter().map(String::as_str).collect();
+    compile_c(folder, &[flags, &["main.c", "5_solver.c"], &objects, &["-lm", "-o", name]].concat())
+}
+
+/// A file of the run time in C, compiled once for each choice of flags.
+fn runtime_object(part: &str, flags: &[&str]) -> Option<String> {
+    static FOLDER: LazyLock<tempfile::TempDir> = LazyLock::new(|| tempfile::tempdir().unwrap());
+    static KNOWN: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let own = format!("{part} {}", flags.join(" "));
+    if !known.contains_key(&own) {
+        let object = FOLDER.path().join(format!("{}.o", known.len())).to_str().unwrap().to_owned();
+        let source = c_runtime().join(part);
+        compile_c(FOLDER.path(), &[flags, &["-c", source.to_str().unwrap(), "-o", &object]].concat())?;
+        known.insert(own.clone(), object);
+    }
+    known.get(&own).cloned()
 }
 
 /// The folder of the run time in C.
@@ -173,9 +190,7 @@ pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str
     rustc(folder, &["module.rs"])?;
     rustc(folder, &library)?;
     rustc(folder, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
-    let sources = c_sources(program);
-    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-    compile_c(folder, &[&["-DGB_MAX_PLACES=1000", "main.c"], &files[..], &["-lm", "-o", "c99"]].concat())?;
+    compile_solver(program, folder, &["-DGB_MAX_PLACES=1000"], "c99")?;
     let at = |name: &str| folder.join(name);
     Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
 }

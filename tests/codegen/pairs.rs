@@ -7,7 +7,7 @@ use std::fs;
 use groebot::codegen;
 use groebot::solver::{JointValue, Program};
 
-use super::harness::{c_sources, compile_c, feed, rustc, write_c};
+use super::harness::{compile_solver, feed, rustc, write_c};
 use super::stored::named;
 use super::{odd, random};
 
@@ -34,9 +34,7 @@ fn printed(program: &Program, targets: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     write_c(program, folder.path());
     write("main.c", C_DRIVER.replace("NAME", &program.name).replace("UPPER", &upper));
     rustc(folder.path(), &["-Amissing_docs", "main.rs", "-o", "rust"])?;
-    let sources = c_sources(program);
-    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-    compile_c(folder.path(), &[&["main.c"], &files[..], &["-lm", "-o", "c99"]].concat())?;
+    compile_solver(program, folder.path(), &[], "c99")?;
     let mut text = format!("{}\n", targets.len());
     for number in targets.iter().flatten() {
         write!(text, "{number:e} ").unwrap();

@@ -7,7 +7,7 @@ use std::path::Path;
 use groebot::codegen::c99::Pair;
 use groebot::solver::Program;
 
-use super::harness::{c_sources, compile_c, feed, write_pair};
+use super::harness::{compile_solver, feed, write_pair};
 use super::random;
 use super::stored::{joint_values, named};
 
@@ -28,9 +28,7 @@ fn build(program: &Program, folder: &Path) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
     write_pair(folder, &Pair::new(program, "5_solver"));
     fs::write(folder.join("main.c"), DRIVER.replace("NAME", &program.name).replace("UPPER", &upper)).unwrap();
-    let sources = c_sources(program);
-    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-    compile_c(folder, &[&["-DGB_FLOAT", "main.c"], &files[..], &["-lm", "-o", "single"]].concat())
+    compile_solver(program, folder, &["-DGB_FLOAT"], "single")
 }
 
 pub fn compare(program: &Program, count: usize) -> Option<Seen> {

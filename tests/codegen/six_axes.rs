@@ -1,9 +1,7 @@
 //! Printed solvers of six axes by one eigenvalue problem: compiled, run, compared with the evaluator.
 
-use std::process::Command;
-
 use super::derivations::targets_of;
-use super::harness::{SANITIZERS, build, c_runtime, c_sources, compare, compile_c, feed, has_sanitizers, write_c};
+use super::harness::{SANITIZERS, compare, compile_solver, feed, has_sanitizers, write_c};
 use super::single;
 use super::stored::{Stored, named};
 
@@ -68,16 +66,11 @@ fn the_c_file_runs_under_sanitizers() {
     for stored in named(&["crx_like"]) {
         let folder = tempfile::tempdir().unwrap();
         write_c(&stored.program, folder.path());
-        let sources = c_sources(&stored.program);
-        let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-        let plain = [&["main.c"], &files[..], &["-lm", "-o", "c99"]].concat();
-        if !has_sanitizers(folder.path()) || compile_c(folder.path(), &plain).is_none() {
+        let checked = [&SANITIZERS[..], &["-O1", "-g"]].concat();
+        if !has_sanitizers(folder.path()) || compile_solver(&stored.program, folder.path(), &[], "c99").is_none() {
             return;
         }
-        let mut command = Command::new("cc");
-        let files = [&["-O1", "-g", "-std=c99", "main.c"], &files[..], &["-lm", "-o", "checked"]].concat();
-        command.arg("-I").arg(c_runtime());
-        build(command.args(SANITIZERS).args(files).current_dir(folder.path()));
+        compile_solver(&stored.program, folder.path(), &checked, "checked");
         let targets = targets_of(&stored.program, 100);
         let lines = targets.iter().map(|target| {
             let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();

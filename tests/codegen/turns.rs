@@ -11,7 +11,7 @@ use groebot::codegen::rust;
 use groebot::kinematics::Solution;
 use groebot::solver::{About, JointValue, Program, Solver};
 
-use super::harness::{SANITIZERS, c_sources, compile_c, feed, has_sanitizers, rustc, write_c};
+use super::harness::{SANITIZERS, compile_solver, feed, has_sanitizers, rustc, write_c};
 use super::random;
 use super::stored::{joint_values, named};
 
@@ -194,9 +194,7 @@ fn c_program(program: &Program, folder: &Path, flags: &[&str]) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
     write_c(program, folder);
     fs::write(folder.join("main.c"), C_DRIVER.replace("NAME", &program.name).replace("UPPER", &upper)).unwrap();
-    let sources = c_sources(program);
-    let files: Vec<&str> = sources.iter().map(String::as_str).collect();
-    compile_c(folder, &[flags, &["main.c"], &files[..], &["-lm", "-o", "c99"]].concat())
+    compile_solver(program, folder, flags, "c99")
 }
 
 fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
