@@ -120,9 +120,9 @@ impl Batch {
 }
 
 impl<S: Storage + 'static> Shaped<S> {
-    /// As [`Solver::solve_batch_into`].
-    pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
-        let (inputs, threads) = (self.facts().inputs, rayon::current_num_threads());
+    /// As [`Solver::solve_batch_into`], with so many of rayon's threads; with one on the calling thread.
+    pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch, threads: usize) -> Result<()> {
+        let inputs = self.facts().inputs;
         batch.clear(self.facts().joints.len());
         if inputs == 0 || !targets.len().is_multiple_of(inputs) {
             let text = format!("{} numbers are no targets of {inputs} each", targets.len());
