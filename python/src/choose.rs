@@ -1,0 +1,111 @@
+//! Which of a target's answers are wanted: those within limits, the one nearest to a reference. Main type: [`Choice`].
+
+use std::f64::consts::TAU;
+
+use crate::kernel::Kernel;
+use crate::sink::{Sink, Status};
+use crate::targets::Targets;
+
+/// How far beyond a limit rounding may bring a joint that is at it.
+const SLACK: f64 = 1e-9;
+
+/// What is wanted of the answers.
+#[derive(Clone, Copy, Default)]
+pub struct Choice<'a> {
+    /// By joint, the least and the greatest value.
+    pub limits: Option<&'a [[f64; 2]]>,
+    /// The joint values to be near to: of one row for all targets, or row by row.
+    pub near: Option<&'a [f64]>,
+}
+
+impl Choice<'_> {
+    /// Ends a target whose answers begin at `begun`, with those that are wanted.
+    pub fn end(
+        &self,
+        kernel: &dyn Kernel,
+        targets: &Targets<'_>,
+        sink: &mut Sink,
+        target: usize,
+        begun: usize,
+        why: Status,
+    ) {
+        let found = sink.answers() - begun;
+        if let Some(limits) = self.limits {
+            keep_within(kernel, targets, sink, target, begun, limits);
+        }
+        if let Some(near) = self.near {
+            let start = if near.len() == sink.joints { 0 } else { target * sink.joints };
+            keep_nearest(&kernel.shape().turns, sink, begun, &near[start..start + sink.joints], self.limits);
+        }
+        sink.end(begun, if found > 0 { Status::BeyondLimits } else { why });
+    }
+}
+
+/// Keeps the answers that have a turn within limits, moved there by as few turns of each angle as can be; members of self-motions are moved along them
+/// where that is needed.
+fn keep_within(
+    kernel: &dyn Kernel,
+    targets: &Targets<'_>,
+    sink: &mut Sink,
+    target: usize,
+    begun: usize,
+    limits: &[[f64; 2]],
+) {
+    let turns = &kernel.shape().turns;
+    let (mut kept, mut strides) = (begun, false);
+    for answer in begun..sink.answers() {
+        let own: Vec<f64> = sink.row(answer).to_vec();
+        match moved(turns, &own, &own, Some(limits)) {
+            Some(q) => {
+                sink.put(answer, kept);
+                sink.row_mut(kept).copy_from_slice(&q);
+                kept += 1;
+            }
+            None => strides |= sink.free[answer] != 0,
+        }
+    }
+    sink.truncate(kept);
+    if strides {
+        let mut numbers = vec![0.0; targets.inputs];
+        targets.row(target, &mut numbers);
+        if let Ok(found) = kernel.solve_within(&numbers, limits) {
+            sink.truncate(begun);
+            for answer in found {
+                let free = answer.free.iter().fold(0, |bits, joint| bits | 1 << joint);
+                sink.answer(&answer.q, answer.residual, answer.branch, free);
+            }
+        }
+    }
+}
+
+/// Keeps the answer that can come nearest to a reference by turns within limits, at its nearest turn; of equals the first.
+fn keep_nearest(turns: &[bool], sink: &mut Sink, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
+    let mut best: Option<(f64, usize, Vec<f64>)> = None;
+    for answer in begun..sink.answers() {
+        let Some(q) = moved(turns, sink.row(answer), reference, limits) else { continue };
+        let distance: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
+        if best.as_ref().is_none_or(|(least, ..)| distance < *least) {
+            best = Some((distance, answer, q));
+        }
+    }
+    let Some((_, answer, q)) = best else { return sink.truncate(begun) };
+    sink.put(answer, begun);
+    sink.row_mut(begun).copy_from_slice(&q);
+    sink.truncate(begun + 1);
+}
+
+/// `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; none when a joint cannot be within its limits.
+pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>) -> Option<Vec<f64>> {
+    (0..q.len())
+        .map(|joint| {
+            let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
+            let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);
+            if !turns[joint] {
+                return Some(value).filter(|value| (low..=high).contains(value));
+            }
+            let (first, last) = (((low - value) / TAU).ceil(), ((high - value) / TAU).floor());
+            let wanted = ((reference[joint] - value) / TAU).round();
+            (first <= last).then(|| value + TAU * wanted.clamp(first, last))
+        })
+        .collect()
+}

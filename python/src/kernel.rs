@@ -1,0 +1,229 @@
+//! What solves: a solver that was printed, or the program of one that was derived. Main trait: [`Kernel`].
+
+use std::ops::Range;
+
+use groebot::kinematics::Solution;
+use groebot::solver::{Batch, Condition, JointValue, Program, Solver};
+use groebot::{Error, ErrorKind, Result};
+use groebot_runtime as runtime;
+use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::storage::Array;
+use groebot_runtime::{Mechanism, Solve};
+
+use crate::sink::{Sink, Status};
+use crate::targets::Targets;
+
+/// How many targets a kernel takes at once.
+pub const PIECE: usize = 64;
+
+/// What holds for all targets of a solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// How many numbers a target has.
+    pub inputs: usize,
+    /// By joint, whether it turns.
+    pub turns: Vec<bool>,
+    /// How many answers an ordinary target has at most.
+    pub usual: usize,
+    /// How many any target has at most.
+    pub capacity: usize,
+}
+
+/// A solver of many targets. All answers are the same to the last bit, whatever solves.
+pub trait Kernel: Send + Sync {
+    fn shape(&self) -> &Shape;
+
+    /// All answers for one target.
+    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>>;
+
+    /// Those within limits, each moved by as few turns as can be.
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
+
+    /// What joint values reach, where the equations tell it.
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
+
+    /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>);
+}
+
+/// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
+pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink, usize, usize, Status);
+
+/// A printed solver.
+pub struct Printed<M> {
+    mechanism: M,
+    shape: Shape,
+}
+
+impl<M: Mechanism> Printed<M> {
+    pub fn new(mechanism: M) -> Self {
+        let facts = mechanism.facts();
+        let shape = Shape {
+            inputs: facts.inputs,
+            turns: facts.joints.iter().map(|joint| matches!(joint, runtime::Joint::Angle(_))).collect(),
+            usual: facts.candidates.max(facts.isolated.unwrap_or(0)).min(facts.capacity),
+            capacity: facts.capacity,
+        };
+        Printed { mechanism, shape }
+    }
+
+    fn row(&self, target: &[f64]) -> Inputs<M> {
+        Array::by(self.shape.inputs, |i| target[i])
+    }
+
+    fn room(&self) -> Vec<runtime::Solution<M>> {
+        vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity]
+    }
+}
+
+impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
+    fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
+        let mut room = self.room();
+        let count = self.mechanism.solve(&self.row(target), &mut room).map_err(refused)?;
+        Ok(room[..count].iter().map(solution).collect())
+    }
+
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        let (mut room, limits) = (self.room(), Array::by(limits.len(), |i| limits[i]));
+        let count = self.mechanism.solve_within(&self.row(target), &limits, &mut room).map_err(refused)?;
+        Ok(room[..count].iter().map(solution).collect())
+    }
+
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
+        self.mechanism.forward(&Array::by(q.len(), |i| q[i])).map(|target| target.as_ref().to_vec())
+    }
+
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>) {
+        let Shape { usual, capacity, inputs, .. } = self.shape;
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); PIECE * usual + capacity];
+        let mut piece: Vec<Inputs<M>> = vec![Array::by(inputs, |_| 0.0); PIECE];
+        let (mut whole, mut counts) = ([Status::Solved; PIECE], [Ok(0); PIECE]);
+        for first in rows.clone().step_by(PIECE) {
+            let size = PIECE.min(rows.end - first);
+            for (row, (target, status)) in piece[..size].iter_mut().zip(&mut whole).enumerate() {
+                *status = targets.row(first + row, target.as_mut());
+            }
+            let mut done = 0;
+            while done < size {
+                let solved = self.mechanism.solve_batch(&piece[done..size], &mut room, &mut counts);
+                let mut answers = room.iter();
+                for (row, count) in (done..).zip(&counts[..solved]) {
+                    let begun = sink.answers();
+                    for answer in answers.by_ref().take(count.unwrap_or(0)) {
+                        sink.answer(answer.q.as_ref(), answer.residual, answer.branch, answer.free);
+                    }
+                    ended(sink, first + row, begun, why(whole[row], count.map(|_| ())));
+                }
+                done += solved;
+            }
+        }
+    }
+}
+
+/// Why a target has no answers: what its form says, else what the solver does.
+fn why(form: Status, solved: std::result::Result<(), runtime::Error>) -> Status {
+    match (form, solved) {
+        (Status::Solved, Ok(())) => Status::Unreachable,
+        (Status::Solved, Err(runtime::Error::NotFinite)) => Status::NotFinite,
+        (Status::Solved, Err(runtime::Error::NotRotation)) => Status::NotRotation,
+        (Status::Solved, Err(runtime::Error::NotUnit)) => Status::NotUnit,
+        (Status::Solved, Err(_)) => Status::Open,
+        (form, _) => form,
+    }
+}
+
+fn refused(error: runtime::Error) -> Error {
+    let is_open = matches!(error, runtime::Error::OpenStratum(_));
+    Error::new(if is_open { ErrorKind::Unsupported } else { ErrorKind::BadValue }, error.to_string())
+}
+
+fn solution<M: Mechanism>(answer: &runtime::Solution<M>) -> Solution {
+    let joints = answer.q.as_ref().len();
+    Solution {
+        q: answer.q.as_ref().to_vec(),
+        residual: answer.residual,
+        branch: answer.branch,
+        free: (0..joints).filter(|joint| answer.is_free(*joint)).collect(),
+        chosen: answer.chosen,
+    }
+}
+
+/// The program of a derived solver.
+pub struct Interpreted {
+    solver: Solver,
+    shape: Shape,
+    has_rotation: bool,
+}
+
+impl Interpreted {
+    pub fn new(program: &Program) -> Self {
+        let turns = program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. }));
+        let shape = Shape {
+            inputs: program.inputs.len(),
+            turns: turns.collect(),
+            usual: program.isolated.unwrap_or(program.bound()).clamp(1, program.capacity.max(1)),
+            capacity: program.capacity,
+        };
+        let has_rotation = program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_)));
+        Interpreted { solver: program.solver(), shape, has_rotation }
+    }
+
+    /// Why a target is refused.
+    fn why(&self, target: &[f64], error: &Error) -> Status {
+        match error.kind() {
+            ErrorKind::Unsupported => Status::Open,
+            _ if !target.iter().all(|number| number.is_finite()) => Status::NotFinite,
+            _ if self.has_rotation => Status::NotRotation,
+            _ => Status::NotUnit,
+        }
+    }
+}
+
+impl Kernel for Interpreted {
+    fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
+        self.solver.solve_numbers(target)
+    }
+
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        self.solver.solve_within(target, limits)
+    }
+
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
+        self.solver.reached(q)
+    }
+
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>) {
+        let (inputs, joints) = (self.shape.inputs, self.shape.turns.len());
+        let mut numbers = vec![0.0; inputs * PIECE];
+        let (mut whole, mut batch) = ([Status::Solved; PIECE], Batch::default());
+        for first in rows.clone().step_by(PIECE) {
+            let size = PIECE.min(rows.end - first);
+            for (row, (target, status)) in numbers.chunks_mut(inputs).zip(&mut whole).take(size).enumerate() {
+                *status = targets.row(first + row, target);
+            }
+            if self.solver.solve_batch_here(&numbers[..size * inputs], &mut batch).is_err() {
+                return;
+            }
+            let mut refused = batch.refused().iter().peekable();
+            for (row, form) in whole[..size].iter().enumerate() {
+                let begun = sink.answers();
+                for answer in batch.of_target(row) {
+                    let q = (0..joints).map(|joint| batch.joint(joint)[answer]);
+                    sink.answer_by(q, batch.residuals()[answer], batch.branches()[answer], batch.free()[answer]);
+                }
+                let error = refused.next_if(|(index, _)| *index == row);
+                let told =
+                    error.map_or(Status::Unreachable, |(_, error)| self.why(&numbers[row * inputs..][..inputs], error));
+                ended(sink, first + row, begun, if *form == Status::Solved { told } else { *form });
+            }
+        }
+    }
+}
