@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Builds the wheel and tries it as people would: installed by pip in empty environments, with the oldest numpy and the newest. It needs python3 with venv, and
+# nothing else beyond Rust. Where the profile is `release` (`python/ci.sh release`) the wheel is the one that is sent to people, and its size is looked at.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+profile=${1:-fast}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+environment() {
+    python3 -m venv "$work/$1"
+    "$work/$1/bin/pip" install --quiet --disable-pip-version-check "${@:2}"
+}
+
+cargo fmt --check
+cargo clippy --locked --all-targets -- -D warnings
+
+environment build "maturin>=1.9,<2"
+"$work/build/bin/maturin" build --locked --profile "$profile" --out "$work/wheels"
+wheel=$(echo "$work"/wheels/*.whl)
+size=$(stat --format %s "$wheel")
+printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
+if [ "$profile" = release ] && [ "$size" -gt 6000000 ]; then
+    echo "the wheel has more than 6 MB"
+    exit 1
+fi
+
+environment bare "$wheel"
+(cd "$work" && bare/bin/python -c 'import groebot; assert len(groebot.Solver.named("ur5").solve(groebot.Solver.named("ur5").forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8')
+(cd "$work" && bare/bin/groebot --version)
+
+environment oldest "$wheel" "numpy==1.26.*" pytest hypothesis "scipy<1.15"
+"$work/oldest/bin/python" -m pytest --quiet tests
+
+environment newest "$wheel" "numpy>=2" pytest hypothesis scipy mypy pyright
+"$work/newest/bin/python" -m pytest --quiet tests
+"$work/newest/bin/mypy" --package groebot
+"$work/newest/bin/mypy" examples
+"$work/newest/bin/python" examples/first.py
+# pyright brings Node with it where there is none.
+"$work/newest/bin/pyright" --pythonpath "$work/newest/bin/python" --verifytypes groebot --ignoreexternal
+"$work/newest/bin/pyright" --pythonpath "$work/newest/bin/python" examples
