@@ -22,7 +22,6 @@ impl<'py> Numbers<'py> {
     pub fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
         if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
-            && array.readonly().as_slice().is_ok()
         {
             return Ok(Numbers { array: array.clone(), single: false });
         }

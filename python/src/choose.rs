@@ -24,12 +24,12 @@ impl Choice<'_> {
         &self,
         kernel: &dyn Kernel,
         targets: &Targets<'_>,
-        sink: &mut Sink,
+        sink: &mut Sink<'_>,
         target: usize,
         begun: usize,
         why: Status,
     ) {
-        let found = sink.answers() - begun;
+        let found = sink.taken - begun;
         if let Some(limits) = self.limits {
             keep_within(kernel, targets, sink, target, begun, limits);
         }
@@ -46,14 +46,14 @@ impl Choice<'_> {
 fn keep_within(
     kernel: &dyn Kernel,
     targets: &Targets<'_>,
-    sink: &mut Sink,
+    sink: &mut Sink<'_>,
     target: usize,
     begun: usize,
     limits: &[[f64; 2]],
 ) {
     let turns = &kernel.shape().turns;
     let (mut kept, mut strides) = (begun, false);
-    for answer in begun..sink.answers() {
+    for answer in begun..sink.taken {
         let own: Vec<f64> = sink.row(answer).to_vec();
         match moved(turns, &own, &own, Some(limits)) {
             Some(q) => {
@@ -61,37 +61,40 @@ fn keep_within(
                 sink.row_mut(kept).copy_from_slice(&q);
                 kept += 1;
             }
-            None => strides |= sink.free[answer] != 0,
+            None => strides |= sink.rows.free[answer] != 0,
         }
     }
-    sink.truncate(kept);
+    sink.taken = kept;
     if strides {
         let mut numbers = vec![0.0; targets.inputs];
         targets.row(target, &mut numbers);
         if let Ok(found) = kernel.solve_within(&numbers, limits) {
-            sink.truncate(begun);
+            sink.taken = begun;
             for answer in found {
-                let free = answer.free.iter().fold(0, |bits, joint| bits | 1 << joint);
-                sink.answer(&answer.q, answer.residual, answer.branch, free);
+                let Some(rows) = sink.more(1) else { return };
+                rows.q.copy_from_slice(&answer.q);
+                rows.residual[0] = answer.residual;
+                rows.branch[0] = answer.branch as i32;
+                rows.free[0] = answer.free.iter().fold(0, |bits, joint| bits | 1 << joint);
             }
         }
     }
 }
 
 /// Keeps the answer that can come nearest to a reference by turns within limits, at its nearest turn; of equals the first.
-fn keep_nearest(turns: &[bool], sink: &mut Sink, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
+fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
     let mut best: Option<(f64, usize, Vec<f64>)> = None;
-    for answer in begun..sink.answers() {
+    for answer in begun..sink.taken {
         let Some(q) = moved(turns, sink.row(answer), reference, limits) else { continue };
         let distance: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
         if best.as_ref().is_none_or(|(least, ..)| distance < *least) {
             best = Some((distance, answer, q));
         }
     }
-    let Some((_, answer, q)) = best else { return sink.truncate(begun) };
+    let Some((_, answer, q)) = best else { return sink.taken = begun };
     sink.put(answer, begun);
     sink.row_mut(begun).copy_from_slice(&q);
-    sink.truncate(begun + 1);
+    sink.taken = begun + 1;
 }
 
 /// `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; none when a joint cannot be within its limits.

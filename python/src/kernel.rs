@@ -10,11 +10,12 @@ use groebot_runtime::mechanism::Inputs;
 use groebot_runtime::storage::Array;
 use groebot_runtime::{Mechanism, Solve};
 
-use crate::sink::{Sink, Status};
+use crate::sink::{Rows, Sink, Status};
 use crate::targets::Targets;
 
-/// How many targets a kernel takes at once.
-pub const PIECE: usize = 64;
+/// How many targets a printed solver takes at once, and how many a program.
+const PIECE: usize = 64;
+const MANY: usize = 256;
 
 /// What holds for all targets of a solver.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,11 +44,11 @@ pub trait Kernel: Send + Sync {
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
 
     /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
-    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>);
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>);
 }
 
 /// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
-pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink, usize, usize, Status);
+pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink<'_>, usize, usize, Status);
 
 /// A printed solver.
 pub struct Printed<M> {
@@ -97,7 +98,7 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
         self.mechanism.forward(&Array::by(q.len(), |i| q[i])).map(|target| target.as_ref().to_vec())
     }
 
-    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>) {
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
         let Shape { usual, capacity, inputs, .. } = self.shape;
         let mut room = vec![runtime::Solution::empty(&self.mechanism); PIECE * usual + capacity];
         let mut piece: Vec<Inputs<M>> = vec![Array::by(inputs, |_| 0.0); PIECE];
@@ -112,15 +113,30 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
                 let solved = self.mechanism.solve_batch(&piece[done..size], &mut room, &mut counts);
                 let mut answers = room.iter();
                 for (row, count) in (done..).zip(&counts[..solved]) {
-                    let begun = sink.answers();
-                    for answer in answers.by_ref().take(count.unwrap_or(0)) {
-                        sink.answer(answer.q.as_ref(), answer.residual, answer.branch, answer.free);
+                    let (begun, found) = (sink.taken, count.unwrap_or(0));
+                    if let Some(rows) = sink.more(found) {
+                        write(rows, answers.by_ref().take(found));
                     }
                     ended(sink, first + row, begun, why(whole[row], count.map(|_| ())));
                 }
                 done += solved;
             }
         }
+    }
+}
+
+/// Writes the answers for a target.
+#[inline]
+fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'m runtime::Solution<M>>) {
+    let Rows { mut q, residual, branch, free } = rows;
+    let told = residual.iter_mut().zip(branch).zip(free);
+    for (answer, ((residual, branch), free)) in answers.zip(told) {
+        // Its length is known when this is compiled.
+        let own = answer.q.as_ref();
+        let Some((row, rest)) = q.split_at_mut_checked(own.len()) else { return };
+        row.copy_from_slice(own);
+        q = rest;
+        (*residual, *branch, *free) = (answer.residual, answer.branch as i32, answer.free);
     }
 }
 
@@ -200,12 +216,12 @@ impl Kernel for Interpreted {
         self.solver.reached(q)
     }
 
-    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink, ended: Ended<'_>) {
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
         let (inputs, joints) = (self.shape.inputs, self.shape.turns.len());
-        let mut numbers = vec![0.0; inputs * PIECE];
-        let (mut whole, mut batch) = ([Status::Solved; PIECE], Batch::default());
-        for first in rows.clone().step_by(PIECE) {
-            let size = PIECE.min(rows.end - first);
+        let mut numbers = vec![0.0; inputs * MANY];
+        let (mut whole, mut batch) = ([Status::Solved; MANY], Batch::default());
+        for first in rows.clone().step_by(MANY) {
+            let size = MANY.min(rows.end - first);
             for (row, (target, status)) in numbers.chunks_mut(inputs).zip(&mut whole).take(size).enumerate() {
                 *status = targets.row(first + row, target);
             }
@@ -214,10 +230,15 @@ impl Kernel for Interpreted {
             }
             let mut refused = batch.refused().iter().peekable();
             for (row, form) in whole[..size].iter().enumerate() {
-                let begun = sink.answers();
-                for answer in batch.of_target(row) {
-                    let q = (0..joints).map(|joint| batch.joint(joint)[answer]);
-                    sink.answer_by(q, batch.residuals()[answer], batch.branches()[answer], batch.free()[answer]);
+                let (begun, range) = (sink.taken, batch.of_target(row));
+                if let Some(rows) = sink.more(range.len()) {
+                    for (answer, own) in range.clone().zip(rows.q.chunks_mut(joints)) {
+                        own.iter_mut().enumerate().for_each(|(joint, value)| *value = batch.joint(joint)[answer]);
+                    }
+                    rows.residual.copy_from_slice(&batch.residuals()[range.clone()]);
+                    rows.free.copy_from_slice(&batch.free()[range.clone()]);
+                    let branches = &batch.branches()[range];
+                    rows.branch.iter_mut().zip(branches).for_each(|(own, branch)| *own = *branch as i32);
                 }
                 let error = refused.next_if(|(index, _)| *index == row);
                 let told =

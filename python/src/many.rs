@@ -3,14 +3,15 @@
 use groebot::kinematics::Chain;
 use groebot::kinematics::jacobian::Jacobian;
 use groebot::spatial::Pose;
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PySlice, PyTuple};
 
-use crate::arrays::{self, Numbers, finite, joint_rows, no_targets, shaped};
-use crate::batch::{reason, solve_all};
+use crate::arrays::{self, Numbers, finite, joint_rows, no_targets};
+use crate::batch::{Job, Room, reason, solve_all};
 use crate::choose::Choice;
 use crate::errors::{bad_value, raised, unsupported};
+use crate::sink::Rows;
 use crate::solver::chain;
 use crate::stored::Stored;
 
@@ -45,33 +46,108 @@ pub fn solve_batch<'py>(
     }
     let near = wanted.near.map(|near| reference(near, joints, rows.len())).transpose()?;
     let choice = Choice { limits: wanted.limits, near: near.as_deref() };
-    let lent = wanted.out.map(|out| room(out, joints)).transpose()?;
-    let mut lent_rows = lent.as_ref().map(|lent| lent.try_readwrite()).transpose()?;
-    let slice = lent_rows.as_mut().map(|rows| rows.as_slice_mut()).transpose()?;
-    let (kernel, threads) = (&*stored.kernel, wanted.threads);
-    let answers = py.detach(|| solve_all(kernel, &rows, &choice, threads, slice))?;
-    drop(lent_rows);
-    let Some(answers) = answers else {
-        let text = "`out` has too few rows for all solutions; (N * solver.solutions, joints) are enough but for singular targets";
-        return Err(bad_value(text));
-    };
+    let job = Job { kernel: &*stored.kernel, targets: &rows, choice: &choice };
+    let solved = solved(py, job, wanted)?;
     if wanted.strict {
-        refuse(&answers.status)?;
+        refuse(solved.status.try_readonly()?.as_slice()?)?;
     }
-    let count = answers.count();
-    let q = match lent {
-        Some(out) => out.into_any().get_item(pyo3::types::PySlice::new(py, 0, count as isize, 1))?,
-        None => shaped(py, answers.q, &[count, joints])?,
-    };
-    let list = [
-        q,
-        shaped(py, answers.starts, &[rows.len() + 1])?,
-        shaped(py, answers.residual, &[count])?,
-        shaped(py, answers.branch, &[count])?,
-        shaped(py, answers.free, &[count])?,
-        shaped(py, answers.status, &[rows.len()])?,
-    ];
-    PyTuple::new(py, list)
+    PyTuple::new(py, solved.arrays(py)?)
+}
+
+/// Arrays with all answers, and more room behind them.
+struct Solved<'py> {
+    q: Bound<'py, PyArray2<f64>>,
+    residual: Bound<'py, PyArray1<f64>>,
+    branch: Bound<'py, PyArray1<i32>>,
+    free: Bound<'py, PyArray1<u32>>,
+    starts: Bound<'py, PyArray1<i64>>,
+    status: Bound<'py, PyArray1<u8>>,
+    answers: usize,
+    /// Whether `q` is the caller's.
+    is_lent: bool,
+}
+
+/// Solves a job into new arrays, those of numpy, whose memory is used again from call to call; targets that have more answers than ordinary ones are rare, and only
+/// where there are many is there room for all that may be.
+fn solved<'py>(py: Python<'py>, job: Job<'_>, wanted: &Wanted<'_, 'py>) -> PyResult<Solved<'py>> {
+    let (shape, targets, joints) = (job.kernel.shape(), job.targets.len(), job.kernel.shape().turns.len());
+    let lent = wanted.out.map(|out| room(out, joints)).transpose()?;
+    let usual = if job.choice.near.is_some() { 1 } else { shape.usual };
+    let starts = new(py, targets + 1, "int64")?;
+    let status = new(py, targets, "uint8")?;
+    for own in [targets * usual + shape.capacity, targets * shape.capacity] {
+        let own = lent.as_ref().map_or(own, |lent| lent.shape()[0]);
+        let q = lent.clone().map_or_else(|| new::<PyArray2<f64>>(py, (own, joints), "float64"), Ok)?;
+        let mut solved = Solved {
+            q,
+            residual: new(py, own, "float64")?,
+            branch: new(py, own, "int32")?,
+            free: new(py, own, "uint32")?,
+            starts: Bound::clone(&starts),
+            status: Bound::clone(&status),
+            answers: 0,
+            is_lent: lent.is_some(),
+        };
+        if let Some(answers) = solved.fill(py, job, wanted.threads)? {
+            solved.answers = answers;
+            return Ok(solved);
+        }
+    }
+    let text =
+        "`out` has too few rows for all solutions; (N * solver.solutions, joints) are enough but for singular targets";
+    Err(bad_value(text))
+}
+
+impl<'py> Solved<'py> {
+    /// The number of all answers; none when there is too little room.
+    fn fill(&mut self, py: Python<'py>, job: Job<'_>, threads: usize) -> PyResult<Option<usize>> {
+        let (mut q, mut residual) = (self.q.try_readwrite()?, self.residual.try_readwrite()?);
+        let (mut branch, mut free) = (self.branch.try_readwrite()?, self.free.try_readwrite()?);
+        let (mut starts, mut status) = (self.starts.try_readwrite()?, self.status.try_readwrite()?);
+        let rows = Rows {
+            q: q.as_slice_mut()?,
+            residual: residual.as_slice_mut()?,
+            branch: branch.as_slice_mut()?,
+            free: free.as_slice_mut()?,
+        };
+        let starts = starts.as_slice_mut()?;
+        let room = Room { rows, counts: &mut starts[1..], status: status.as_slice_mut()? };
+        let Some(answers) = py.detach(|| solve_all(job, threads, room))? else { return Ok(None) };
+        starts[0] = 0;
+        let mut all = 0;
+        for start in starts {
+            all += *start;
+            *start = all;
+        }
+        Ok(Some(answers))
+    }
+
+    /// q, starts, residual, branch, free, status without the room behind them.
+    fn arrays(self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 6]> {
+        let front = PySlice::new(py, 0, self.answers as isize, 1);
+        // Of arrays that are far too large a copy is kept.
+        let is_large = !self.is_lent && self.q.shape()[0] > 2 * self.answers + 64;
+        let cut = |array: Bound<'py, PyAny>| {
+            let front = array.get_item(&front)?;
+            if is_large { front.call_method0("copy") } else { Ok(front) }
+        };
+        Ok([
+            cut(self.q.into_any())?,
+            self.starts.into_any(),
+            cut(self.residual.into_any())?,
+            cut(self.branch.into_any())?,
+            cut(self.free.into_any())?,
+            self.status.into_any(),
+        ])
+    }
+}
+
+/// A new array of numpy, whose numbers mean nothing yet.
+fn new<'py, A>(py: Python<'py>, shape: impl IntoPyObject<'py>, dtype: &str) -> PyResult<Bound<'py, A>>
+where
+    A: pyo3::PyTypeCheck,
+{
+    Ok(py.import("numpy")?.getattr("empty")?.call1((shape, dtype))?.cast_into::<A>()?)
 }
 
 /// Fails where rows are no targets, with their numbers.
@@ -99,8 +175,8 @@ fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult
 }
 
 /// An array that takes joint values.
-fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let array = out.cast::<PyArrayDyn<f64>>().ok().filter(|array| array.is_c_contiguous() && array.ndim() == 2);
+fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let array = out.cast::<PyArray2<f64>>().ok().filter(|array| array.is_c_contiguous());
     let array = array.filter(|array| array.shape()[1] == joints);
     array
         .cloned()

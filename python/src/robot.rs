@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use groebot::derive::Ends;
 use groebot::document::read_text;
-use groebot::dynamics::{Base, Equations};
+use groebot::dynamics::{Base, Equations, State};
 use groebot::model::urdf::URDF_LIMIT;
 use groebot::{ErrorKind, model, robots};
 use nalgebra::Vector3;
@@ -213,7 +213,8 @@ impl Robot {
         let (equations, place) = (self.equations()?, self.link(link)?);
         let columns = Columns::new(equations, q, &[])?;
         columns.rows(q.py(), &[6, equations.freedoms()], |room, state, _| {
-            let [jacobian, _] = equations.jacobian(room, state, place)?;
+            let still = vec![0.0; equations.freedoms()];
+            let [jacobian, _] = equations.jacobian(room, State::new(state.q, &still), place)?;
             Ok(jacobian.transpose().as_slice().to_vec())
         })
     }

@@ -1,4 +1,4 @@
-//! Where the answers of a chunk of targets go, in flat rows. Main type: [`Sink`].
+//! Where the answers of targets go, in flat rows. Main type: [`Sink`].
 
 /// Why a target has no answers; the numbers are those of `groebot.Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,84 +20,98 @@ pub enum Status {
     BeyondLimits = 6,
 }
 
-/// The answers of some targets, one row an answer, in the order of the targets.
-#[derive(Default)]
-pub struct Sink {
-    pub joints: usize,
-    /// Row by row.
-    pub q: Vec<f64>,
-    pub residual: Vec<f64>,
-    pub branch: Vec<i32>,
+/// Room for answers, one row an answer.
+pub struct Rows<'a> {
+    /// Joint values, row by row.
+    pub q: &'a mut [f64],
+    pub residual: &'a mut [f64],
+    pub branch: &'a mut [i32],
     /// Bit `j` is set where joint `j` is free.
-    pub free: Vec<u32>,
-    /// By target.
-    pub counts: Vec<u32>,
-    pub status: Vec<u8>,
+    pub free: &'a mut [u32],
 }
 
-impl Sink {
-    pub fn new(joints: usize) -> Self {
-        Sink { joints, ..Sink::default() }
+impl<'a> Rows<'a> {
+    /// The first rows, and the others.
+    pub fn split(self, rows: usize, joints: usize) -> (Rows<'a>, Rows<'a>) {
+        let (q, later_q) = self.q.split_at_mut(rows * joints);
+        let (residual, later_residual) = self.residual.split_at_mut(rows);
+        let (branch, later_branch) = self.branch.split_at_mut(rows);
+        let (free, later_free) = self.free.split_at_mut(rows);
+        let later = Rows { q: later_q, residual: later_residual, branch: later_branch, free: later_free };
+        (Rows { q, residual, branch, free }, later)
     }
 
-    pub fn clear(&mut self) {
-        self.q.clear();
-        self.residual.clear();
-        self.branch.clear();
-        self.free.clear();
-        self.counts.clear();
-        self.status.clear();
-    }
-
-    pub fn answers(&self) -> usize {
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
         self.residual.len()
     }
 
-    pub fn answer(&mut self, q: &[f64], residual: f64, branch: usize, free: u32) {
-        self.q.extend_from_slice(q);
-        self.told(residual, branch, free);
+    pub fn copy_from(&mut self, other: &Rows<'_>, rows: usize, joints: usize) {
+        self.q.copy_from_slice(&other.q[..rows * joints]);
+        self.residual.copy_from_slice(&other.residual[..rows]);
+        self.branch.copy_from_slice(&other.branch[..rows]);
+        self.free.copy_from_slice(&other.free[..rows]);
+    }
+}
+
+/// The answers of some targets, in their order.
+pub struct Sink<'a> {
+    pub joints: usize,
+    pub rows: Rows<'a>,
+    /// How many rows are taken.
+    pub taken: usize,
+    /// By target, the number of its answers.
+    pub counts: &'a mut [i64],
+    pub status: &'a mut [u8],
+    /// How many targets are ended.
+    ended: usize,
+    /// Whether there was no room for an answer.
+    pub is_full: bool,
+}
+
+impl<'a> Sink<'a> {
+    pub fn new(joints: usize, rows: Rows<'a>, counts: &'a mut [i64], status: &'a mut [u8]) -> Self {
+        Sink { joints, rows, taken: 0, counts, status, ended: 0, is_full: false }
     }
 
-    /// The same, the joints one by one.
-    pub fn answer_by(&mut self, q: impl Iterator<Item = f64>, residual: f64, branch: usize, free: u32) {
-        self.q.extend(q);
-        self.told(residual, branch, free);
-    }
-
-    fn told(&mut self, residual: f64, branch: usize, free: u32) {
-        self.residual.push(residual);
-        self.branch.push(branch as i32);
-        self.free.push(free);
+    /// Room for so many more answers; none where it is full.
+    #[inline]
+    pub fn more(&mut self, count: usize) -> Option<Rows<'_>> {
+        let (first, last) = (self.taken, self.taken + count);
+        if last > self.rows.len() {
+            self.is_full = true;
+            return None;
+        }
+        self.taken = last;
+        Some(Rows {
+            q: &mut self.rows.q[first * self.joints..last * self.joints],
+            residual: &mut self.rows.residual[first..last],
+            branch: &mut self.rows.branch[first..last],
+            free: &mut self.rows.free[first..last],
+        })
     }
 
     /// Ends a target whose answers begin at `first`; where it has none, `why`.
+    #[inline]
     pub fn end(&mut self, first: usize, why: Status) {
-        let count = self.answers() - first;
-        self.counts.push(count as u32);
-        self.status.push(if count > 0 { Status::Solved as u8 } else { why as u8 });
-    }
-
-    /// Forgets the answers from `count` on.
-    pub fn truncate(&mut self, count: usize) {
-        self.q.truncate(count * self.joints);
-        self.residual.truncate(count);
-        self.branch.truncate(count);
-        self.free.truncate(count);
+        let count = self.taken - first;
+        self.counts[self.ended] = count as i64;
+        self.status[self.ended] = if count > 0 { Status::Solved as u8 } else { why as u8 };
+        self.ended += 1;
     }
 
     pub fn row(&self, answer: usize) -> &[f64] {
-        &self.q[answer * self.joints..][..self.joints]
+        &self.rows.q[answer * self.joints..][..self.joints]
     }
 
     pub fn row_mut(&mut self, answer: usize) -> &mut [f64] {
-        &mut self.q[answer * self.joints..][..self.joints]
+        &mut self.rows.q[answer * self.joints..][..self.joints]
     }
 
     /// Puts a later answer in the place of an earlier one.
     pub fn put(&mut self, from: usize, to: usize) {
-        self.q.copy_within(from * self.joints..(from + 1) * self.joints, to * self.joints);
-        self.residual[to] = self.residual[from];
-        self.branch[to] = self.branch[from];
-        self.free[to] = self.free[from];
+        let Rows { q, residual, branch, free } = &mut self.rows;
+        q.copy_within(from * self.joints..(from + 1) * self.joints, to * self.joints);
+        (residual[to], branch[to], free[to]) = (residual[from], branch[from], free[from]);
     }
 }

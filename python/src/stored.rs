@@ -60,8 +60,8 @@ impl Stored {
             Error::new(ErrorKind::UnknownName, format!("no solver is called `{name}`; there are {names}"))
         };
         let known = known::by_name(name).ok_or_else(unknown)?;
-        let chain = Chain::from_toml(known.chain)?;
         let origin = Origin::of("0_chain.toml", known.chain);
+        let chain = Chain::from_toml(known.chain).or_else(|_| Chain::from_dh_toml(known.chain))?;
         Ok(Stored::new(Program::from_json(known.program)?, Some(chain), Some(origin), None))
     }
 
