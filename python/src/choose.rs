@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use groebot::solver::MAX_JOINTS;
+
 use crate::kernel::Kernel;
 use crate::sink::{Sink, Status};
 use crate::targets::Targets;
@@ -53,15 +55,15 @@ fn keep_within(
 ) {
     let turns = &kernel.shape().turns;
     let (mut kept, mut strides) = (begun, false);
+    let mut q = [0.0; MAX_JOINTS];
+    let q = &mut q[..turns.len()];
     for answer in begun..sink.taken {
-        let own: Vec<f64> = sink.row(answer).to_vec();
-        match moved(turns, &own, &own, Some(limits)) {
-            Some(q) => {
-                sink.put(answer, kept);
-                sink.row_mut(kept).copy_from_slice(&q);
-                kept += 1;
-            }
-            None => strides |= sink.rows.free[answer] != 0,
+        if moved(turns, sink.row(answer), sink.row(answer), Some(limits), q) {
+            sink.put(answer, kept);
+            sink.row_mut(kept).copy_from_slice(q);
+            kept += 1;
+        } else {
+            strides |= sink.rows.free[answer] != 0;
         }
     }
     sink.taken = kept;
@@ -83,32 +85,38 @@ fn keep_within(
 
 /// Keeps the answer that can come nearest to a reference by turns within limits, at its nearest turn; of equals the first.
 fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
-    let mut best: Option<(f64, usize, Vec<f64>)> = None;
+    let (mut best, mut least) = ([0.0; MAX_JOINTS], f64::INFINITY);
+    let (mut q, mut nearest) = ([0.0; MAX_JOINTS], None);
+    let joints = turns.len();
     for answer in begun..sink.taken {
-        let Some(q) = moved(turns, sink.row(answer), reference, limits) else { continue };
+        if !moved(turns, sink.row(answer), reference, limits, &mut q[..joints]) {
+            continue;
+        }
         let distance: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
-        if best.as_ref().is_none_or(|(least, ..)| distance < *least) {
-            best = Some((distance, answer, q));
+        if distance < least {
+            (least, best, nearest) = (distance, q, Some(answer));
         }
     }
-    let Some((_, answer, q)) = best else { return sink.taken = begun };
-    sink.put(answer, begun);
-    sink.row_mut(begun).copy_from_slice(&q);
-    sink.taken = begun + 1;
+    if let Some(answer) = nearest {
+        sink.put(answer, begun);
+        sink.row_mut(begun).copy_from_slice(&best[..joints]);
+    }
+    sink.taken = begun + usize::from(nearest.is_some());
 }
 
-/// `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; none when a joint cannot be within its limits.
-pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>) -> Option<Vec<f64>> {
-    (0..q.len())
-        .map(|joint| {
-            let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
-            let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);
-            if !turns[joint] {
-                return Some(value).filter(|value| (low..=high).contains(value));
-            }
-            let (first, last) = (((low - value) / TAU).ceil(), ((high - value) / TAU).floor());
-            let wanted = ((reference[joint] - value) / TAU).round();
-            (first <= last).then(|| value + TAU * wanted.clamp(first, last))
-        })
-        .collect()
+/// Writes `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; false when a joint cannot be within its limits.
+pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
+    out.iter_mut().enumerate().all(|(joint, out)| {
+        let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
+        let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);
+        *out = value;
+        if !turns[joint] {
+            return (low..=high).contains(&value);
+        }
+        let (first, last) = (((low - value) / TAU).ceil(), ((high - value) / TAU).floor());
+        if first <= last {
+            *out += TAU * ((reference[joint] - value) / TAU).round().clamp(first, last);
+        }
+        first <= last
+    })
 }

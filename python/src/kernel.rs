@@ -6,7 +6,7 @@ use groebot::kinematics::Solution;
 use groebot::solver::{Batch, Condition, JointValue, Program, Solver};
 use groebot::{Error, ErrorKind, Result};
 use groebot_runtime as runtime;
-use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::mechanism::{Answered, Inputs};
 use groebot_runtime::storage::Array;
 use groebot_runtime::{Mechanism, Solve};
 
@@ -34,8 +34,8 @@ pub struct Shape {
 pub trait Kernel: Send + Sync {
     fn shape(&self) -> &Shape;
 
-    /// All answers for one target.
-    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>>;
+    /// Hands over all answers for one target.
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()>;
 
     /// Those within limits, each moved by as few turns as can be.
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
@@ -45,6 +45,25 @@ pub trait Kernel: Send + Sync {
 
     /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>);
+}
+
+/// An answer, as it is handed over.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer<'a> {
+    pub q: &'a [f64],
+    pub residual: f64,
+    pub branch: usize,
+    /// Bit `j` is set where joint `j` is free.
+    pub free: u32,
+    pub chosen: bool,
+}
+
+impl<'a> From<&'a Solution> for Answer<'a> {
+    fn from(solution: &'a Solution) -> Self {
+        let Solution { q, residual, branch, free, chosen } = solution;
+        let free = free.iter().fold(0, |bits, joint| bits | 1 << joint);
+        Answer { q, residual: *residual, branch: *branch, free, chosen: *chosen }
+    }
 }
 
 /// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
@@ -71,10 +90,6 @@ impl<M: Mechanism> Printed<M> {
     fn row(&self, target: &[f64]) -> Inputs<M> {
         Array::by(self.shape.inputs, |i| target[i])
     }
-
-    fn room(&self) -> Vec<runtime::Solution<M>> {
-        vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity]
-    }
 }
 
 impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
@@ -82,14 +97,21 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
         &self.shape
     }
 
-    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
-        let mut room = self.room();
-        let count = self.mechanism.solve(&self.row(target), &mut room).map_err(refused)?;
-        Ok(room[..count].iter().map(solution).collect())
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()> {
+        let mut room: Answered<M, runtime::Solution<M>> =
+            Array::by(self.shape.capacity, |_| runtime::Solution::empty(&self.mechanism));
+        let room = room.as_mut();
+        let count = self.mechanism.solve(&self.row(target), room).map_err(refused)?;
+        for answer in &room[..count] {
+            let runtime::Solution { q, residual, branch, free, chosen, .. } = answer;
+            take(Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free, chosen: *chosen });
+        }
+        Ok(())
     }
 
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
-        let (mut room, limits) = (self.room(), Array::by(limits.len(), |i| limits[i]));
+        let limits = Array::by(limits.len(), |i| limits[i]);
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity];
         let count = self.mechanism.solve_within(&self.row(target), &limits, &mut room).map_err(refused)?;
         Ok(room[..count].iter().map(solution).collect())
     }
@@ -204,8 +226,9 @@ impl Kernel for Interpreted {
         &self.shape
     }
 
-    fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
-        self.solver.solve_numbers(target)
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()> {
+        self.solver.solve_numbers(target)?.iter().for_each(|solution| take(solution.into()));
+        Ok(())
     }
 
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {

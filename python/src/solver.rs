@@ -12,6 +12,7 @@ use pyo3::types::{PyList, PyTuple};
 use crate::arrays::{self, Numbers, joint_rows};
 use crate::choose::moved;
 use crate::errors::{bad_value, raised, unsupported};
+use crate::kernel::Answer;
 use crate::many::{self, Wanted};
 use crate::solution::Solution;
 use crate::stored::Stored;
@@ -131,9 +132,8 @@ impl Solver {
         given: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyList>> {
-        let found = self.found(target, given, limits)?;
-        let list = found.into_iter().map(|answer| Bound::new(py, Solution(answer))).collect::<PyResult<Vec<_>>>()?;
-        PyList::new(py, list)
+        let found = self.found(target, given, self.bounds(limits)?.as_deref())?;
+        PyList::new(py, found.into_iter().map(|answer| Bound::new(py, answer)).collect::<PyResult<Vec<_>>>()?)
     }
 
     /// The solution of one target that can come nearest to the joint values `q0` by whole turns, within `limits` where given: `None` where there is none. Its
@@ -154,12 +154,18 @@ impl Solver {
         let q0 = q0.to_vec()?;
         arrays::finite(&q0, turns.len(), "q0")?;
         let bounds = self.bounds(limits)?;
-        let moved = self.found(target, given, limits)?.into_iter().filter_map(|answer| {
-            let q = moved(turns, &answer.q, &q0, bounds.as_deref())?;
-            let distance: f64 = q.iter().zip(&q0).map(|(a, b)| (a - b) * (a - b)).sum();
-            Some((distance, groebot::kinematics::Solution { q, ..answer }))
-        });
-        Ok(moved.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, answer)| Solution(answer)))
+        let mut best: Option<(f64, Solution)> = None;
+        for mut answer in self.found(target, given, bounds.as_deref())? {
+            let mut q = answer.q.clone();
+            if moved(turns, &answer.q, &q0, bounds.as_deref(), &mut q) {
+                let distance: f64 = q.iter().zip(&q0).map(|(a, b)| (a - b) * (a - b)).sum();
+                if best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                    answer.q = q;
+                    best = Some((distance, answer));
+                }
+            }
+        }
+        Ok(best.map(|(_, answer)| answer))
     }
 
     /// All solutions of many targets, as arrays: see `groebot.Batch`.
@@ -279,15 +285,17 @@ impl Solver {
         &self,
         target: &Bound<'_, PyAny>,
         given: Option<&Bound<'_, PyAny>>,
-        limits: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<groebot::kinematics::Solution>> {
+        limits: Option<&[[f64; 2]]>,
+    ) -> PyResult<Vec<Solution>> {
         let numbers = self.one_target(target, given)?;
-        let kernel = &self.0.kernel;
-        let found = match self.bounds(limits)? {
-            None => kernel.solve(&numbers),
-            Some(limits) => kernel.solve_within(&numbers, &limits),
+        let (kernel, mut all) = (&self.0.kernel, Vec::with_capacity(8));
+        let solved = match limits {
+            None => kernel.solve(&numbers, &mut |answer| all.push(answer.into())),
+            Some(limits) => kernel
+                .solve_within(&numbers, limits)
+                .map(|found| all.extend(found.iter().map(|answer| Solution::from(Answer::from(answer))))),
         };
-        found.map_err(|error| raised(&error))
+        solved.map(|()| all).map_err(|error| raised(&error))
     }
 
     /// The numbers of one target.

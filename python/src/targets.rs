@@ -44,12 +44,12 @@ impl Targets<'_> {
     pub fn row(&self, index: usize, out: &mut [f64]) -> Status {
         let row = &self.data[index * self.width..][..self.width];
         let status = match self.form {
-            Form::Matrix => from_matrix(row, out),
+            Form::Matrix => by_matrix(row, out),
             Form::Numbers => {
                 out[..row.len()].copy_from_slice(row);
                 Status::Solved
             }
-            Form::Quaternion => self.from_quaternion(row, out),
+            Form::Quaternion => self.by_quaternion(row, out),
         };
         let given = self.inputs - self.numbers();
         let start = if self.given.len() == given { 0 } else { index * given };
@@ -73,7 +73,7 @@ impl Targets<'_> {
         }
     }
 
-    fn from_quaternion(&self, row: &[f64], out: &mut [f64]) -> Status {
+    fn by_quaternion(&self, row: &[f64], out: &mut [f64]) -> Status {
         let first = self.rotation.unwrap_or(0);
         out[..first].copy_from_slice(&row[..first]);
         out[first + 9..self.numbers()].copy_from_slice(&row[first + 4..]);
@@ -101,7 +101,7 @@ impl Targets<'_> {
     }
 }
 
-fn from_matrix(row: &[f64], out: &mut [f64]) -> Status {
+fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
     for i in 0..3 {
         out[i] = row[4 * i + 3];
         out[3 + 3 * i..6 + 3 * i].copy_from_slice(&row[4 * i..4 * i + 3]);
