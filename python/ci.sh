@@ -37,6 +37,7 @@ environment newest "$wheel" "numpy>=2" pytest hypothesis scipy mypy pyright
 "$work/newest/bin/python" -m pytest --quiet tests
 "$work/newest/bin/mypy" --package groebot
 "$work/newest/bin/mypy" examples
+"$work/newest/bin/python" -m mypy.stubtest groebot._groebot
 "$work/newest/bin/python" examples/first.py
 # pyright brings Node with it where there is none.
 "$work/newest/bin/pyright" --pythonpath "$work/newest/bin/python" --verifytypes groebot --ignoreexternal

@@ -114,11 +114,11 @@ def made(arrays: tuple[Any, ...], joints: list[str], layout: str, dtype: npt.DTy
     """The batch of what was solved, in a layout and with a type of floats."""
     if layout not in ("ragged", "padded"):
         raise BadValueError(f"the layout `{layout}` is not known; give ragged or padded", "bad_value")
-    q, starts, residual, *others = arrays
+    q, starts, residual, branch, free, status = arrays
     if dtype is not None:
         wanted = np.dtype(dtype)
         if wanted.kind != "f":
             raise BadValueError(f"dtype={wanted} has no fractions; give float64 or float32", "bad_value")
         q, residual = q.astype(wanted, copy=False), residual.astype(wanted, copy=False)
-    batch = Batch(q, starts, residual, *others, tuple(joints))
+    batch = Batch(q, starts, residual, branch, free, status, tuple(joints))
     return batch.padded() if layout == "padded" else batch

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from ._batch import Batch, PaddedBatch
 from ._records import Check, Explanation, Path, Walk
 
+__all__ = ["Robot", "Solution", "Solver", "__version__", "_run", "derive", "navigate"]
 __version__: str
 
 class _Matrix(Protocol):

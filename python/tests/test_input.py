@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-from witness import DERIVATIONS
+from witness import DERIVATIONS, KUKA_URDF
 
 import groebot
 from groebot import BadValueError, GroebotError, Robot, Solver
@@ -149,4 +149,17 @@ def test_any_change_of_a_stored_solver_is_read_or_refused(data):
         solver = Solver.from_json(changed)
         solver.solve_batch(np.random.default_rng(0).normal(size=(5, len(solver.inputs))))
     except GroebotError:
+        pass
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@given(st.data())
+def test_any_change_of_a_urdf_is_read_or_refused(data):
+    text = KUKA_URDF.read_text()
+    at = data.draw(st.integers(0, len(text) - 1))
+    changed = text[:at] + data.draw(st.sampled_from(["", "9", "-", "nan", "1e999", "<", ">", '"', "&", "\0"])) + text[at + data.draw(st.integers(0, 3)) :]
+    try:
+        robot = Robot.from_urdf(changed)
+        robot.mass_matrix(np.zeros(len(robot.joints)))
+    except (GroebotError, TypeError):
         pass
