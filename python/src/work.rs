@@ -14,6 +14,9 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// Room for deep recursions \[bytes\].
 const STACK: usize = 64 << 20;
 
+/// The most threads of a call.
+const MOST_THREADS: usize = 256;
+
 /// A stage, what is done of it, and what is known to be left.
 type Step = (String, usize, usize);
 
@@ -86,8 +89,8 @@ fn pooled<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> R
     pool.map_err(failed)?.install(work)
 }
 
-/// The number of threads that is asked for; by default that of processors.
+/// The number of threads that is asked for, as far as it makes sense; by default that of processors.
 pub fn threads(asked: Option<usize>) -> usize {
     let usual = || std::thread::available_parallelism().map_or(1, usize::from);
-    asked.filter(|asked| *asked > 0).unwrap_or_else(usual)
+    asked.filter(|asked| *asked > 0).map_or_else(usual, |asked| asked.min(MOST_THREADS))
 }
