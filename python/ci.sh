@@ -17,7 +17,7 @@ cargo fmt --check
 cargo clippy --locked --all-targets -- -D warnings
 
 environment build "maturin>=1.9,<2"
-"$work/build/bin/maturin" build --locked --profile "$profile" --out "$work/wheels"
+"$work/build/bin/maturin" build --locked --profile "$profile" --compression-level 9 --out "$work/wheels"
 wheel=$(echo "$work"/wheels/*.whl)
 size=$(stat --format %s "$wheel")
 printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
@@ -26,19 +26,22 @@ if [ "$profile" = release ] && [ "$size" -gt 6000000 ]; then
     exit 1
 fi
 
+# Not from here, where the package lies without what is compiled.
+here=$PWD
+cd "$work"
 environment bare "$wheel"
-(cd "$work" && bare/bin/python -c 'import groebot; assert len(groebot.Solver.named("ur5").solve(groebot.Solver.named("ur5").forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8')
-(cd "$work" && bare/bin/groebot --version)
+bare/bin/python -c 'import groebot; ur5 = groebot.Solver.named("ur5"); assert len(ur5.solve(ur5.forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8'
+bare/bin/groebot --version
 
 environment oldest "$wheel" "numpy==1.26.*" pytest hypothesis "scipy<1.15"
-"$work/oldest/bin/python" -m pytest --quiet tests
+oldest/bin/pytest --quiet "$here/tests"
 
 environment newest "$wheel" "numpy>=2" pytest hypothesis scipy mypy pyright
-"$work/newest/bin/python" -m pytest --quiet tests
-"$work/newest/bin/mypy" --package groebot
-"$work/newest/bin/mypy" examples
-"$work/newest/bin/python" -m mypy.stubtest groebot._groebot
-"$work/newest/bin/python" examples/first.py
+newest/bin/pytest --quiet "$here/tests"
+newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
+newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"
+newest/bin/python -m mypy.stubtest groebot._groebot
+newest/bin/python "$here/examples/first.py"
 # pyright brings Node with it where there is none.
-"$work/newest/bin/pyright" --pythonpath "$work/newest/bin/python" --verifytypes groebot --ignoreexternal
-"$work/newest/bin/pyright" --pythonpath "$work/newest/bin/python" examples
+newest/bin/pyright --pythonpath "$work/newest/bin/python" --verifytypes groebot --ignoreexternal
+newest/bin/pyright --pythonpath "$work/newest/bin/python" "$here/examples"
