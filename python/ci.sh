@@ -42,6 +42,7 @@ newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
 newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"
 newest/bin/python -m mypy.stubtest groebot._groebot
 newest/bin/python "$here/examples/first.py"
-# pyright brings Node with it where there is none.
-newest/bin/pyright --pythonpath "$work/newest/bin/python" --verifytypes groebot --ignoreexternal
-newest/bin/pyright --pythonpath "$work/newest/bin/python" "$here/examples"
+# pyright looks at the python that is found first, and brings Node with it where there is none.
+export PATH=$work/newest/bin:$PATH
+pyright --verifytypes groebot --ignoreexternal
+pyright "$here/examples"
