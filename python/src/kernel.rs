@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use groebot::kinematics::Solution;
-use groebot::solver::{Batch, Condition, JointValue, Program, Solver};
+use groebot::solver::{Condition, JointValue, Program, Solved, Solver};
 use groebot::{Error, ErrorKind, Result};
 use groebot_runtime as runtime;
 use groebot_runtime::mechanism::{Answered, Inputs};
@@ -240,33 +240,35 @@ impl Kernel for Interpreted {
     }
 
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
-        let (inputs, joints) = (self.shape.inputs, self.shape.turns.len());
+        let inputs = self.shape.inputs;
         let mut numbers = vec![0.0; inputs * MANY];
-        let (mut whole, mut batch) = ([Status::Solved; MANY], Batch::default());
+        let mut whole = [Status::Solved; MANY];
         for first in rows.clone().step_by(MANY) {
             let size = MANY.min(rows.end - first);
             for (row, (target, status)) in numbers.chunks_mut(inputs).zip(&mut whole).take(size).enumerate() {
                 *status = targets.row(first + row, target);
             }
-            if self.solver.solve_batch_here(&numbers[..size * inputs], &mut batch).is_err() {
-                return;
-            }
-            let mut refused = batch.refused().iter().peekable();
-            for (row, form) in whole[..size].iter().enumerate() {
-                let (begun, range) = (sink.taken, batch.of_target(row));
-                if let Some(rows) = sink.more(range.len()) {
-                    for (answer, own) in range.clone().zip(rows.q.chunks_mut(joints)) {
-                        own.iter_mut().enumerate().for_each(|(joint, value)| *value = batch.joint(joint)[answer]);
+            let (mut row, mut begun) = (0, sink.taken);
+            let each = |solved: Solved<'_>| match solved {
+                Solved::Answer { q, residual, branch, free } => {
+                    if let Some(rows) = sink.more(1) {
+                        rows.q.copy_from_slice(q);
+                        (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
                     }
-                    rows.residual.copy_from_slice(&batch.residuals()[range.clone()]);
-                    rows.free.copy_from_slice(&batch.free()[range.clone()]);
-                    let branches = &batch.branches()[range];
-                    rows.branch.iter_mut().zip(branches).for_each(|(own, branch)| *own = *branch as i32);
                 }
-                let error = refused.next_if(|(index, _)| *index == row);
-                let told =
-                    error.map_or(Status::Unreachable, |(_, error)| self.why(&numbers[row * inputs..][..inputs], error));
-                ended(sink, first + row, begun, if *form == Status::Solved { told } else { *form });
+                Solved::Target { refused } => {
+                    let told = |error: Error| self.why(&numbers[row * inputs..][..inputs], &error);
+                    let why = if whole[row] == Status::Solved {
+                        refused.map_or(Status::Unreachable, told)
+                    } else {
+                        whole[row]
+                    };
+                    ended(sink, first + row, begun, why);
+                    (row, begun) = (row + 1, sink.taken);
+                }
+            };
+            if self.solver.solve_each(&numbers[..size * inputs], each).is_err() {
+                return;
             }
         }
     }

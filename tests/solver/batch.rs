@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::codegen::samples::pan_tilt;
 use groebot::ErrorKind;
-use groebot::solver::{Batch, Program};
+use groebot::solver::{Batch, Program, Solved};
 
 /// Directions all round, every seventh of them no unit vector.
 fn targets() -> Vec<f64> {
@@ -28,9 +28,17 @@ fn a_batch_has_the_answers_of_its_targets_whatever_the_threads() {
     let (program, targets) = (pan_tilt::program(), targets());
     let batch = solved_by(1, &program, &targets);
     assert_eq!(batch, solved_by(3, &program, &targets));
-    let mut here = Batch::default();
-    program.solver().solve_batch_here(&targets, &mut here).unwrap();
-    assert_eq!(batch, here);
+    let (mut starts, mut refused, mut pans) = (vec![0], Vec::new(), Vec::new());
+    let mut take = |solved: Solved<'_>| match solved {
+        Solved::Answer { q, .. } => pans.push(q[0]),
+        Solved::Target { refused: why } => {
+            refused.extend(why.map(|error| (starts.len() - 1, error)));
+            starts.push(pans.len());
+        }
+    };
+    program.solver().solve_each(&targets, &mut take).unwrap();
+    assert_eq!((&pans[..], &refused[..]), (batch.joint(0), batch.refused()));
+    assert!((0..500).all(|target| batch.of_target(target) == (starts[target]..starts[target + 1])));
     assert_eq!(batch.targets(), 500);
     assert_eq!(batch.refused().len(), 500 / 7);
     for (index, target) in targets.chunks(3).enumerate() {

@@ -15,7 +15,7 @@ mod storage;
 
 use serde::Serialize;
 
-pub use self::batch::Batch;
+pub use self::batch::{Batch, Solved};
 use self::shaped::Shaped;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
@@ -170,15 +170,16 @@ impl Solver {
     /// # Errors
     /// As [`Solver::solve_batch`]; `batch` is empty then.
     pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
-        shaped!(self, shaped => shaped.solve_batch_into(targets, batch, rayon::current_num_threads()))
+        shaped!(self, shaped => shaped.solve_batch_into(targets, batch))
     }
 
-    /// As [`Solver::solve_batch_into`], on the calling thread alone: for callers that share the work out among threads of their own.
+    /// As [`Solver::solve_batch`], on the calling thread alone, and all that comes of it is handed to `take` in turn: for callers that have threads and arrays of
+    /// their own. (It is compiled where it is called, with what that crate is compiled with.)
     ///
     /// # Errors
-    /// As [`Solver::solve_batch`]; `batch` is empty then.
-    pub fn solve_batch_here(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
-        shaped!(self, shaped => shaped.solve_batch_into(targets, batch, 1))
+    /// As [`Solver::solve_batch`].
+    pub fn solve_each(&self, targets: &[f64], mut take: impl FnMut(Solved<'_>)) -> Result<()> {
+        shaped!(self, shaped => shaped.solve_each(targets, &mut take))
     }
 }
 
