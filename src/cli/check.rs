@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::console::{self, Paint};
-use super::derive::{check, refuse_failures};
+use super::derive::refuse_failures;
 use super::ends::EndArguments;
 use super::files::{CERTIFICATE, CHECKS, DYNAMICS, is_ours, printed_solvers};
 use super::{Halt, Outcome, dynamics, json};
@@ -12,7 +12,7 @@ use crate::derive::sequential::Derived;
 use crate::derive::{Derivation, Proved, Source, stages};
 use crate::document::read_text;
 use crate::solver::Program;
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch, witness};
 
 /// The longest stage file that is read, in bytes.
 const LIMIT: u64 = 256_000_000;
@@ -158,7 +158,7 @@ fn stored_stages(folder: &Path, source: &Source, derivation: &Proved) -> Result<
 
 /// Runs the numeric checks again and looks at what the stored ones say.
 fn numeric_checks(folder: &Path, source: &Source, derivation: &Proved) -> Result<Finding> {
-    let checked = check(source, derivation, &Watch::none())?;
+    let checked = witness::check(source, derivation, &Watch::none())?;
     let path = folder.join(CHECKS);
     let stored = read_text(&path, LIMIT).and_then(|stored| same_table(&stored, &checked.to_csv()));
     let verdict = refuse_failures(derivation, &checked, false).and(stored.map_err(|error| error.in_file(&path)));

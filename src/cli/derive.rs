@@ -18,19 +18,9 @@ use crate::derive::planner::{Choice, fitting_task};
 use crate::derive::{Ends, Proved, Source};
 use crate::files::write_folder_atomically;
 use crate::kinematics::Chain;
-use crate::solver::Program;
 use crate::spatial::Screw;
-use crate::witness::chain::{self, coupled};
-use crate::witness::{self, Check, Options};
+use crate::witness;
 use crate::{Error, ErrorKind, Result, Watch};
-
-/// How much is checked of a chain.
-const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
-/// How much is checked of a described robot on which the answers of the ideal one are polished, and how much of that ideal one.
-const POLISHED: Options = Options { targets: 120, oracle: 2, exact: 0, seed: 1 };
-const IDEAL: Options = Options { targets: 40, oracle: 0, exact: 20, seed: 2 };
-/// How much is checked of chains that share actuators.
-const COUPLED: Options = Options { targets: 60, oracle: 1, exact: 6, seed: 1 };
 
 /// A robot that is farther from the base frame, in its reaches, is called far.
 const FAR: f64 = 5.0;
@@ -86,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let chosen = source.choose_given(&session.watch)?;
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
-    let checked = check(&source, &derivation, &session.watch)?;
+    let checked = witness::check(&source, &derivation, &session.watch)?;
     refuse_failures(&derivation, &checked, arguments.strict)?;
     clock.lap("check numerically");
     let files = assemble_files(&source, &derivation, &checked, &folder)?;
@@ -141,42 +131,6 @@ fn told_choice(choice: &Choice) -> String {
 /// How the command ends: a solver with weak spots is told by the exit status.
 fn weak(checked: &witness::Report) -> Outcome {
     if checked.weak_spots().next().is_some() { Err(Halt::WeakSpots) } else { Ok(()) }
-}
-
-/// The numeric checks of a derivation.
-///
-/// # Errors
-/// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
-pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<witness::Report> {
-    match proved {
-        Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
-        Proved::Chain(derived) => match &derived.unpolished {
-            None => chain::Check::run(&derived.chain, &derived.program, derived.program.isolated, &CHAIN, watch),
-            Some(ideal) => {
-                check_both(derived.measured(), &derived.program, (&derived.chain, ideal, ideal.isolated), watch)
-            }
-        },
-        Proved::SixAxes(derived) => match &derived.unpolished {
-            None => chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &CHAIN, watch),
-            Some(ideal) => {
-                let bound = Some(derived.dimension());
-                check_both(derived.measured(), &derived.program, (&derived.chain, ideal, bound), watch)
-            }
-        },
-        Proved::Coupled(derived) => coupled::check(derived, &COUPLED, watch),
-    }
-}
-
-/// The checks of a solver that polishes the answers of an ideal robot on the one described: on this one, and those of the ideal robot's own
-/// solver, whose solutions are counted exactly.
-fn check_both(
-    described: &Chain,
-    polished: &Program,
-    (ideal, own, bound): (&Chain, &Program, Option<usize>),
-    watch: &Watch,
-) -> Result<witness::Report> {
-    let report = chain::Check::run(described, polished, None, &POLISHED, watch)?;
-    Ok(report.with_ideal(chain::Check::run(ideal, own, bound, &IDEAL, watch)?))
 }
 
 fn derive(source: &Source, watch: &Watch) -> Result<Proved> {

@@ -47,6 +47,7 @@ mod view;
 mod walk;
 mod walker;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -142,12 +143,17 @@ type Outcome = std::result::Result<(), Halt>;
 
 /// Runs the tool on the arguments of this process.
 pub fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    ExitCode::from(run_on(std::env::args_os()))
+}
+
+/// Runs the tool on `arguments`, of which the first is the program's name, in a process that is another program's: its exit status.
+pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(usage) => {
             // Help and version are "errors" here; nothing is left to do when they cannot be printed.
             let _ = usage.print();
-            return ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
+            return u8::try_from(usage.exit_code()).unwrap_or(2);
         }
     };
     let outcome = match &cli.command {
@@ -174,13 +180,13 @@ pub fn run() -> ExitCode {
         Command::View(arguments) => view::run(arguments),
     };
     match outcome {
-        Ok(()) | Err(Halt::PipeClosed) => ExitCode::SUCCESS,
-        Err(Halt::WeakSpots) => ExitCode::from(WEAK),
-        Err(Halt::NoWay) => ExitCode::from(NO_WAY),
-        Err(Halt::Fell) => ExitCode::from(FELL),
+        Ok(()) | Err(Halt::PipeClosed) => 0,
+        Err(Halt::WeakSpots) => WEAK,
+        Err(Halt::NoWay) => NO_WAY,
+        Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {
             tell(&error);
-            ExitCode::from(if error.kind() == ErrorKind::Cancelled { 130 } else { 1 })
+            if error.kind() == ErrorKind::Cancelled { 130 } else { 1 }
         }
     }
 }

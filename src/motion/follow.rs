@@ -73,13 +73,31 @@ pub fn follow(
     pace: &Pace,
     watch: &Watch,
 ) -> Result<Followed> {
+    follow_from(chain, speeds, solver, None, poses, pace, watch)
+}
+
+/// As [`follow`], for an arm that stands at the joint values `start`: the way from there to the first pose counts like any other, and so does
+/// a jump to it.
+///
+/// # Errors
+/// As [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
+pub fn follow_from(
+    chain: &Chain,
+    speeds: &[Option<f64>],
+    solver: &dyn InverseKinematics,
+    start: Option<&[f64]>,
+    poses: &[Pose],
+    pace: &Pace,
+    watch: &Watch,
+) -> Result<Followed> {
+    start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {
         let text =
             format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let times = times(pace, poses.len())?;
-    let path = Path { chain, speeds, times: &times };
+    let path = Path { chain, speeds, times: &times, start };
     let mut layers: Vec<Vec<State>> = Vec::with_capacity(poses.len());
     let mut found = Vec::new();
     for (sample, pose) in poses.iter().enumerate() {
@@ -91,7 +109,8 @@ pub fn follow(
         layers.push(path.reached(sample, &choices, layers.last()));
     }
     let ways = path.ways(&layers);
-    let jumps = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways)).collect();
+    let later = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways));
+    let jumps = path.first_jump(&layers[0][ways[0]]).into_iter().chain(later).collect();
     let trajectory = path.trajectory(&layers, &ways);
     trajectory.check()?;
     Ok(Followed { trajectory, jumps })
@@ -166,6 +185,8 @@ struct Path<'p> {
     chain: &'p Chain,
     speeds: &'p [Option<f64>],
     times: &'p [f64],
+    /// Where the arm stands before the first pose, where that is known.
+    start: Option<&'p [f64]>,
 }
 
 impl Path<'_> {
@@ -193,7 +214,10 @@ impl Path<'_> {
     fn reached(&self, sample: usize, choices: &[Choices], before: Option<&Vec<State>>) -> Vec<State> {
         let mut states: Vec<State> = choices.iter().flat_map(Choices::states).collect();
         let Some(before) = before else {
-            states.iter_mut().for_each(|state| state.cost = (0, 0.0));
+            for state in &mut states {
+                let step = self.start.map_or((false, 0.0), |start| self.step(0, start, &state.q));
+                state.cost = (usize::from(step.0), step.1);
+            }
             return states;
         };
         let best = (0..before.len()).min_by(|a, b| cheaper(before[*a].cost, before[*b].cost)).unwrap_or(0);
@@ -228,9 +252,10 @@ impl Path<'_> {
 
     /// How far a joint may go to a pose without a jump.
     fn most(&self, sample: usize, joint: usize) -> f64 {
-        let time = self.times[sample] - self.times[sample - 1];
-        match self.speeds.get(joint).copied().flatten() {
-            Some(speed) => speed * time,
+        // Nothing says how long the way to the first pose takes.
+        let time = sample.checked_sub(1).map(|before| self.times[sample] - self.times[before]);
+        match self.speeds.get(joint).copied().flatten().zip(time) {
+            Some((speed, time)) => speed * time,
             None if self.chain.joints()[joint].kind == JointKind::Revolute => NEAR,
             None => 0.1 * self.chain.reach(),
         }
@@ -252,6 +277,14 @@ impl Path<'_> {
         }
         ways.reverse();
         ways
+    }
+
+    /// The jump from where the arm stands to the first state, if there is one.
+    fn first_jump(&self, first: &State) -> Option<Jump> {
+        let start = self.start?;
+        let (joint, _) = self.furthest(0, start, &first.q).filter(|(_, share)| *share > 1.0)?;
+        let step = self.way(joint, start[joint], first.q[joint]);
+        Some(Jump { sample: 0, joint, step, why: "the path begins away from where the arm stands".to_owned() })
     }
 
     /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
@@ -324,7 +357,7 @@ impl Path<'_> {
     fn unwound<'q>(&self, values: impl Iterator<Item = &'q Vec<f64>>) -> Vec<Vec<f64>> {
         let mut unwound: Vec<Vec<f64>> = Vec::new();
         for q in values {
-            let next = match unwound.last() {
+            let next = match unwound.last().map(Vec::as_slice).or(self.start) {
                 Some(last) => (0..q.len()).map(|joint| last[joint] + self.way(joint, last[joint], q[joint])).collect(),
                 None => q.clone(),
             };

@@ -29,7 +29,7 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use joint::{Joint, JointValue, Unit};
 pub(crate) use layout::Layout;
 pub use pairs::Pairs;
-pub use prepared::{Batch, Nearest, Solver};
+pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};

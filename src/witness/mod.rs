@@ -3,6 +3,7 @@
 
 mod accuracy;
 pub mod chain;
+mod derivation;
 mod exact;
 mod model;
 mod newton;
@@ -12,6 +13,7 @@ mod screws;
 mod targets;
 
 pub use accuracy::{Accuracy, Class};
+pub use derivation::check;
 pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 
 use crate::derive::Source;

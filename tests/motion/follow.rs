@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use groebot::derive::Proved;
 use groebot::kinematics::screw::ScrewSolver;
 use groebot::kinematics::{Chain, ChainParts, InverseKinematics, Task, along_z};
-use groebot::motion::{Followed, Pace, follow};
+use groebot::motion::{Followed, Pace, follow, follow_from};
 use groebot::robots;
 use groebot::spatial::Pose;
 use groebot::{ErrorKind, Watch};
@@ -127,4 +127,25 @@ fn poses_that_cannot_be_followed_are_refused_with_their_number() {
     );
     let position = chain.with_task(Task::Position, along_z(), Vec::new()).unwrap();
     refused(followed(&position, &some, SOLVER.program()).unwrap_err(), ErrorKind::Unsupported, "followed by `pose`");
+}
+
+#[test]
+fn a_path_begins_where_the_arm_stands_or_jumps_there() {
+    let chain = ur5(None);
+    let poses = poses(&chain, swing, 40);
+    let from = |start: &[f64]| {
+        let (pace, watch) = (Pace::Every(0.1), Watch::none());
+        follow_from(&chain, &[], SOLVER.program(), Some(start), &poses, &pace, &watch)
+    };
+    let mut start = swing(0.0);
+    start[5] += 2.0 * PI;
+    let found = from(&start).unwrap();
+    assert!(found.jumps.is_empty(), "{:?}", found.jumps);
+    assert!(found.trajectory.q[0].iter().zip(&start).all(|(q, start)| (q - start).abs() < 1e-9), "turns are kept");
+    let mut away = swing(0.0);
+    away[0] += 2.0;
+    let found = from(&away).unwrap();
+    assert_eq!((found.jumps[0].sample, found.jumps.len()), (0, 1), "{:?}", found.jumps);
+    is_along(&chain, &poses, &found);
+    assert_eq!(from(&away[..5]).unwrap_err().kind(), ErrorKind::BadValue);
 }

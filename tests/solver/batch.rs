@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::codegen::samples::pan_tilt;
 use groebot::ErrorKind;
-use groebot::solver::{Batch, Program};
+use groebot::solver::{Batch, Program, Solved};
 
 /// Directions all round, every seventh of them no unit vector.
 fn targets() -> Vec<f64> {
@@ -28,6 +28,17 @@ fn a_batch_has_the_answers_of_its_targets_whatever_the_threads() {
     let (program, targets) = (pan_tilt::program(), targets());
     let batch = solved_by(1, &program, &targets);
     assert_eq!(batch, solved_by(3, &program, &targets));
+    let (mut starts, mut refused, mut pans) = (vec![0], Vec::new(), Vec::new());
+    let mut take = |solved: Solved<'_>| match solved {
+        Solved::Answer { q, .. } => pans.push(q[0]),
+        Solved::Target { refused: why } => {
+            refused.extend(why.map(|error| (starts.len() - 1, error)));
+            starts.push(pans.len());
+        }
+    };
+    program.solver().solve_each(&targets, &mut take).unwrap();
+    assert_eq!((&pans[..], &refused[..]), (batch.joint(0), batch.refused()));
+    assert!((0..500).all(|target| batch.of_target(target) == (starts[target]..starts[target + 1])));
     assert_eq!(batch.targets(), 500);
     assert_eq!(batch.refused().len(), 500 / 7);
     for (index, target) in targets.chunks(3).enumerate() {
@@ -100,4 +111,22 @@ fn more_answers_than_there_can_be_are_united() {
     assert_eq!(one.len(), 1);
     assert!(both.contains(&one[0]));
     assert!(both.iter().all(|answer| one[0].residual <= answer.residual));
+}
+
+#[test]
+fn solutions_within_limits_are_those_that_have_a_turn_there() {
+    let puma = Program::from_json(include_str!("../../derivations/puma/5_program.json")).unwrap().solver();
+    let target = puma.reached(&[0.3, -0.4, 0.5, 0.6, -0.7, 0.8]).unwrap();
+    let all = puma.solve_numbers(&target).unwrap();
+    let turned = puma.solve_within(&target, &[[TAU - 3.2, TAU + 3.2]; 6]).unwrap();
+    assert_eq!(turned.len(), all.len());
+    for (turned, answer) in turned.iter().zip(&all) {
+        let turns = turned.q.iter().zip(&answer.q).map(|(a, b)| (a - b) / TAU);
+        assert!(turns.into_iter().all(|turns| (turns - turns.round()).abs() < 1e-12), "{turned:?}");
+        assert!(turned.q.iter().all(|q| (TAU - 3.2..=TAU + 3.2).contains(q)), "{turned:?}");
+    }
+    let narrow = puma.solve_within(&target, &[[-1.0, 1.0]; 6]).unwrap();
+    let inside = all.iter().filter(|answer| answer.q.iter().all(|q| q.abs() <= 1.0)).count();
+    assert!(inside > 0 && narrow.len() == inside, "{narrow:?}");
+    assert_eq!(puma.solve_within(&target, &[[-1.0, 1.0]; 5]).unwrap_err().kind(), ErrorKind::BadValue);
 }

@@ -31,6 +31,27 @@ pub struct Batch {
     refused: Vec<(usize, Error)>,
 }
 
+/// What comes of many targets, in turn: the answers for a target, by branch, then its end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solved<'a> {
+    /// An answer.
+    Answer {
+        /// Joint values in the program's joint order.
+        q: &'a [f64],
+        /// [`Solution::residual`].
+        residual: f64,
+        /// [`Solution::branch`].
+        branch: usize,
+        /// Bit `j` is set where joint `j` may take any value.
+        free: u32,
+    },
+    /// The end of a target.
+    Target {
+        /// Why it is none.
+        refused: Option<Error>,
+    },
+}
+
 impl Batch {
     /// The number of targets.
     pub fn targets(&self) -> usize {
@@ -98,13 +119,19 @@ impl Batch {
         self.free.reserve(answers);
     }
 
-    fn push<S: Storage + 'static>(&mut self, answer: &runtime::Solution<Shaped<S>>) {
-        for (column, value) in self.joints.iter_mut().zip(answer.q.as_ref()) {
-            column.push(*value);
+    fn push(&mut self, solved: Solved<'_>) {
+        match solved {
+            Solved::Answer { q, residual, branch, free } => {
+                self.joints.iter_mut().zip(q).for_each(|(column, value)| column.push(*value));
+                self.residuals.push(residual);
+                self.branches.push(branch);
+                self.free.push(free);
+            }
+            Solved::Target { refused } => {
+                self.refused.extend(refused.map(|error| (self.targets(), error)));
+                self.starts.push(self.answers());
+            }
         }
-        self.residuals.push(answer.residual);
-        self.branches.push(answer.branch);
-        self.free.push(answer.free);
     }
 
     /// Adds those of targets behind.
@@ -124,10 +151,7 @@ impl<S: Storage + 'static> Shaped<S> {
     pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
         let (inputs, threads) = (self.facts().inputs, rayon::current_num_threads());
         batch.clear(self.facts().joints.len());
-        if inputs == 0 || !targets.len().is_multiple_of(inputs) {
-            let text = format!("{} numbers are no targets of {inputs} each", targets.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
+        self.check_count(targets)?;
         if threads == 1 {
             self.share(targets, batch);
             return Ok(());
@@ -151,11 +175,27 @@ impl<S: Storage + 'static> Shaped<S> {
         let facts = self.facts();
         let count = targets.len() / facts.inputs;
         batch.reserve(count, count * facts.candidates);
-        targets.chunks(PIECE * facts.inputs).for_each(|piece| self.piece(batch, piece));
+        targets.chunks(PIECE * facts.inputs).for_each(|piece| self.piece(piece, &mut |solved| batch.push(solved)));
     }
 
-    /// Adds the answers for these targets.
-    fn piece(&self, batch: &mut Batch, targets: &[f64]) {
+    /// As [`Solver::solve_each`].
+    pub fn solve_each(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) -> Result<()> {
+        self.check_count(targets)?;
+        targets.chunks(PIECE * self.facts().inputs).for_each(|piece| self.piece(piece, take));
+        Ok(())
+    }
+
+    fn check_count(&self, targets: &[f64]) -> Result<()> {
+        let inputs = self.facts().inputs;
+        if inputs > 0 && targets.len().is_multiple_of(inputs) {
+            return Ok(());
+        }
+        let text = format!("{} numbers are no targets of {inputs} each", targets.len());
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// Hands over the answers for these targets.
+    fn piece(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) {
         let facts = self.facts();
         let rows: Vec<Inputs<Self>> =
             targets.chunks(facts.inputs).map(|row| Array::by(facts.inputs, |i| row[i])).collect();
@@ -167,11 +207,11 @@ impl<S: Storage + 'static> Shaped<S> {
                 let mut answers = room.iter();
                 for (count, target) in counts[..solved].iter().zip(targets[done * facts.inputs..].chunks(facts.inputs))
                 {
-                    match count {
-                        Ok(count) => answers.by_ref().take(*count).for_each(|answer| batch.push(answer)),
-                        Err(error) => batch.refused.push((batch.targets(), self.refused(target, *error))),
+                    for answer in answers.by_ref().take(count.unwrap_or(0)) {
+                        let runtime::Solution { q, residual, branch, free, .. } = answer;
+                        take(Solved::Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free });
                     }
-                    batch.starts.push(batch.answers());
+                    take(Solved::Target { refused: count.err().map(|error| self.refused(target, error)) });
                 }
                 done += solved;
             });

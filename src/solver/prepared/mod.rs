@@ -15,7 +15,7 @@ mod storage;
 
 use serde::Serialize;
 
-pub use self::batch::Batch;
+pub use self::batch::{Batch, Solved};
 use self::shaped::Shaped;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
@@ -119,6 +119,15 @@ impl Solver {
         shaped!(self, shaped => shaped.nearest(target))
     }
 
+    /// The solutions of [`Solver::solve_numbers`] that have a turn within `limits`, one pair a joint: each is moved there by as few turns of each angle
+    /// as can be. A member of a self-motion is moved along it where it is not within limits itself.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] for another number of pairs than joints.
+    pub fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        shaped!(self, shaped => shaped.solve_within(target, limits))
+    }
+
     /// The target that joint values reach (radians, and the program's length unit): the one that [`Solver::solve_numbers`] takes. None for a program whose
     /// equations do not compare each number of the target with something that only the joints have, or for another number of joint values.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
@@ -162,6 +171,15 @@ impl Solver {
     /// As [`Solver::solve_batch`]; `batch` is empty then.
     pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
         shaped!(self, shaped => shaped.solve_batch_into(targets, batch))
+    }
+
+    /// As [`Solver::solve_batch`], on the calling thread alone, and all that comes of it is handed to `take` in turn: for callers that have threads and arrays of
+    /// their own. (It is compiled where it is called, with what that crate is compiled with.)
+    ///
+    /// # Errors
+    /// As [`Solver::solve_batch`].
+    pub fn solve_each(&self, targets: &[f64], mut take: impl FnMut(Solved<'_>)) -> Result<()> {
+        shaped!(self, shaped => shaped.solve_each(targets, &mut take))
     }
 }
 

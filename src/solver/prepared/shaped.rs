@@ -123,6 +123,20 @@ impl<S: Storage + 'static> Shaped<S> {
         })
     }
 
+    /// As [`super::Solver::solve_within`].
+    pub fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        let (row, joints) = (self.row(target)?, self.facts.joints.len());
+        if limits.len() != joints {
+            let text = format!("{} pairs of limits given; give one for each of {joints} joints", limits.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let limits = Array::by(joints, |i| limits[i]);
+        self.with_room(self.facts.capacity, |out| {
+            let count = Solve::solve_within(self, &row, &limits, out).map_err(|error| self.refused(target, error))?;
+            Ok(out[..count].iter().map(solution).collect())
+        })
+    }
+
     /// As [`super::Solver::solve_pairs`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
         let mut out = vec![runtime::Pairs::empty(self); self.facts.capacity];

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Builds the wheel and tries it as people would: installed by pip in empty environments, with the oldest numpy and the newest. It needs python3 with venv, and
+# nothing else beyond Rust. Where the profile is `release` (`python/ci.sh release`) the wheel is the one that is sent to people, and its size is looked at.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+profile=${1:-fast}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+environment() {
+    python3 -m venv "$work/$1"
+    "$work/$1/bin/pip" install --quiet --disable-pip-version-check "${@:2}"
+}
+
+cargo fmt --check
+cargo clippy --locked --all-targets -- -D warnings
+
+environment build "maturin>=1.9,<2"
+"$work/build/bin/maturin" build --locked --profile "$profile" --compression-level 9 --out "$work/wheels"
+wheel=$(echo "$work"/wheels/*.whl)
+size=$(stat --format %s "$wheel")
+printf '%s: %d bytes\n' "$(basename "$wheel")" "$size"
+if [ "$profile" = release ] && [ "$size" -gt 9000000 ]; then
+    echo "the wheel has grown beyond 9 MB"
+    exit 1
+fi
+
+# Not from here, where the package lies without what is compiled.
+here=$PWD
+cd "$work"
+environment bare "$wheel"
+bare/bin/python -c 'import groebot; ur5 = groebot.Solver.named("ur5"); assert len(ur5.solve(ur5.forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8'
+bare/bin/groebot --version
+
+environment oldest "$wheel" "numpy==1.26.*" pytest hypothesis "scipy<1.15"
+oldest/bin/pytest --quiet "$here/tests"
+
+environment newest "$wheel" "numpy>=2" pytest hypothesis scipy mypy pyright
+newest/bin/pytest --quiet "$here/tests"
+newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
+newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"
+newest/bin/python -m mypy.stubtest groebot._groebot
+newest/bin/python "$here/examples/first.py"
+# pyright looks at the python that is found first, and brings Node with it where there is none.
+export PATH=$work/newest/bin:$PATH
+pyright --verifytypes groebot --ignoreexternal
+pyright "$here/examples"

@@ -1,0 +1,31 @@
+"""Closed-form inverse kinematics that is complete and proven.
+
+A `Solver` finds all joint values that bring the tip of a chain to a target: `Solver.named("ur5")` is one that comes with groebot, `derive(Robot.from_urdf(path))`
+derives one with a proof, `Solver.load(folder)` reads one that was derived. Metres and radians everywhere; quaternions are x, y, z, w; a pose of shape (4, 4) is
+that of the tip in the frame of the chain's base.
+"""
+
+from ._batch import Batch, PaddedBatch, Status
+from ._errors import BadValueError, GroebotError, NoWayError
+from ._groebot import Robot, Solution, Solver, __version__, derive, navigate
+from ._records import Check, Explanation, Jump, Path, Walk
+
+__all__ = [
+    "BadValueError",
+    "Batch",
+    "Check",
+    "Explanation",
+    "GroebotError",
+    "Jump",
+    "NoWayError",
+    "PaddedBatch",
+    "Path",
+    "Robot",
+    "Solution",
+    "Solver",
+    "Status",
+    "Walk",
+    "__version__",
+    "derive",
+    "navigate",
+]

@@ -1,0 +1,52 @@
+"""The exceptions of groebot. Each has the kind of its error."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+
+class GroebotError(Exception):
+    """What went wrong: `kind` is one word to match on, the message says what is allowed.
+
+    Kinds: io, syntax, unknown_key, missing_key, bad_value, duplicate_name, unknown_name, overflow, inconsistent, positive_dimensional, cancelled, budget, unsupported,
+    certificate, no_way, other.
+    """
+
+    kind: str
+    file: str | None
+    line: int | None
+
+    def __init__(self, message: str, kind: str = "other", file: str | None = None, line: int | None = None) -> None:
+        place = (f"{file}: " if file else "") + (f"line {line}: " if line else "")
+        super().__init__(place + message)
+        self.kind, self.file, self.line = kind, file, line
+        self._told = (message, kind, file, line)
+
+    def __reduce__(self) -> tuple[type[GroebotError], tuple[object, ...]]:
+        return type(self), self._told
+
+
+class BadValueError(GroebotError, ValueError):
+    """A value, a name or a text outside of what is allowed."""
+
+
+class NoWayError(GroebotError):
+    """There is no way over a map: nothing as wide as the body's core leaves the cells of `enclosure`, (N, 2) \\[m\\]."""
+
+    enclosure: npt.NDArray[np.float64]
+
+    def __init__(self, message: str, enclosure: npt.NDArray[np.float64]) -> None:
+        super().__init__(message, "no_way")
+        self.enclosure = enclosure
+
+    def __reduce__(self) -> tuple[type[GroebotError], tuple[object, ...]]:
+        return type(self), (self._told[0], self.enclosure)
+
+
+_VALUES = {"bad_value", "syntax", "unknown_key", "missing_key", "duplicate_name", "unknown_name"}
+
+
+def of_kind(kind: str, message: str, file: str | None, line: int | None) -> GroebotError:
+    """The exception of a kind."""
+    return (BadValueError if kind in _VALUES else GroebotError)(message, kind, file, line)

@@ -1,0 +1,192 @@
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import Any, Literal, Protocol, final, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from ._batch import Batch, PaddedBatch
+from ._records import Check, Explanation, Path, Walk
+
+__all__ = ["Robot", "Solution", "Solver", "__version__", "_run", "derive", "navigate"]
+__version__: str
+
+class _Matrix(Protocol):
+    """scipy's Rotation and RigidTransform."""
+
+    def as_matrix(self) -> npt.NDArray[Any]: ...
+
+class _Se3(Protocol):
+    """spatialmath's SE3 and SO3."""
+
+    @property
+    def A(self) -> Any: ...
+
+_Target = npt.ArrayLike | _Matrix | _Se3 | tuple[npt.ArrayLike, _Matrix]
+_Limits = npt.ArrayLike | bool
+_Progress = Callable[[str, int, int], object]
+_File = str | PathLike[str]
+_Floats = npt.NDArray[np.float64]
+
+@final
+class Solution:
+    @property
+    def q(self) -> _Floats: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def branch(self) -> int: ...
+    @property
+    def free(self) -> tuple[int, ...]: ...
+    @property
+    def chosen(self) -> bool: ...
+
+@final
+class Solver:
+    @staticmethod
+    def named(name: str) -> Solver: ...
+    @staticmethod
+    def names() -> list[str]: ...
+    @staticmethod
+    def load(path: _File) -> Solver: ...
+    @staticmethod
+    def from_json(text: str) -> Solver: ...
+    def to_json(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def task(self) -> str: ...
+    @property
+    def joints(self) -> list[str]: ...
+    @property
+    def inputs(self) -> list[str]: ...
+    @property
+    def given(self) -> list[str]: ...
+    @property
+    def length_unit(self) -> str: ...
+    @property
+    def limits(self) -> _Floats: ...
+    @property
+    def solutions(self) -> int | None: ...
+    @property
+    def compiled(self) -> bool: ...
+    def solve(
+        self, target: _Target, *, given: npt.ArrayLike | None = None, limits: _Limits | None = None
+    ) -> list[Solution]: ...
+    def nearest(
+        self,
+        target: _Target,
+        q0: npt.ArrayLike,
+        *,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Solution | None: ...
+    @overload
+    def solve_batch(
+        self,
+        targets: _Target,
+        *,
+        given: npt.ArrayLike | None = None,
+        layout: Literal["ragged"] = "ragged",
+        limits: _Limits | None = None,
+        near: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        dtype: npt.DTypeLike | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> Batch: ...
+    @overload
+    def solve_batch(
+        self,
+        targets: _Target,
+        *,
+        given: npt.ArrayLike | None = None,
+        layout: Literal["padded"],
+        limits: _Limits | None = None,
+        near: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        dtype: npt.DTypeLike | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> PaddedBatch: ...
+    def forward(self, q: npt.ArrayLike) -> _Floats: ...
+    def jacobian(self, q: npt.ArrayLike, frame: Literal["base", "tip", "spatial"] = "base") -> _Floats: ...
+    def solve_path(
+        self,
+        poses: _Target,
+        q0: npt.ArrayLike | None = None,
+        *,
+        dt: float | None = None,
+        speeds: npt.ArrayLike | None = None,
+    ) -> Path: ...
+    def check(self, *, progress: _Progress | None = None, threads: int | None = None) -> Check: ...
+    def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
+    def c_source(self, *, single: bool = False) -> str: ...
+    def rust_source(self, *, alone: bool = True) -> str: ...
+
+@final
+class Robot:
+    @staticmethod
+    def from_urdf(
+        path_or_text: _File,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        floating: bool = False,
+        gravity: npt.ArrayLike | None = None,
+    ) -> Robot: ...
+    @staticmethod
+    def named(
+        name: str,
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        floating: bool = False,
+        gravity: npt.ArrayLike | None = None,
+    ) -> Robot: ...
+    def to_urdf(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def links(self) -> list[str]: ...
+    @property
+    def tips(self) -> list[str]: ...
+    @property
+    def joints(self) -> list[str]: ...
+    @property
+    def mass(self) -> float: ...
+    def inverse_dynamics(self, q: npt.ArrayLike, v: npt.ArrayLike, a: npt.ArrayLike) -> _Floats: ...
+    def forward_dynamics(self, q: npt.ArrayLike, v: npt.ArrayLike, tau: npt.ArrayLike) -> _Floats: ...
+    def mass_matrix(self, q: npt.ArrayLike) -> _Floats: ...
+    def coriolis_matrix(self, q: npt.ArrayLike, v: npt.ArrayLike) -> _Floats: ...
+    def gravity_torques(self, q: npt.ArrayLike) -> _Floats: ...
+    def center_of_mass(self, q: npt.ArrayLike) -> _Floats: ...
+    def energy(self, q: npt.ArrayLike, v: npt.ArrayLike) -> _Floats: ...
+    def link_pose(self, q: npt.ArrayLike, link: str) -> _Floats: ...
+    def link_jacobian(self, q: npt.ArrayLike, link: str) -> _Floats: ...
+
+def derive(
+    robot: Robot | _File,
+    task: str | None = None,
+    given: str | Sequence[str] | None = None,
+    *,
+    plane: Literal["xy", "xz", "yz"] | None = None,
+    direction: npt.ArrayLike | None = None,
+    name: str | None = None,
+    snap: float | None = None,
+    time: float | None = None,
+    progress: _Progress | None = None,
+    threads: int | None = None,
+) -> Solver: ...
+def navigate(
+    robot: str,
+    map: _File | npt.NDArray[np.bool_],
+    goal: Sequence[float],
+    start: Sequence[float] | None = None,
+    *,
+    method: Literal["exact", "fmm", "m3r", "potential"] = "exact",
+    resolution: float = 0.05,
+    apart: float = 0.02,
+    progress: _Progress | None = None,
+) -> Walk: ...
+def _run(arguments: Sequence[str]) -> int: ...

@@ -1,0 +1,182 @@
+//! Arrays of numpy as targets, joint values and limits, and back.
+
+use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors::bad_value;
+use crate::sink::Status;
+use crate::targets::{Form, Targets};
+
+/// Doubles in rows that follow one another.
+pub struct Numbers<'py> {
+    pub array: Bound<'py, PyArrayDyn<f64>>,
+    /// Whether they come from single precision.
+    pub single: bool,
+}
+
+impl<'py> Numbers<'py> {
+    /// Those of an array, or of what `groebot._arrays` makes one.
+    ///
+    /// # Errors
+    /// `BadValueError` for what has no real numbers.
+    pub fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
+            && array.is_c_contiguous()
+        {
+            return Ok(Numbers { array: array.clone(), single: false });
+        }
+        let (array, single) = object.py().import("groebot._arrays")?.getattr("numbers")?.call1((object,))?.extract()?;
+        Ok(Numbers { array, single })
+    }
+
+    pub fn shape(&self) -> &[usize] {
+        self.array.shape()
+    }
+
+    /// All of them.
+    pub fn to_vec(&self) -> PyResult<Vec<f64>> {
+        Ok(self.array.readonly().as_slice()?.to_vec())
+    }
+}
+
+/// The shape of a solver's targets.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// Numbers of a target without those of given joints.
+    pub own: usize,
+    /// Given joints.
+    pub given: usize,
+    /// The first number of the rotation.
+    pub rotation: Option<usize>,
+    /// Whether a target is a pose of one tip.
+    pub is_pose: bool,
+}
+
+impl Asked {
+    /// The targets that an array of this shape holds, and whether it is one.
+    ///
+    /// # Errors
+    /// `BadValueError` with the shapes that are allowed.
+    pub fn targets<'a>(
+        &self,
+        shape: &[usize],
+        data: &'a [f64],
+        given: Option<&'a [f64]>,
+        single: bool,
+    ) -> PyResult<(Targets<'a>, bool)> {
+        let whole = self.own + self.given;
+        let of_width = |width: usize, one: bool| {
+            let form = if width == whole || width == self.own {
+                Form::Numbers
+            } else if self.rotation.is_some() && width == self.own - 5 {
+                Form::Quaternion
+            } else {
+                return None;
+            };
+            Some((form, width, one))
+        };
+        let found = match *shape {
+            [4, 4] if self.is_pose => Some((Form::Matrix, 16, true)),
+            [_, 4, 4] if self.is_pose => Some((Form::Matrix, 16, false)),
+            [3, 3] if self.own == 9 && self.rotation == Some(0) => Some((Form::Numbers, 9, true)),
+            [_, 3, 3] if self.own == 9 && self.rotation == Some(0) => Some((Form::Numbers, 9, false)),
+            [width] => of_width(width, true),
+            [_, width] => of_width(width, false),
+            _ => None,
+        };
+        let (form, width, one) = found.ok_or_else(|| bad_value(self.refusal(shape)))?;
+        let told = form == Form::Numbers && width == whole;
+        let targets = Targets { data, form, width, inputs: whole, rotation: self.rotation, given: &[], single };
+        let expected = if told { 0 } else { self.given };
+        let values = given.unwrap_or(&[]);
+        if values.len() == expected || (expected > 0 && values.len() == expected * targets.len()) {
+            return Ok((Targets { given: values, ..targets }, one));
+        }
+        let text = format!(
+            "{} values of given joints for {} targets; give {expected} for all by `given=`, or as many for each",
+            values.len(),
+            targets.len()
+        );
+        Err(bad_value(text))
+    }
+
+    fn refusal(&self, shape: &[usize]) -> String {
+        let mut forms = Vec::new();
+        if self.is_pose {
+            forms.push("(4, 4)".to_owned());
+        }
+        if self.own == 9 && self.rotation == Some(0) {
+            forms.push("(3, 3)".to_owned());
+        }
+        forms.push(format!("({},)", self.own));
+        if self.rotation.is_some() {
+            forms.push(format!("({},) with a quaternion x, y, z, w", self.own - 5));
+        }
+        if self.given > 0 {
+            forms.push(format!("({},) with the values of given joints", self.own + self.given));
+        }
+        let shape = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        format!(
+            "an array of shape ({shape}) holds no targets; one target has the shape {}, and many have one axis more before",
+            forms.join(" or ")
+        )
+    }
+}
+
+/// The rows of joint values of an array of shape (joints,) or (N, joints), and whether it is one row.
+///
+/// # Errors
+/// `BadValueError` for another shape.
+pub fn joint_rows(numbers: &Numbers<'_>, joints: usize, name: &str) -> PyResult<bool> {
+    match *numbers.shape() {
+        [width] if width == joints => Ok(true),
+        [_, width] if width == joints => Ok(false),
+        _ => {
+            Err(bad_value(format!("`{name}` has the shape {:?}; give ({joints},), or (N, {joints})", numbers.shape())))
+        }
+    }
+}
+
+/// Pairs of limits of an array of shape (joints, 2).
+///
+/// # Errors
+/// `BadValueError` for another shape, NaN, and a least value above the greatest.
+pub fn limits(numbers: &Numbers<'_>, joints: usize) -> PyResult<Vec<[f64; 2]>> {
+    if numbers.shape() != [joints, 2] {
+        return Err(bad_value(format!("`limits` has the shape {:?}; give ({joints}, 2)", numbers.shape())));
+    }
+    let pairs: Vec<[f64; 2]> = numbers.to_vec()?.chunks(2).map(|pair| [pair[0], pair[1]]).collect();
+    match pairs.iter().position(|[low, high]| low.is_nan() || high.is_nan() || low > high) {
+        None => Ok(pairs),
+        Some(joint) => {
+            Err(bad_value(format!("`limits[{joint}]` is {:?}; give the least value, then the greatest", pairs[joint])))
+        }
+    }
+}
+
+/// Fails unless all numbers are finite.
+///
+/// # Errors
+/// `BadValueError` with the row.
+pub fn finite(data: &[f64], width: usize, name: &str) -> PyResult<()> {
+    match data.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(at) => Err(bad_value(format!("`{name}`, row {}: {} is not finite", at / width.max(1), data[at]))),
+    }
+}
+
+/// A list as an array of this shape.
+pub fn shaped<'py, T: Element>(py: Python<'py>, list: Vec<T>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+    let flat = PyArray1::from_vec(py, list);
+    if shape.len() == 1 { Ok(flat.into_any()) } else { Ok(flat.reshape(shape.to_vec())?.into_any()) }
+}
+
+/// The first rows whose status says that they are no targets: their numbers, and how many there are.
+pub fn no_targets(status: &[u8]) -> (Vec<usize>, usize) {
+    let wrong = |status: &u8| {
+        ![Status::Solved, Status::Unreachable, Status::BeyondLimits].map(|own| own as u8).contains(status)
+    };
+    let rows: Vec<usize> = (0..status.len()).filter(|row| wrong(&status[*row])).collect();
+    let count = rows.len();
+    (rows.into_iter().take(10).collect(), count)
+}

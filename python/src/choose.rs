@@ -1,0 +1,122 @@
+//! Which of a target's answers are wanted: those within limits, the one nearest to a reference. Main type: [`Choice`].
+
+use std::f64::consts::TAU;
+
+use groebot::solver::MAX_JOINTS;
+
+use crate::kernel::Kernel;
+use crate::sink::{Sink, Status};
+use crate::targets::Targets;
+
+/// How far beyond a limit rounding may bring a joint that is at it.
+const SLACK: f64 = 1e-9;
+
+/// What is wanted of the answers.
+#[derive(Clone, Copy, Default)]
+pub struct Choice<'a> {
+    /// By joint, the least and the greatest value.
+    pub limits: Option<&'a [[f64; 2]]>,
+    /// The joint values to be near to: of one row for all targets, or row by row.
+    pub near: Option<&'a [f64]>,
+}
+
+impl Choice<'_> {
+    /// Ends a target whose answers begin at `begun`, with those that are wanted.
+    pub fn end(
+        &self,
+        kernel: &dyn Kernel,
+        targets: &Targets<'_>,
+        sink: &mut Sink<'_>,
+        target: usize,
+        begun: usize,
+        why: Status,
+    ) {
+        let found = sink.taken - begun;
+        if let Some(limits) = self.limits {
+            keep_within(kernel, targets, sink, target, begun, limits);
+        }
+        if let Some(near) = self.near {
+            let start = if near.len() == sink.joints { 0 } else { target * sink.joints };
+            keep_nearest(&kernel.shape().turns, sink, begun, &near[start..start + sink.joints], self.limits);
+        }
+        sink.end(begun, if found > 0 { Status::BeyondLimits } else { why });
+    }
+}
+
+/// Keeps the answers that have a turn within limits, moved there by as few turns of each angle as can be; members of self-motions are moved along them
+/// where that is needed.
+fn keep_within(
+    kernel: &dyn Kernel,
+    targets: &Targets<'_>,
+    sink: &mut Sink<'_>,
+    target: usize,
+    begun: usize,
+    limits: &[[f64; 2]],
+) {
+    let turns = &kernel.shape().turns;
+    let (mut kept, mut strides) = (begun, false);
+    let mut q = [0.0; MAX_JOINTS];
+    let q = &mut q[..turns.len()];
+    for answer in begun..sink.taken {
+        if moved(turns, sink.row(answer), sink.row(answer), Some(limits), q) {
+            sink.put(answer, kept);
+            sink.row_mut(kept).copy_from_slice(q);
+            kept += 1;
+        } else {
+            strides |= sink.rows.free[answer] != 0;
+        }
+    }
+    sink.taken = kept;
+    if strides {
+        let mut numbers = vec![0.0; targets.inputs];
+        targets.row(target, &mut numbers);
+        if let Ok(found) = kernel.solve_within(&numbers, limits) {
+            sink.taken = begun;
+            for answer in found {
+                let Some(rows) = sink.more(1) else { return };
+                rows.q.copy_from_slice(&answer.q);
+                rows.residual[0] = answer.residual;
+                rows.branch[0] = answer.branch as i32;
+                rows.free[0] = answer.free.iter().fold(0, |bits, joint| bits | 1 << joint);
+            }
+        }
+    }
+}
+
+/// Keeps the answer that can come nearest to a reference by turns within limits, at its nearest turn; of equals the first.
+fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
+    let (mut best, mut least) = ([0.0; MAX_JOINTS], f64::INFINITY);
+    let (mut q, mut nearest) = ([0.0; MAX_JOINTS], None);
+    let joints = turns.len();
+    for answer in begun..sink.taken {
+        if !moved(turns, sink.row(answer), reference, limits, &mut q[..joints]) {
+            continue;
+        }
+        let distance: f64 = q.iter().zip(reference).map(|(a, b)| (a - b) * (a - b)).sum();
+        if distance < least {
+            (least, best, nearest) = (distance, q, Some(answer));
+        }
+    }
+    if let Some(answer) = nearest {
+        sink.put(answer, begun);
+        sink.row_mut(begun).copy_from_slice(&best[..joints]);
+    }
+    sink.taken = begun + usize::from(nearest.is_some());
+}
+
+/// Writes `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; false when a joint cannot be within its limits.
+pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
+    out.iter_mut().enumerate().all(|(joint, out)| {
+        let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
+        let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);
+        *out = value;
+        if !turns[joint] {
+            return (low..=high).contains(&value);
+        }
+        let (first, last) = (((low - value) / TAU).ceil(), ((high - value) / TAU).floor());
+        if first <= last {
+            *out += TAU * ((reference[joint] - value) / TAU).round().clamp(first, last);
+        }
+        first <= last
+    })
+}

@@ -1,0 +1,275 @@
+//! What solves: a solver that was printed, or the program of one that was derived. Main trait: [`Kernel`].
+
+use std::ops::Range;
+
+use groebot::kinematics::Solution;
+use groebot::solver::{Condition, JointValue, Program, Solved, Solver};
+use groebot::{Error, ErrorKind, Result};
+use groebot_runtime as runtime;
+use groebot_runtime::mechanism::{Answered, Inputs};
+use groebot_runtime::storage::Array;
+use groebot_runtime::{Mechanism, Solve};
+
+use crate::sink::{Rows, Sink, Status};
+use crate::targets::Targets;
+
+/// How many targets a printed solver takes at once, and how many a program.
+const PIECE: usize = 64;
+const MANY: usize = 256;
+
+/// What holds for all targets of a solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// How many numbers a target has.
+    pub inputs: usize,
+    /// By joint, whether it turns.
+    pub turns: Vec<bool>,
+    /// How many answers an ordinary target has at most.
+    pub usual: usize,
+    /// How many any target has at most.
+    pub capacity: usize,
+}
+
+/// A solver of many targets. All answers are the same to the last bit, whatever solves.
+pub trait Kernel: Send + Sync {
+    fn shape(&self) -> &Shape;
+
+    /// Hands over all answers for one target.
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()>;
+
+    /// Those within limits, each moved by as few turns as can be.
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
+
+    /// What joint values reach, where the equations tell it.
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
+
+    /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>);
+}
+
+/// An answer, as it is handed over.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer<'a> {
+    pub q: &'a [f64],
+    pub residual: f64,
+    pub branch: usize,
+    /// Bit `j` is set where joint `j` is free.
+    pub free: u32,
+    pub chosen: bool,
+}
+
+impl<'a> From<&'a Solution> for Answer<'a> {
+    fn from(solution: &'a Solution) -> Self {
+        let Solution { q, residual, branch, free, chosen } = solution;
+        let free = free.iter().fold(0, |bits, joint| bits | 1 << joint);
+        Answer { q, residual: *residual, branch: *branch, free, chosen: *chosen }
+    }
+}
+
+/// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
+pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink<'_>, usize, usize, Status);
+
+/// A printed solver.
+pub struct Printed<M> {
+    mechanism: M,
+    shape: Shape,
+}
+
+impl<M: Mechanism> Printed<M> {
+    pub fn new(mechanism: M) -> Self {
+        let facts = mechanism.facts();
+        let shape = Shape {
+            inputs: facts.inputs,
+            turns: facts.joints.iter().map(|joint| matches!(joint, runtime::Joint::Angle(_))).collect(),
+            usual: facts.candidates.max(facts.isolated.unwrap_or(0)).min(facts.capacity),
+            capacity: facts.capacity,
+        };
+        Printed { mechanism, shape }
+    }
+
+    fn row(&self, target: &[f64]) -> Inputs<M> {
+        Array::by(self.shape.inputs, |i| target[i])
+    }
+}
+
+impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
+    fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()> {
+        let mut room: Answered<M, runtime::Solution<M>> =
+            Array::by(self.shape.capacity, |_| runtime::Solution::empty(&self.mechanism));
+        let room = room.as_mut();
+        let count = self.mechanism.solve(&self.row(target), room).map_err(refused)?;
+        for answer in &room[..count] {
+            let runtime::Solution { q, residual, branch, free, chosen, .. } = answer;
+            take(Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free, chosen: *chosen });
+        }
+        Ok(())
+    }
+
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        let limits = Array::by(limits.len(), |i| limits[i]);
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity];
+        let count = self.mechanism.solve_within(&self.row(target), &limits, &mut room).map_err(refused)?;
+        Ok(room[..count].iter().map(solution).collect())
+    }
+
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
+        self.mechanism.forward(&Array::by(q.len(), |i| q[i])).map(|target| target.as_ref().to_vec())
+    }
+
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
+        let Shape { usual, capacity, inputs, .. } = self.shape;
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); PIECE * usual + capacity];
+        let mut piece: Vec<Inputs<M>> = vec![Array::by(inputs, |_| 0.0); PIECE];
+        let (mut whole, mut counts) = ([Status::Solved; PIECE], [Ok(0); PIECE]);
+        for first in rows.clone().step_by(PIECE) {
+            let size = PIECE.min(rows.end - first);
+            for (row, (target, status)) in piece[..size].iter_mut().zip(&mut whole).enumerate() {
+                *status = targets.row(first + row, target.as_mut());
+            }
+            let mut done = 0;
+            while done < size {
+                let solved = self.mechanism.solve_batch(&piece[done..size], &mut room, &mut counts);
+                let mut answers = room.iter();
+                for (row, count) in (done..).zip(&counts[..solved]) {
+                    let (begun, found) = (sink.taken, count.unwrap_or(0));
+                    if let Some(rows) = sink.more(found) {
+                        write(rows, answers.by_ref().take(found));
+                    }
+                    ended(sink, first + row, begun, why(whole[row], count.map(|_| ())));
+                }
+                done += solved;
+            }
+        }
+    }
+}
+
+/// Writes the answers for a target.
+#[inline]
+fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'m runtime::Solution<M>>) {
+    let Rows { mut q, residual, branch, free } = rows;
+    let told = residual.iter_mut().zip(branch).zip(free);
+    for (answer, ((residual, branch), free)) in answers.zip(told) {
+        // Its length is known when this is compiled.
+        let own = answer.q.as_ref();
+        let Some((row, rest)) = q.split_at_mut_checked(own.len()) else { return };
+        row.copy_from_slice(own);
+        q = rest;
+        (*residual, *branch, *free) = (answer.residual, answer.branch as i32, answer.free);
+    }
+}
+
+/// Why a target has no answers: what its form says, else what the solver does.
+fn why(form: Status, solved: std::result::Result<(), runtime::Error>) -> Status {
+    match (form, solved) {
+        (Status::Solved, Ok(())) => Status::Unreachable,
+        (Status::Solved, Err(runtime::Error::NotFinite)) => Status::NotFinite,
+        (Status::Solved, Err(runtime::Error::NotRotation)) => Status::NotRotation,
+        (Status::Solved, Err(runtime::Error::NotUnit)) => Status::NotUnit,
+        (Status::Solved, Err(_)) => Status::Open,
+        (form, _) => form,
+    }
+}
+
+fn refused(error: runtime::Error) -> Error {
+    let is_open = matches!(error, runtime::Error::OpenStratum(_));
+    Error::new(if is_open { ErrorKind::Unsupported } else { ErrorKind::BadValue }, error.to_string())
+}
+
+fn solution<M: Mechanism>(answer: &runtime::Solution<M>) -> Solution {
+    let joints = answer.q.as_ref().len();
+    Solution {
+        q: answer.q.as_ref().to_vec(),
+        residual: answer.residual,
+        branch: answer.branch,
+        free: (0..joints).filter(|joint| answer.is_free(*joint)).collect(),
+        chosen: answer.chosen,
+    }
+}
+
+/// The program of a derived solver.
+pub struct Interpreted {
+    solver: Solver,
+    shape: Shape,
+    has_rotation: bool,
+}
+
+impl Interpreted {
+    pub fn new(program: &Program) -> Self {
+        let turns = program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. }));
+        let shape = Shape {
+            inputs: program.inputs.len(),
+            turns: turns.collect(),
+            usual: program.isolated.unwrap_or(program.bound()).clamp(1, program.capacity.max(1)),
+            capacity: program.capacity,
+        };
+        let has_rotation = program.conditions.iter().any(|condition| matches!(condition, Condition::Rotation(_)));
+        Interpreted { solver: program.solver(), shape, has_rotation }
+    }
+
+    /// Why a target is refused.
+    fn why(&self, target: &[f64], error: &Error) -> Status {
+        match error.kind() {
+            ErrorKind::Unsupported => Status::Open,
+            _ if !target.iter().all(|number| number.is_finite()) => Status::NotFinite,
+            _ if self.has_rotation => Status::NotRotation,
+            _ => Status::NotUnit,
+        }
+    }
+}
+
+impl Kernel for Interpreted {
+    fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()> {
+        self.solver.solve_numbers(target)?.iter().for_each(|solution| take(solution.into()));
+        Ok(())
+    }
+
+    fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        self.solver.solve_within(target, limits)
+    }
+
+    fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
+        self.solver.reached(q)
+    }
+
+    fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
+        let inputs = self.shape.inputs;
+        let mut numbers = vec![0.0; inputs * MANY];
+        let mut whole = [Status::Solved; MANY];
+        for first in rows.clone().step_by(MANY) {
+            let size = MANY.min(rows.end - first);
+            for (row, (target, status)) in numbers.chunks_mut(inputs).zip(&mut whole).take(size).enumerate() {
+                *status = targets.row(first + row, target);
+            }
+            let (mut row, mut begun) = (0, sink.taken);
+            let each = |solved: Solved<'_>| match solved {
+                Solved::Answer { q, residual, branch, free } => {
+                    if let Some(rows) = sink.more(1) {
+                        rows.q.copy_from_slice(q);
+                        (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
+                    }
+                }
+                Solved::Target { refused } => {
+                    let told = |error: Error| self.why(&numbers[row * inputs..][..inputs], &error);
+                    let why = if whole[row] == Status::Solved {
+                        refused.map_or(Status::Unreachable, told)
+                    } else {
+                        whole[row]
+                    };
+                    ended(sink, first + row, begun, why);
+                    (row, begun) = (row + 1, sink.taken);
+                }
+            };
+            if self.solver.solve_each(&numbers[..size * inputs], each).is_err() {
+                return;
+            }
+        }
+    }
+}

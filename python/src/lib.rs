@@ -1,0 +1,36 @@
+//! groebot as a module of Python: `groebot._groebot`, which the package `groebot` shows.
+
+mod arrays;
+mod batch;
+mod choose;
+mod command;
+mod derive;
+mod dynamics;
+mod errors;
+mod kernel;
+mod known;
+mod many;
+mod navigate;
+mod origin;
+mod path;
+mod robot;
+mod sink;
+mod solution;
+mod solver;
+mod stored;
+mod targets;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<robot::Robot>()?;
+    module.add_class::<solver::Solver>()?;
+    module.add_class::<solution::Solution>()?;
+    module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
+    module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;
+    module.add_function(wrap_pyfunction!(command::run, module)?)?;
+    Ok(())
+}

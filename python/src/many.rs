@@ -1,0 +1,278 @@
+//! Many targets and many joint values at once: what [`crate::solver::Solver`] offers by arrays.
+
+use groebot::kinematics::Chain;
+use groebot::kinematics::jacobian::Jacobian;
+use groebot::spatial::Pose;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PySlice, PyTuple};
+
+use crate::arrays::{self, Numbers, finite, joint_rows, no_targets};
+use crate::batch::{Job, Room, reason, solve_all};
+use crate::choose::Choice;
+use crate::errors::{bad_value, raised, unsupported};
+use crate::sink::Rows;
+use crate::solver::chain;
+use crate::stored::Stored;
+
+/// How a batch is to be solved.
+pub struct Wanted<'a, 'py> {
+    pub given: Option<&'a Bound<'py, PyAny>>,
+    pub limits: Option<&'a [[f64; 2]]>,
+    pub near: Option<&'a Bound<'py, PyAny>>,
+    pub out: Option<&'a Bound<'py, PyAny>>,
+    pub threads: usize,
+    pub strict: bool,
+}
+
+/// The arrays q, starts, residual, branch, free, status of all solutions.
+///
+/// # Errors
+/// `BadValueError` for wrong shapes, for `out` that has too few rows, and where it is strict for rows that are no targets.
+pub fn solve_batch<'py>(
+    py: Python<'py>,
+    stored: &Stored,
+    targets: &Bound<'py, PyAny>,
+    wanted: &Wanted<'_, 'py>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let joints = stored.program.joints.len();
+    let numbers = Numbers::of(targets)?;
+    let given = wanted.given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
+    let borrowed = numbers.array.try_readonly()?;
+    let data = borrowed.as_slice()?;
+    let (rows, one) = stored.asked.targets(numbers.shape(), data, given.as_deref(), numbers.single)?;
+    if one {
+        return Err(bad_value("`targets` holds one target; use solve, or give it an axis more: targets[None]"));
+    }
+    let near = wanted.near.map(|near| reference(near, joints, rows.len())).transpose()?;
+    let choice = Choice { limits: wanted.limits, near: near.as_deref() };
+    let job = Job { kernel: &*stored.kernel, targets: &rows, choice: &choice };
+    let solved = solved(py, job, wanted)?;
+    if wanted.strict {
+        refuse(solved.status.try_readonly()?.as_slice()?)?;
+    }
+    PyTuple::new(py, solved.arrays(py)?)
+}
+
+/// Arrays with all answers, and more room behind them.
+struct Solved<'py> {
+    q: Bound<'py, PyArray2<f64>>,
+    residual: Bound<'py, PyArray1<f64>>,
+    branch: Bound<'py, PyArray1<i32>>,
+    free: Bound<'py, PyArray1<u32>>,
+    starts: Bound<'py, PyArray1<i64>>,
+    status: Bound<'py, PyArray1<u8>>,
+    answers: usize,
+    /// Whether `q` is the caller's.
+    is_lent: bool,
+}
+
+/// Solves a job into new arrays, those of numpy, whose memory is used again from call to call; targets that have more answers than ordinary ones are rare, and only
+/// where there are many is there room for all that may be.
+fn solved<'py>(py: Python<'py>, job: Job<'_>, wanted: &Wanted<'_, 'py>) -> PyResult<Solved<'py>> {
+    let (shape, targets, joints) = (job.kernel.shape(), job.targets.len(), job.kernel.shape().turns.len());
+    let lent = wanted.out.map(|out| room(out, joints)).transpose()?;
+    let usual = if job.choice.near.is_some() { 1 } else { shape.usual };
+    let starts = new(py, targets + 1, "int64")?;
+    let status = new(py, targets, "uint8")?;
+    for own in [targets * usual + shape.capacity, targets * shape.capacity] {
+        let own = lent.as_ref().map_or(own, |lent| lent.shape()[0]);
+        let q = lent.clone().map_or_else(|| new::<PyArray2<f64>>(py, (own, joints), "float64"), Ok)?;
+        let mut solved = Solved {
+            q,
+            residual: new(py, own, "float64")?,
+            branch: new(py, own, "int32")?,
+            free: new(py, own, "uint32")?,
+            starts: Bound::clone(&starts),
+            status: Bound::clone(&status),
+            answers: 0,
+            is_lent: lent.is_some(),
+        };
+        if let Some(answers) = solved.fill(py, job, wanted.threads)? {
+            solved.answers = answers;
+            return Ok(solved);
+        }
+    }
+    let text =
+        "`out` has too few rows for all solutions; (N * solver.solutions, joints) are enough but for singular targets";
+    Err(bad_value(text))
+}
+
+impl<'py> Solved<'py> {
+    /// The number of all answers; none when there is too little room.
+    fn fill(&mut self, py: Python<'py>, job: Job<'_>, threads: usize) -> PyResult<Option<usize>> {
+        let (mut q, mut residual) = (self.q.try_readwrite()?, self.residual.try_readwrite()?);
+        let (mut branch, mut free) = (self.branch.try_readwrite()?, self.free.try_readwrite()?);
+        let (mut starts, mut status) = (self.starts.try_readwrite()?, self.status.try_readwrite()?);
+        let rows = Rows {
+            q: q.as_slice_mut()?,
+            residual: residual.as_slice_mut()?,
+            branch: branch.as_slice_mut()?,
+            free: free.as_slice_mut()?,
+        };
+        let starts = starts.as_slice_mut()?;
+        let room = Room { rows, counts: &mut starts[1..], status: status.as_slice_mut()? };
+        let Some(answers) = py.detach(|| solve_all(job, threads, room))? else { return Ok(None) };
+        starts[0] = 0;
+        let mut all = 0;
+        for start in starts {
+            all += *start;
+            *start = all;
+        }
+        Ok(Some(answers))
+    }
+
+    /// q, starts, residual, branch, free, status without the room behind them.
+    fn arrays(self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 6]> {
+        let front = PySlice::new(py, 0, self.answers as isize, 1);
+        // Of arrays that are far too large a copy is kept.
+        let is_large = !self.is_lent && self.q.shape()[0] > 2 * self.answers + 64;
+        let cut = |array: Bound<'py, PyAny>| {
+            let front = array.get_item(&front)?;
+            if is_large { front.call_method0("copy") } else { Ok(front) }
+        };
+        Ok([
+            cut(self.q.into_any())?,
+            self.starts.into_any(),
+            cut(self.residual.into_any())?,
+            cut(self.branch.into_any())?,
+            cut(self.free.into_any())?,
+            self.status.into_any(),
+        ])
+    }
+}
+
+/// A new array of numpy, whose numbers mean nothing yet.
+fn new<'py, A>(py: Python<'py>, shape: impl IntoPyObject<'py>, dtype: &str) -> PyResult<Bound<'py, A>>
+where
+    A: pyo3::PyTypeCheck,
+{
+    Ok(py.import("numpy")?.getattr("empty")?.call1((shape, dtype))?.cast_into::<A>()?)
+}
+
+/// Fails where rows are no targets, with their numbers.
+fn refuse(status: &[u8]) -> PyResult<()> {
+    let (rows, count) = no_targets(status);
+    let Some(first) = rows.first() else { return Ok(()) };
+    let others = if count > 1 { format!("; {count} rows are no targets: {rows:?}") } else { String::new() };
+    let more = if count > rows.len() { " and more" } else { "" };
+    Err(bad_value(format!("row {first} {}{others}{more}", reason(status[*first]))))
+}
+
+/// Joint values to be near to, of one row or of each.
+fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult<Vec<f64>> {
+    let numbers = Numbers::of(near)?;
+    let one = joint_rows(&numbers, joints, "near")?;
+    if !one && numbers.shape()[0] != targets {
+        return Err(bad_value(format!(
+            "`near` has {} rows; give one, or one for each of {targets} targets",
+            numbers.shape()[0]
+        )));
+    }
+    let list = numbers.to_vec()?;
+    finite(&list, joints, "near")?;
+    Ok(list)
+}
+
+/// An array that takes joint values.
+fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let array = out.cast::<PyArray2<f64>>().ok().filter(|array| array.is_c_contiguous());
+    let array = array.filter(|array| array.shape()[1] == joints);
+    array
+        .cloned()
+        .ok_or_else(|| bad_value(format!("`out` must be a contiguous float64 array of shape (rows, {joints})")))
+}
+
+/// Rows of joint values and whether they are one.
+fn joint_values(stored: &Stored, q: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, bool)> {
+    let (numbers, joints) = (Numbers::of(q)?, stored.program.joints.len());
+    let one = joint_rows(&numbers, joints, "q")?;
+    let list = numbers.to_vec()?;
+    finite(&list, joints, "q")?;
+    Ok((list, one))
+}
+
+/// What joint values reach.
+///
+/// # Errors
+/// `BadValueError` for wrong shapes and values that are not finite; of the kind `unsupported` where the equations do not tell it.
+pub fn forward<'py>(py: Python<'py>, stored: &Stored, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let (list, one) = joint_values(stored, q)?;
+    let (joints, asked) = (stored.program.joints.len(), stored.asked);
+    let reached = py.detach(|| {
+        let mut all = Vec::new();
+        for row in list.chunks(joints) {
+            let numbers = stored.kernel.forward(row)?;
+            if asked.is_pose {
+                for i in 0..3 {
+                    all.extend_from_slice(&numbers[3 + 3 * i..6 + 3 * i]);
+                    all.push(numbers[i]);
+                }
+                all.extend_from_slice(&[0.0, 0.0, 0.0, 1.0]);
+            } else {
+                all.extend_from_slice(&numbers[..asked.own]);
+            }
+        }
+        Some(all)
+    });
+    let reached =
+        reached.ok_or_else(|| unsupported("the equations of this solver do not say what joint values reach"))?;
+    let own: &[usize] = if asked.is_pose { &[4, 4] } else { &[asked.own] };
+    with_rows(py, reached, list.len() / joints, own, one)
+}
+
+/// The Jacobian in a frame.
+///
+/// # Errors
+/// As [`forward`]; `BadValueError` for another frame; of the kind `unsupported` for a solver without a chain.
+pub fn jacobian<'py>(
+    py: Python<'py>,
+    stored: &Stored,
+    q: &Bound<'py, PyAny>,
+    frame: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (list, one) = joint_values(stored, q)?;
+    let chain = chain(stored)?;
+    let joints = stored.program.joints.len();
+    if chain.joints().len() != joints {
+        return Err(unsupported("this solver has other joints than its chain"));
+    }
+    let of: fn(&Chain, &[f64]) -> groebot::Result<Jacobian> = match frame {
+        "base" => in_base,
+        "tip" => |chain, q| chain.body_jacobian(q),
+        "spatial" => |chain, q| chain.spatial_jacobian(q),
+        _ => return Err(bad_value(format!("the frame `{frame}` is not known; give base, tip or spatial"))),
+    };
+    let rows = py.detach(|| {
+        let each = list.chunks(joints).map(|q| of(chain, q).map(|jacobian| jacobian.transpose().as_slice().to_vec()));
+        each.collect::<groebot::Result<Vec<_>>>()
+    });
+    let rows = rows.map_err(|error| raised(&error))?;
+    with_rows(py, rows.concat(), rows.len(), &[6, joints], one)
+}
+
+/// Of the tip's origin, with the base's axes.
+fn in_base(chain: &Chain, q: &[f64]) -> groebot::Result<Jacobian> {
+    let Pose { rotation, .. } = chain.forward(q)?;
+    let turn = rotation.to_rotation_matrix().into_inner();
+    let mut jacobian = chain.body_jacobian(q)?;
+    for mut column in jacobian.column_iter_mut() {
+        for part in [0, 3] {
+            let turned = turn * column.fixed_rows::<3>(part);
+            column.fixed_rows_mut::<3>(part).copy_from(&turned);
+        }
+    }
+    Ok(jacobian)
+}
+
+/// Rows as an array with the axis of rows, unless they are one.
+pub fn with_rows<'py>(
+    py: Python<'py>,
+    list: Vec<f64>,
+    rows: usize,
+    own: &[usize],
+    one: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let shape = if one { own.to_vec() } else { [&[rows], own].concat() };
+    arrays::shaped(py, list, &shape)
+}

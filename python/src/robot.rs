@@ -1,0 +1,268 @@
+//! A robot as its description tells it, as Python sees it. Main type: [`Robot`].
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use groebot::derive::Ends;
+use groebot::document::read_text;
+use groebot::dynamics::{Base, Equations, State};
+use groebot::model::urdf::URDF_LIMIT;
+use groebot::{ErrorKind, model, robots};
+use nalgebra::Vector3;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+use crate::arrays::{Numbers, finite};
+use crate::dynamics::{self, Columns};
+use crate::errors::{bad_value, raised};
+use crate::origin::Origin;
+
+/// A tree of links and joints, with what they weigh.
+///
+/// Metres, kilograms, seconds, radians. Methods take one state, such as q of shape (freedoms,), or many, (N, freedoms), and then return an axis more. On a
+/// `floating` base q begins with the root's position and quaternion x, y, z, w in the world, and velocities with the root's linear and angular velocity
+/// in its own frame.
+#[pyclass(frozen, module = "groebot", name = "Robot")]
+pub struct Robot {
+    robot: model::Robot,
+    text: String,
+    base: Option<String>,
+    tip: Option<String>,
+    root: Base,
+    gravity: Vector3<f64>,
+    equations: OnceLock<groebot::Result<Equations>>,
+}
+
+#[pymethods]
+impl Robot {
+    /// Reads a URDF: a path, or the text itself. `base` and `tip` are the links between which `derive` takes the chain, by default the root and the only end.
+    #[staticmethod]
+    #[pyo3(signature = (path_or_text, base=None, tip=None, *, floating=false, gravity=None))]
+    fn from_urdf(
+        path_or_text: &Bound<'_, PyAny>,
+        base: Option<String>,
+        tip: Option<String>,
+        floating: bool,
+        gravity: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let told = path_or_text.cast::<PyString>().ok().map(|text| text.to_str()).transpose()?;
+        let text = match told.filter(|text| text.trim_start_matches('\u{feff}').trim_start().starts_with('<')) {
+            Some(text) => text.to_owned(),
+            None => {
+                let path: PathBuf = path_or_text.extract()?;
+                read_text(&path, URDF_LIMIT).map_err(|error| raised(&error))?
+            }
+        };
+        let robot = model::Robot::from_urdf(&text).map_err(|error| raised(&error))?;
+        Robot::of(robot, text, [base, tip], floating, gravity)
+    }
+
+    /// A humanoid that comes with groebot: nao, rh0 or teo.
+    #[staticmethod]
+    #[pyo3(signature = (name, base=None, tip=None, *, floating=false, gravity=None))]
+    fn named(
+        name: &str,
+        base: Option<String>,
+        tip: Option<String>,
+        floating: bool,
+        gravity: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let unknown = || {
+            let text = format!("no robot is called `{name}`; there are nao, rh0 and teo");
+            raised(&groebot::Error::new(ErrorKind::UnknownName, text))
+        };
+        let robot = robots::robot(name).ok_or_else(unknown)?;
+        let text = robot.to_urdf();
+        Robot::of(robot, text, [base, tip], floating, gravity)
+    }
+
+    /// The robot as URDF.
+    fn to_urdf(&self) -> &str {
+        &self.text
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<groebot.Robot {}: {} links, {} joints>",
+            self.name(),
+            self.robot.links().len(),
+            self.robot.joints().len()
+        )
+    }
+
+    #[expect(clippy::type_complexity, reason = "what pickle wants")]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, Option<String>, Option<String>, bool, [f64; 3]))> {
+        let again = py.import("groebot._records")?.getattr("_robot")?;
+        let state =
+            (self.text.clone(), self.base.clone(), self.tip.clone(), self.root == Base::Floating, self.gravity.into());
+        Ok((again, state))
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        self.robot.name()
+    }
+
+    /// The names of its links, in the order of the description.
+    #[getter]
+    fn links(&self) -> Vec<&str> {
+        self.robot.links().iter().map(|link| link.name.as_str()).collect()
+    }
+
+    /// The names of the links that end limbs.
+    #[getter]
+    fn tips(&self) -> Vec<&str> {
+        self.robot.tips()
+    }
+
+    /// The names of the joints that move independently, in the order of a configuration.
+    #[getter]
+    fn joints(&self) -> PyResult<Vec<String>> {
+        Ok(self.equations()?.joints().to_vec())
+    }
+
+    /// The mass of all links \[kg\].
+    #[getter]
+    fn mass(&self) -> f64 {
+        self.robot.mass()
+    }
+
+    /// The torques \[N m, N\] that give the accelerations `a` in the state `q`, `v`: by Newton and Euler, friction and rotors included.
+    fn inverse_dynamics<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        a: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let equations = self.equations()?;
+        let columns = Columns::new(equations, q, &[("v", v), ("a", a)])?;
+        columns.rows(q.py(), &[equations.freedoms()], |room, state, third| {
+            dynamics::vector(equations.inverse(room, state, third))
+        })
+    }
+
+    /// The accelerations that the torques `tau` give in the state `q`, `v`.
+    fn forward_dynamics<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        tau: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let equations = self.equations()?;
+        let columns = Columns::new(equations, q, &[("v", v), ("tau", tau)])?;
+        columns.rows(q.py(), &[equations.freedoms()], |room, state, third| {
+            dynamics::vector(equations.forward(room, state, third))
+        })
+    }
+
+    /// The mass matrix, (freedoms, freedoms).
+    fn mass_matrix<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (equations, n) = (self.equations()?, self.equations()?.freedoms());
+        let columns = Columns::new(equations, q, &[])?;
+        columns.rows(q.py(), &[n, n], |room, state, _| dynamics::matrix(equations.inertia(room, state.q)))
+    }
+
+    /// The Coriolis matrix of Christoffel's symbols, (freedoms, freedoms).
+    fn coriolis_matrix<'py>(&self, q: &Bound<'py, PyAny>, v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (equations, n) = (self.equations()?, self.equations()?.freedoms());
+        let columns = Columns::new(equations, q, &[("v", v)])?;
+        columns.rows(q.py(), &[n, n], |room, state, _| dynamics::matrix(equations.coriolis(room, state)))
+    }
+
+    /// The torques that hold the robot against gravity.
+    fn gravity_torques<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let equations = self.equations()?;
+        let columns = Columns::new(equations, q, &[])?;
+        columns
+            .rows(q.py(), &[equations.freedoms()], |room, state, _| dynamics::vector(equations.gravity(room, state.q)))
+    }
+
+    /// The centre of mass in the world (of a fixed base: in its frame), (3,).
+    fn center_of_mass<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let equations = self.equations()?;
+        let columns = Columns::new(equations, q, &[])?;
+        columns.rows(q.py(), &[3], |room, state, _| {
+            Ok(equations.centre_of_mass(room, state.q)?.coords.as_slice().to_vec())
+        })
+    }
+
+    /// The kinetic and the potential energy \[J\], (2,).
+    fn energy<'py>(&self, q: &Bound<'py, PyAny>, v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let equations = self.equations()?;
+        let columns = Columns::new(equations, q, &[("v", v)])?;
+        columns.rows(q.py(), &[2], |room, state, _| {
+            equations.energy(room, state).map(|energy| vec![energy.kinetic, energy.potential])
+        })
+    }
+
+    /// Where a link stands in the world (of a fixed base: in its frame), (4, 4).
+    fn link_pose<'py>(&self, q: &Bound<'py, PyAny>, link: &str) -> PyResult<Bound<'py, PyAny>> {
+        let (equations, place) = (self.equations()?, self.link(link)?);
+        let columns = Columns::new(equations, q, &[])?;
+        columns.rows(q.py(), &[4, 4], |room, state, _| {
+            Ok(equations.pose(room, state.q, place)?.to_homogeneous().transpose().as_slice().to_vec())
+        })
+    }
+
+    /// The Jacobian of a link's origin and its turning, along the axes of the world, (6, freedoms): linear velocity in the first three rows.
+    fn link_jacobian<'py>(&self, q: &Bound<'py, PyAny>, link: &str) -> PyResult<Bound<'py, PyAny>> {
+        let (equations, place) = (self.equations()?, self.link(link)?);
+        let columns = Columns::new(equations, q, &[])?;
+        columns.rows(q.py(), &[6, equations.freedoms()], |room, state, _| {
+            let still = vec![0.0; equations.freedoms()];
+            let [jacobian, _] = equations.jacobian(room, State::new(state.q, &still), place)?;
+            Ok(jacobian.transpose().as_slice().to_vec())
+        })
+    }
+}
+
+impl Robot {
+    fn of(
+        robot: model::Robot,
+        text: String,
+        [base, tip]: [Option<String>; 2],
+        floating: bool,
+        gravity: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        for link in [&base, &tip].into_iter().flatten() {
+            robot.link(link).map_err(|error| raised(&error))?;
+        }
+        let gravity = gravity.map_or(Ok(Vector3::new(0.0, 0.0, -9.81)), three)?;
+        let root = if floating { Base::Floating } else { Base::Fixed };
+        Ok(Robot { robot, text, base, tip, root, gravity, equations: OnceLock::new() })
+    }
+
+    /// What it was read from.
+    pub fn origin(&self) -> Origin {
+        Origin::of("0_robot.urdf", &self.text)
+    }
+
+    /// The links between which its chain is.
+    pub fn ends(&self) -> Ends {
+        Ends { base: self.base.clone(), tip: self.tip.clone(), ..Ends::default() }
+    }
+
+    fn equations(&self) -> PyResult<&Equations> {
+        let made = || Ok(Equations::new(&self.robot, self.root)?.with_gravity(self.gravity));
+        self.equations.get_or_init(made).as_ref().map_err(raised)
+    }
+
+    fn link(&self, name: &str) -> PyResult<usize> {
+        self.robot.link(name).map_err(|error| raised(&error))
+    }
+}
+
+/// Three finite numbers.
+fn three(list: &Bound<'_, PyAny>) -> PyResult<Vector3<f64>> {
+    let numbers = Numbers::of(list)?;
+    if numbers.shape() != [3] {
+        return Err(bad_value("`gravity` takes three numbers, in m/s^2"));
+    }
+    let list = numbers.to_vec()?;
+    finite(&list, 3, "gravity")?;
+    Ok(Vector3::from_column_slice(&list))
+}

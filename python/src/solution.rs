@@ -1,0 +1,70 @@
+//! One answer, as Python sees it. Main type: [`Solution`].
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use smallvec::SmallVec;
+
+use crate::kernel::Answer;
+
+/// One answer: joint values that bring the tip to its target.
+#[pyclass(frozen, freelist = 64, module = "groebot", name = "Solution")]
+pub struct Solution {
+    pub q: SmallVec<[f64; 7]>,
+    residual: f64,
+    branch: usize,
+    free: u32,
+    chosen: bool,
+}
+
+impl From<Answer<'_>> for Solution {
+    fn from(answer: Answer<'_>) -> Self {
+        let Answer { q, residual, branch, free, chosen } = answer;
+        Solution { q: SmallVec::from_slice(q), residual, branch, free, chosen }
+    }
+}
+
+#[pymethods]
+impl Solution {
+    /// The joint values, base to tip, in radians in (-pi, pi] or the solver's unit of length; shape (joints,). A new array at each call.
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.q)
+    }
+
+    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
+    #[getter]
+    fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Which roots of which equations it comes from: a branch keeps its number from target to target.
+    #[getter]
+    fn branch(&self) -> usize {
+        self.branch
+    }
+
+    /// The joints, from 0, that may take any value at this singular target, the others changing along.
+    #[getter]
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.free_joints())
+    }
+
+    /// Whether the source of the mechanism would choose this one.
+    #[getter]
+    fn chosen(&self) -> bool {
+        self.chosen
+    }
+
+    fn __repr__(&self) -> String {
+        let free = self.free_joints();
+        let free = if free.is_empty() { String::new() } else { format!(", free={free:?}") };
+        format!("Solution(q={:?}, residual={:e}, branch={}{free})", self.q.as_slice(), self.residual, self.branch)
+    }
+}
+
+impl Solution {
+    fn free_joints(&self) -> Vec<usize> {
+        (0..self.q.len()).filter(|joint| self.free >> joint & 1 == 1).collect()
+    }
+}

@@ -1,0 +1,337 @@
+//! A derived solver, as Python sees it. Main type: [`Solver`].
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use groebot::codegen::{rust, single_file};
+use groebot::derive::explain::explain;
+use numpy::PyArrayMethods;
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+
+use crate::arrays::{self, Numbers, joint_rows};
+use crate::choose::moved;
+use crate::errors::{bad_value, raised, unsupported};
+use crate::kernel::Answer;
+use crate::many::{self, Wanted};
+use crate::solution::Solution;
+use crate::stored::Stored;
+use crate::{known, origin, path, work};
+
+/// All joint values that bring the tip of a chain to a target, in closed form.
+///
+/// Angles are in radians, lengths in metres unless `length_unit` says otherwise; targets are in the frame of the chain's base. A solver never changes, and
+/// any number of threads may use it.
+#[pyclass(frozen, module = "groebot", name = "Solver")]
+pub struct Solver(pub Arc<Stored>);
+
+#[pymethods]
+impl Solver {
+    /// A solver that comes with groebot, by its name (`Solver.names()`). It is compiled.
+    #[staticmethod]
+    fn named(name: &str) -> PyResult<Self> {
+        Stored::named(name).map(Solver::of).map_err(|error| raised(&error))
+    }
+
+    /// The names of the solvers that come with groebot.
+    #[staticmethod]
+    fn names() -> Vec<&'static str> {
+        known::ALL.iter().map(|known| known.name).collect()
+    }
+
+    /// Reads a solver: the folder of a derivation, the `5_program.json` in it, or a file with what `to_json` gives.
+    #[staticmethod]
+    fn load(path: PathBuf) -> PyResult<Self> {
+        Stored::load(&path).map(Solver::of).map_err(|error| raised(&error))
+    }
+
+    /// Reads what `to_json` gives, or a program of `groebot derive`.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        Stored::from_json(text).map(Solver::of).map_err(|error| raised(&error))
+    }
+
+    /// The solver with its description, as JSON.
+    fn to_json(&self) -> String {
+        self.0.to_json()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.get_type::<Solver>().getattr("from_json")?, (self.to_json(),)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<groebot.Solver {}: {}, {} joints>", self.name(), self.task(), self.0.program.joints.len())
+    }
+
+    /// The name of the mechanism.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.program.name
+    }
+
+    /// What is asked of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
+    #[getter]
+    fn task(&self) -> String {
+        self.0.program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone())
+    }
+
+    /// The names of the joints, base to tip: the order of joint values.
+    #[getter]
+    fn joints(&self) -> Vec<String> {
+        self.0.program.joints.iter().map(|joint| joint.name.clone()).collect()
+    }
+
+    /// The names of a target's numbers, in order.
+    #[getter]
+    fn inputs(&self) -> Vec<String> {
+        self.0.program.inputs.iter().map(|input| input.name.clone()).collect()
+    }
+
+    /// The names of the joints whose values are given with each target.
+    #[getter]
+    fn given(&self) -> Vec<String> {
+        self.0.given().into_iter().map(str::to_owned).collect()
+    }
+
+    /// `m` or `mm`.
+    #[getter]
+    fn length_unit(&self) -> &'static str {
+        self.0.chain.as_ref().map_or("m", |chain| chain.length_unit().symbol())
+    }
+
+    /// The least and the greatest value of each joint as described, infinite where there is none: shape (joints, 2).
+    #[getter]
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let limits = self.0.limits();
+        arrays::shaped(py, limits.concat(), &[limits.len(), 2])
+    }
+
+    /// The number of complex solutions of a generic target, where it was counted.
+    #[getter]
+    fn solutions(&self) -> Option<usize> {
+        self.0.program.about.as_ref().and_then(|about| about.solutions)
+    }
+
+    /// Whether it is compiled; a solver that was derived is interpreted, with the same answers to the last bit.
+    #[getter]
+    fn compiled(&self) -> bool {
+        self.0.is_printed
+    }
+
+    /// All solutions of one target, by branch; an empty list where it is out of reach.
+    ///
+    /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), what scipy and spatialmath hold, or for
+    /// other tasks the numbers of `inputs`. `given` are the values of given joints. With `limits`, of shape (joints, 2) or `True` for the described ones, only
+    /// the solutions that have a turn within.
+    #[pyo3(signature = (target, *, given=None, limits=None))]
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        given: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyList>> {
+        let found = self.found(target, given, self.bounds(limits)?.as_deref())?;
+        PyList::new(py, found.into_iter().map(|answer| Bound::new(py, answer)).collect::<PyResult<Vec<_>>>()?)
+    }
+
+    /// The solution of one target that can come nearest to the joint values `q0` by whole turns, within `limits` where given: `None` where there is none. Its
+    /// angles are not wrapped.
+    #[pyo3(signature = (target, q0, *, given=None, limits=None))]
+    fn nearest(
+        &self,
+        target: &Bound<'_, PyAny>,
+        q0: &Bound<'_, PyAny>,
+        given: Option<&Bound<'_, PyAny>>,
+        limits: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Option<Solution>> {
+        let turns = &self.0.kernel.shape().turns;
+        let q0 = Numbers::of(q0)?;
+        if !joint_rows(&q0, turns.len(), "q0")? {
+            return Err(bad_value("`q0` has many rows; give one, or use solve_batch with near="));
+        }
+        let q0 = q0.to_vec()?;
+        arrays::finite(&q0, turns.len(), "q0")?;
+        let bounds = self.bounds(limits)?;
+        let mut best: Option<(f64, Solution)> = None;
+        for mut answer in self.found(target, given, bounds.as_deref())? {
+            let mut q = answer.q.clone();
+            if moved(turns, &answer.q, &q0, bounds.as_deref(), &mut q) {
+                let distance: f64 = q.iter().zip(&q0).map(|(a, b)| (a - b) * (a - b)).sum();
+                if best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                    answer.q = q;
+                    best = Some((distance, answer));
+                }
+            }
+        }
+        Ok(best.map(|(_, answer)| answer))
+    }
+
+    /// All solutions of many targets, as arrays: see `groebot.Batch`.
+    ///
+    /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). Of each target `limits`
+    /// keep the solutions that have a turn within, and `near`, of shape (joints,) or (N, joints), the one that can come nearest. `out`, of shape (rows, joints),
+    /// takes the joint values. Rows that are no targets are told by `status`, or with `strict` by an exception. `threads` are all processors by default.
+    #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn solve_batch<'py>(
+        &self,
+        py: Python<'py>,
+        targets: &Bound<'py, PyAny>,
+        given: Option<&Bound<'py, PyAny>>,
+        layout: &str,
+        limits: Option<&Bound<'py, PyAny>>,
+        near: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+        strict: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let limits = self.bounds(limits)?;
+        let wanted = Wanted { given, limits: limits.as_deref(), near, out, threads: work::threads(threads), strict };
+        let arrays = many::solve_batch(py, &self.0, targets, &wanted)?;
+        let make = py.import("groebot._batch")?.getattr("made")?;
+        make.call1((arrays, self.joints(), layout, dtype))
+    }
+
+    /// What joint values of shape (joints,) or (N, joints) reach: matrices (4, 4) or (N, 4, 4) for poses, else the numbers of `inputs` without those of given
+    /// joints.
+    fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        many::forward(py, &self.0, q)
+    }
+
+    /// The Jacobian of the tip at joint values of shape (joints,) or (N, joints): (6, joints) or (N, 6, joints), linear velocity in the first three rows.
+    ///
+    /// `frame="base"`: of the tip's origin, with the base's axes; `"tip"`: of the tip's origin, with the tip's axes; `"spatial"`: of the point of the tip that is
+    /// at the base's origin.
+    #[pyo3(signature = (q, frame="base"))]
+    fn jacobian<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>, frame: &str) -> PyResult<Bound<'py, PyAny>> {
+        many::jacobian(py, &self.0, q, frame)
+    }
+
+    /// The joint values along poses (N, 4, 4), with the fewest jumps between branches and of these the shortest way: see `groebot.Path`.
+    ///
+    /// `q0` is where the arm stands before. `dt` \[s\] and `speeds` (joints,) \[rad/s, m/s\] say what is a jump; without them half a radian, or a tenth of the
+    /// reach. Limits are those of the description.
+    #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
+    fn solve_path<'py>(
+        &self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+        q0: Option<&Bound<'py, PyAny>>,
+        dt: Option<f64>,
+        speeds: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        path::solve_path(py, &self.0, poses, q0, dt, speeds)
+    }
+
+    /// Proves the derivation again from its certificate, without the Groebner engine, and solves targets of all kinds against forward kinematics, exact
+    /// counts, the screw solver and a numeric oracle: see `groebot.Check`. Raises where something is wrong.
+    #[pyo3(signature = (*, progress=None, threads=None))]
+    fn check<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stored = &self.0;
+        let checked = work::watched(py, progress, work::threads(threads), |watch| {
+            let proved = stored.proved(watch)?;
+            let mut source = stored.source()?;
+            source.choose_given(watch)?;
+            origin::check(&source, &proved, watch)
+        })?;
+        let made = py.import("groebot._records")?.getattr("Check")?;
+        made.call1((checked.targets, PyTuple::new(py, checked.weak_spots)?, checked.table))
+    }
+
+    /// The derivation, told to a student: see `groebot.Explanation`, which notebooks show.
+    #[pyo3(signature = (*, progress=None, threads=None))]
+    fn explain<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<&Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stored = &self.0;
+        let (markdown, latex) = work::watched(py, progress, work::threads(threads), |watch| {
+            let document = explain(&*stored.proved(watch)?)?;
+            Ok((document.to_markdown(), document.to_latex()))
+        })?;
+        py.import("groebot._records")?.getattr("Explanation")?.call1((markdown, latex))
+    }
+
+    /// The solver as one file of C99 that needs no other, to be linked with `-lm`; `single` makes every number a float.
+    #[pyo3(signature = (*, single=false))]
+    fn c_source(&self, single: bool) -> String {
+        single_file::c(&self.0.program, &format!("{}.c", self.0.program.name), single)
+    }
+
+    /// The solver as a file of Rust: alone, or on the crate `groebot-runtime`.
+    #[pyo3(signature = (*, alone=true))]
+    fn rust_source(&self, alone: bool) -> String {
+        if alone { single_file::rust(&self.0.program) } else { rust::emit(&self.0.program) }
+    }
+}
+
+impl Solver {
+    pub fn of(stored: Stored) -> Self {
+        Solver(Arc::new(stored))
+    }
+
+    /// The answers for one target.
+    fn found(
+        &self,
+        target: &Bound<'_, PyAny>,
+        given: Option<&Bound<'_, PyAny>>,
+        limits: Option<&[[f64; 2]]>,
+    ) -> PyResult<Vec<Solution>> {
+        let numbers = self.one_target(target, given)?;
+        let (kernel, mut all) = (&self.0.kernel, Vec::with_capacity(8));
+        let solved = match limits {
+            None => kernel.solve(&numbers, &mut |answer| all.push(answer.into())),
+            Some(limits) => kernel
+                .solve_within(&numbers, limits)
+                .map(|found| all.extend(found.iter().map(|answer| Solution::from(Answer::from(answer))))),
+        };
+        solved.map(|()| all).map_err(|error| raised(&error))
+    }
+
+    /// The numbers of one target.
+    fn one_target(&self, target: &Bound<'_, PyAny>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+        let numbers = Numbers::of(target)?;
+        let values = given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
+        let borrowed = numbers.array.try_readonly()?;
+        let (targets, one) =
+            self.0.asked.targets(numbers.shape(), borrowed.as_slice()?, values.as_deref(), numbers.single)?;
+        if !one {
+            return Err(bad_value("`target` holds many targets; use solve_batch"));
+        }
+        let mut out = vec![0.0; targets.inputs];
+        match targets.row(0, &mut out) {
+            crate::sink::Status::Solved => Ok(out),
+            status => Err(bad_value(format!("the target {}", crate::batch::reason(status as u8)))),
+        }
+    }
+
+    /// The limits that are asked for: those of an array, or with `True` those of the description.
+    fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
+        let Some(limits) = limits else { return Ok(None) };
+        match limits.extract::<bool>() {
+            Ok(true) => Ok(Some(self.0.limits())),
+            Ok(false) => Ok(None),
+            Err(_) => arrays::limits(&Numbers::of(limits)?, self.0.program.joints.len()).map(Some),
+        }
+    }
+}
+
+/// The chain of a solver.
+///
+/// # Errors
+/// `GroebotError` of the kind `unsupported` for a solver without one.
+pub fn chain(stored: &Stored) -> PyResult<&groebot::kinematics::Chain> {
+    stored.chain.as_ref().ok_or_else(|| {
+        unsupported("this solver was read without the chain that it is of; load the whole folder of its derivation")
+    })
+}

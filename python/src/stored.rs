@@ -1,0 +1,188 @@
+//! A solver with all that it knows of itself, and how it is stored. Main type: [`Stored`].
+
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use groebot::derive::{Proved, Source};
+use groebot::document::read_text;
+use groebot::kinematics::Chain;
+use groebot::solver::{Condition, Program};
+use groebot::{Error, ErrorKind, Result, Watch};
+use serde_json::{Value, json};
+
+use crate::arrays::Asked;
+use crate::kernel::{Interpreted, Kernel};
+use crate::known;
+use crate::origin::{CERTIFICATE, Origin};
+
+/// The longest stored solver and the longest stored proof that are read \[bytes\].
+const LIMIT: u64 = 256_000_000;
+/// The name of a program in a derivation's folder.
+const PROGRAM: &str = "5_program.json";
+/// The number of the format of a stored solver.
+const FORMAT: u32 = 1;
+
+/// A derived solver.
+pub struct Stored {
+    pub program: Program,
+    pub kernel: Arc<dyn Kernel>,
+    /// Whether it was printed and compiled.
+    pub is_printed: bool,
+    /// The chain as described, where it is derived from one.
+    pub chain: Option<Chain>,
+    pub origin: Option<Origin>,
+    /// The text of the stored proof.
+    certificate: Option<String>,
+    proved: OnceLock<Arc<Proved>>,
+    pub asked: Asked,
+}
+
+impl Stored {
+    fn new(program: Program, chain: Option<Chain>, origin: Option<Origin>, certificate: Option<String>) -> Self {
+        let printed = known::by_name(&program.name)
+            .filter(|known| Program::from_json(known.program).is_ok_and(|printed| printed == program));
+        let kernel = match printed {
+            Some(known) => known.kernel(),
+            None => Arc::new(Interpreted::new(&program)) as Arc<dyn Kernel>,
+        };
+        let asked = asked(&program);
+        let is_printed = printed.is_some();
+        Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), asked }
+    }
+
+    /// A solver of the wheel.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] with the names that there are.
+    pub fn named(name: &str) -> Result<Self> {
+        let unknown = || {
+            let names = known::ALL.iter().map(|known| known.name).collect::<Vec<_>>().join(", ");
+            Error::new(ErrorKind::UnknownName, format!("no solver is called `{name}`; there are {names}"))
+        };
+        let known = known::by_name(name).ok_or_else(unknown)?;
+        let origin = Origin::of("0_chain.toml", known.chain);
+        let chain = Chain::from_toml(known.chain).or_else(|_| Chain::from_dh_toml(known.chain))?;
+        Ok(Stored::new(Program::from_json(known.program)?, Some(chain), Some(origin), None))
+    }
+
+    /// What was derived.
+    pub fn derived(source: &Source, proved: Proved) -> Result<Self> {
+        let origin = Origin::of_source(source)?;
+        let stored = Stored::new(proved.program().clone(), source.chain.clone(), Some(origin), None);
+        let _ = stored.proved.set(Arc::new(proved));
+        Ok(stored)
+    }
+
+    /// That of a derivation's folder, of the program in it, or of a file that [`Stored::to_json`] wrote.
+    ///
+    /// # Errors
+    /// As [`read_text`] and [`Program::from_json`], with the file; [`ErrorKind::Unsupported`] for another version's.
+    pub fn load(path: &Path) -> Result<Self> {
+        let is_folder = path.is_dir();
+        let file = if is_folder { path.join(PROGRAM) } else { path.to_owned() };
+        if is_folder && !file.exists() {
+            let text = format!("this folder has no `{PROGRAM}`; `groebot derive` writes it");
+            return Err(Error::new(ErrorKind::Io, text).in_file(path));
+        }
+        let stored = Stored::from_json(&read_text(&file, LIMIT)?).map_err(|error| error.in_file(&file))?;
+        let folder = file.parent().filter(|_| file.file_name().is_some_and(|name| name == PROGRAM));
+        let Some(folder) = folder else { return Ok(stored) };
+        // A program without its description solves as well.
+        let Ok(source) = Source::read(folder) else { return Ok(stored) };
+        let certificate = read_text(&folder.join(CERTIFICATE), LIMIT).ok();
+        let origin = Origin::of_source(&source).ok();
+        Ok(Stored::new(stored.program, source.chain, origin, certificate))
+    }
+
+    /// A program's JSON, or that of [`Stored::to_json`].
+    ///
+    /// # Errors
+    /// As [`Stored::load`].
+    pub fn from_json(text: &str) -> Result<Self> {
+        let syntax =
+            |error: serde_json::Error| Error::new(ErrorKind::Syntax, error.to_string()).at_line(error.line().max(1));
+        let mut value: Value = serde_json::from_str(text).map_err(syntax)?;
+        let Some(format) = value.get("groebot") else {
+            return Ok(Stored::new(Program::from_json(text)?, None, None, None));
+        };
+        if *format != json!(FORMAT) {
+            let text = format!("the solver is stored in format {format}; this groebot reads {FORMAT}: derive it again");
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let program = Program::from_json(&value["program"].to_string())?;
+        let files = value["files"].take();
+        let origin =
+            if files.is_null() { None } else { Some(Origin { files: serde_json::from_value(files).map_err(syntax)? }) };
+        let chain = origin.as_ref().map(Origin::source).transpose()?.and_then(|source| source.chain);
+        Ok(Stored::new(program, chain, origin, None))
+    }
+
+    /// The solver and what it was derived from, as JSON.
+    pub fn to_json(&self) -> String {
+        let program: Value = serde_json::from_str(&self.program.to_json()).unwrap_or(Value::Null);
+        json!({ "groebot": FORMAT, "program": program, "files": self.origin.as_ref().map(|origin| &origin.files) })
+            .to_string()
+    }
+
+    /// What it was derived from.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a program that was read alone.
+    pub fn source(&self) -> Result<Source> {
+        let none = || {
+            let text = "this solver was read without its description; load the whole folder of its derivation";
+            Error::new(ErrorKind::Unsupported, text)
+        };
+        self.origin.as_ref().ok_or_else(none)?.source()
+    }
+
+    /// The derivation with its proof: kept, proved again from the stored certificate, or derived again.
+    ///
+    /// # Errors
+    /// As [`Stored::source`] and [`Proved::of`]; [`ErrorKind::Certificate`] where the derivation gives another solver.
+    pub fn proved(&self, watch: &Watch) -> Result<Arc<Proved>> {
+        if let Some(proved) = self.proved.get() {
+            return Ok(Arc::clone(proved));
+        }
+        let mut source = self.source()?;
+        source.choose_given(watch)?;
+        let proved = match &self.certificate {
+            Some(certificate) => Proved::again(&source, certificate)?,
+            None => Proved::of(&source, watch)?,
+        };
+        let proved = Arc::new(proved.about(&source));
+        if *proved.program() != self.program {
+            let text = "the description does not lead to this solver; derive it again";
+            return Err(Error::new(ErrorKind::Certificate, text));
+        }
+        Ok(Arc::clone(self.proved.get_or_init(|| proved)))
+    }
+
+    /// The names of the joints whose values are given.
+    pub fn given(&self) -> Vec<&str> {
+        let is_joint = |name: &str| self.program.joints.iter().any(|joint| joint.name == name);
+        self.program.inputs.iter().map(|input| input.name.as_str()).filter(|name| is_joint(name)).collect()
+    }
+
+    /// By joint, its least and its greatest value; infinite where the description has none.
+    pub fn limits(&self) -> Vec<[f64; 2]> {
+        let told = self.program.about.as_ref().map_or(&[][..], |about| &about.limits);
+        let of = |joint: usize| {
+            told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
+        };
+        (0..self.program.joints.len()).map(of).collect()
+    }
+}
+
+/// The shape of a program's targets.
+fn asked(program: &Program) -> Asked {
+    let is_joint = |name: &str| program.joints.iter().any(|joint| joint.name == name);
+    let given = program.inputs.iter().rev().take_while(|input| is_joint(&input.name)).count();
+    let own = program.inputs.len() - given;
+    let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
+        Condition::Rotation(first) => Some(*first),
+        Condition::Unit(_) => None,
+    });
+    let rotation = rotations.next().filter(|_| rotations.next().is_none());
+    Asked { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
+}

@@ -1,0 +1,135 @@
+//! Targets in the forms in which numpy holds them. Main type: [`Targets`].
+
+use crate::sink::Status;
+
+/// How far from one a quaternion's length, and from its place the last row of a matrix, may be.
+const UNIT: f64 = 1e-6;
+const LAST_ROW: f64 = 1e-9;
+/// How far a rotation of single precision may be off.
+const SINGLE: f64 = 1e-5;
+
+/// How a target is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A matrix of four rows.
+    Matrix,
+    /// The solver's own numbers: a position, a rotation by rows, ...
+    Numbers,
+    /// The same with a quaternion x, y, z, w for the rotation.
+    Quaternion,
+}
+
+/// Many targets, row by row.
+#[derive(Clone, Copy)]
+pub struct Targets<'a> {
+    pub data: &'a [f64],
+    pub form: Form,
+    /// How many numbers of a target a row holds, and how many a target has.
+    pub width: usize,
+    pub inputs: usize,
+    /// The first number of the rotation, where the target has one.
+    pub rotation: Option<usize>,
+    /// The values of given joints, behind the numbers of a row: those of one row for all, or row by row.
+    pub given: &'a [f64],
+    /// Whether rotations come from single precision, and are made exact.
+    pub single: bool,
+}
+
+impl Targets<'_> {
+    pub fn len(&self) -> usize {
+        self.data.len() / self.width
+    }
+
+    /// Writes the numbers of a target, and tells what is wrong with its form. Of one that is wrong the first number is none, so that no solver solves it.
+    pub fn row(&self, index: usize, out: &mut [f64]) -> Status {
+        let row = &self.data[index * self.width..][..self.width];
+        let status = match self.form {
+            Form::Matrix => by_matrix(row, out),
+            Form::Numbers => {
+                out[..row.len()].copy_from_slice(row);
+                Status::Solved
+            }
+            Form::Quaternion => self.by_quaternion(row, out),
+        };
+        let given = self.inputs - self.numbers();
+        let start = if self.given.len() == given { 0 } else { index * given };
+        out[self.numbers()..].copy_from_slice(&self.given[start..start + given]);
+        let status = match self.rotation {
+            Some(first) if self.single && status == Status::Solved => rounded(&mut out[first..first + 9]),
+            _ => status,
+        };
+        if status != Status::Solved {
+            out[0] = f64::NAN;
+        }
+        status
+    }
+
+    /// How many numbers of a target follow from a row.
+    fn numbers(&self) -> usize {
+        match self.form {
+            Form::Matrix => 12,
+            Form::Numbers => self.width,
+            Form::Quaternion => self.width + 5,
+        }
+    }
+
+    fn by_quaternion(&self, row: &[f64], out: &mut [f64]) -> Status {
+        let first = self.rotation.unwrap_or(0);
+        out[..first].copy_from_slice(&row[..first]);
+        out[first + 9..self.numbers()].copy_from_slice(&row[first + 4..]);
+        if row.iter().any(|number| !number.is_finite()) {
+            return Status::NotFinite;
+        }
+        let given = [row[first], row[first + 1], row[first + 2], row[first + 3]];
+        let length = given.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > UNIT {
+            return Status::NotRotation;
+        }
+        let [x, y, z, w] = given.map(|value| value / length);
+        out[first..first + 9].copy_from_slice(&[
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - z * w),
+            2.0 * (x * z + y * w),
+            2.0 * (x * y + z * w),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - x * w),
+            2.0 * (x * z - y * w),
+            2.0 * (y * z + x * w),
+            1.0 - 2.0 * (x * x + y * y),
+        ]);
+        Status::Solved
+    }
+}
+
+fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
+    for i in 0..3 {
+        out[i] = row[4 * i + 3];
+        out[3 + 3 * i..6 + 3 * i].copy_from_slice(&row[4 * i..4 * i + 3]);
+    }
+    let off = |(value, wanted): (&f64, f64)| (value - wanted).abs() <= LAST_ROW;
+    if row[12..].iter().zip([0.0, 0.0, 0.0, 1.0]).all(off) {
+        Status::Solved
+    } else if row.iter().all(|number| number.is_finite()) {
+        Status::NotRotation
+    } else {
+        Status::NotFinite
+    }
+}
+
+/// The rotation that nine numbers of single precision are, by Newton's steps R (3 - R^T R) / 2 to the orthogonal matrix that is nearest (N. J. Higham,
+/// SIAM Journal on Scientific and Statistical Computing 7, 1986).
+fn rounded(entries: &mut [f64]) -> Status {
+    if entries.iter().any(|entry| !entry.is_finite()) {
+        return Status::NotFinite;
+    }
+    let mut turn = nalgebra::Matrix3::from_row_slice(entries);
+    let gram = turn.transpose() * turn;
+    if (gram - nalgebra::Matrix3::identity()).amax() > SINGLE || turn.determinant() < 0.0 {
+        return Status::NotRotation;
+    }
+    for _ in 0..3 {
+        turn = turn * (nalgebra::Matrix3::identity() * 3.0 - turn.transpose() * turn) * 0.5;
+    }
+    entries.copy_from_slice(turn.transpose().as_slice());
+    Status::Solved
+}

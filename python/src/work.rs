@@ -1,0 +1,96 @@
+//! Long work on a thread of its own, while Python is told of its progress and can interrupt it. Main function: [`watched`].
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Duration;
+
+use groebot::{Error, ErrorKind, Result, Watch};
+use pyo3::prelude::*;
+
+use crate::errors::raised;
+
+/// How often progress is told and signals are looked at.
+const PERIOD: Duration = Duration::from_millis(50);
+/// Room for deep recursions \[bytes\].
+const STACK: usize = 64 << 20;
+
+/// The most threads of a call.
+const MOST_THREADS: usize = 256;
+
+/// A stage, what is done of it, and what is known to be left.
+type Step = (String, usize, usize);
+
+/// Does `work` on so many threads, none of which outlives it, without holding Python's lock. `progress(stage, done, open)` is called now and then; what it raises,
+/// and what signals raise, ends the work.
+///
+/// # Errors
+/// Those of the work, of `progress`, and of signals.
+pub fn watched<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    threads: usize,
+    work: impl FnOnce(&Watch) -> Result<T> + Send,
+) -> PyResult<T> {
+    let cancel = Arc::new(AtomicBool::new(false));
+    let step: Arc<Mutex<Option<Step>>> = Arc::default();
+    let heard = Arc::clone(&step);
+    let watch = Watch::none().with_cancel(Arc::clone(&cancel)).with_listener(move |progress| {
+        let told = (progress.stage.to_owned(), progress.done, progress.open);
+        *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+    });
+    let (finished, done) = (Mutex::new(false), Condvar::new());
+    let mut interruption = None;
+    let result = std::thread::scope(|scope| {
+        let worker = scope.spawn(|| {
+            let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| pooled(threads, || work(&watch))));
+            *finished.lock().unwrap_or_else(PoisonError::into_inner) = true;
+            done.notify_all();
+            result
+        });
+        while !py.detach(|| wait(&finished, &done)) {
+            if interruption.is_none() {
+                let latest = step.lock().unwrap_or_else(PoisonError::into_inner).take();
+                interruption = look(py, progress, latest).err();
+                cancel.store(interruption.is_some(), Ordering::Relaxed);
+            }
+        }
+        worker.join()
+    });
+    if let Some(interruption) = interruption {
+        return Err(interruption);
+    }
+    match result {
+        Ok(Ok(result)) => result.map_err(|error| raised(&error)),
+        _ => Err(raised(&Error::new(
+            ErrorKind::Unsupported,
+            "groebot met a case that it does not expect; please report it",
+        ))),
+    }
+}
+
+/// Whether the work has ended, after a period at most.
+fn wait(finished: &Mutex<bool>, done: &Condvar) -> bool {
+    let ended = finished.lock().unwrap_or_else(PoisonError::into_inner);
+    if *ended { true } else { *done.wait_timeout(ended, PERIOD).unwrap_or_else(PoisonError::into_inner).0 }
+}
+
+fn look(py: Python<'_>, progress: Option<&Bound<'_, PyAny>>, step: Option<Step>) -> PyResult<()> {
+    py.check_signals()?;
+    match (progress, step) {
+        (Some(progress), Some(step)) => progress.call1(step).map(|_| ()),
+        _ => Ok(()),
+    }
+}
+
+/// Work that asks rayon, in a pool of its own.
+fn pooled<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
+    let failed = |error| Error::new(ErrorKind::Io, format!("no threads could be started: {error}"));
+    pool.map_err(failed)?.install(work)
+}
+
+/// The number of threads that is asked for, as far as it makes sense; by default that of processors.
+pub fn threads(asked: Option<usize>) -> usize {
+    let usual = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.filter(|asked| *asked > 0).map_or_else(usual, |asked| asked.min(MOST_THREADS))
+}

@@ -1,0 +1,141 @@
+"""Dynamics and navigation: against numbers of numpy alone, and Pinocchio where it is installed."""
+
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from witness import REPOSITORY, _origin, urdf_forward
+
+import groebot
+from groebot import Robot
+
+UR5 = REPOSITORY / "tests/corpus/dynamics/ur5.urdf"
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return Robot.from_urdf(UR5)
+
+
+def bodies():
+    """By link with a mass: its name, the mass, where its centre is, and the inertia about it along the link's axes."""
+    for link in ElementTree.parse(UR5).getroot().findall("link"):
+        inertial = link.find("inertial")
+        if inertial is None:
+            continue
+        frame, told = _origin(inertial.find("origin")), inertial.find("inertia")
+        xx, xy, xz, yy, yz, zz = (float(told.get(key)) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+        inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        turn = frame[:3, :3]
+        yield link.get("name"), float(inertial.find("mass").get("value")), frame[:3, 3], turn @ inertia @ turn.T
+
+
+def motion(q, name, centre, step=1e-5):
+    """How the centre of a link moves with each joint, and how it turns, in the frame of the root."""
+    place = lambda q: urdf_forward(UR5, q, name)
+    own, columns = place(q), []
+    for joint in np.eye(6) * step:
+        rate = (place(q + joint) - place(q - joint)) / (2 * step)
+        turning = rate[:3, :3] @ own[:3, :3].T
+        columns.append([*(rate[:3, :3] @ centre + rate[:3, 3]), turning[2, 1], turning[0, 2], turning[1, 0]])
+    return own, np.array(columns).T
+
+
+def mass_matrix(q):
+    matrix = np.zeros((6, 6))
+    for name, mass, centre, inertia in bodies():
+        own, rates = motion(q, name, centre)
+        turned = own[:3, :3] @ inertia @ own[:3, :3].T
+        matrix += mass * rates[:3].T @ rates[:3] + rates[3:].T @ turned @ rates[3:]
+    return matrix
+
+
+def gravity(q):
+    return sum(9.81 * mass * motion(q, name, centre)[1][2] for name, mass, centre, _ in bodies())
+
+
+def test_the_mass_matrix_and_gravity_are_those_of_the_bodies(robot, random):
+    for q in random.uniform(-3, 3, (5, 6)):
+        assert np.allclose(robot.mass_matrix(q), mass_matrix(q), atol=1e-6)
+        assert np.allclose(robot.gravity_torques(q), gravity(q), atol=1e-6)
+
+
+def test_inverse_and_forward_dynamics_are_one_another(robot, random):
+    q, v, a = random.uniform(-2, 2, (3, 30, 6))
+    torques = robot.inverse_dynamics(q, v, a)
+    assert torques.shape == (30, 6)
+    assert np.allclose(robot.forward_dynamics(q, v, torques), a, atol=1e-8)
+    whole = np.einsum("nij,nj->ni", robot.mass_matrix(q), a) + robot.gravity_torques(q)
+    still = robot.inverse_dynamics(q, np.zeros(6), a)
+    assert np.allclose(still, whole, atol=1e-9)
+    coriolis = np.einsum("nij,nj->ni", robot.coriolis_matrix(q, v), v)
+    assert np.allclose(torques, whole + coriolis, atol=1e-9)
+
+
+def test_links_stand_where_the_tree_says(robot, random):
+    q = random.uniform(-3, 3, 6)
+    for link in robot.links:
+        assert np.allclose(robot.link_pose(q, link), urdf_forward(UR5, q, link), atol=1e-12)
+        _, rates = motion(q, link, np.zeros(3))
+        assert np.allclose(robot.link_jacobian(q, link), rates, atol=1e-8)
+    centre = sum(mass * (urdf_forward(UR5, q, name) @ [*centre, 1])[:3] for name, mass, centre, _ in bodies())
+    assert np.allclose(robot.center_of_mass(q), centre / robot.mass, atol=1e-12)
+
+
+def test_pinocchio_agrees(robot, random):
+    pinocchio = pytest.importorskip("pinocchio")
+    model = pinocchio.buildModelFromUrdf(str(UR5))
+    data = model.createData()
+    for q, v, a in random.uniform(-2, 2, (20, 3, 6)):
+        assert np.allclose(robot.inverse_dynamics(q, v, a), pinocchio.rnea(model, data, q, v, a), atol=1e-9)
+
+
+def test_a_floating_base_and_another_gravity(random):
+    robot = Robot.from_urdf(UR5, floating=True, gravity=[0, 0, -1.62])
+    q = np.concatenate([[0.1, 0.2, 0.3, 0, 0, 0, 1], random.uniform(-1, 1, 6)])
+    held = robot.gravity_torques(q)
+    assert held.shape == (12,) and np.allclose(held[:3], [0, 0, 1.62 * robot.mass])
+    with pytest.raises(groebot.BadValueError, match="quaternion"):
+        robot.gravity_torques(np.zeros(13))
+
+
+def test_states_are_looked_at(robot):
+    with pytest.raises(groebot.BadValueError, match="`v`"):
+        robot.coriolis_matrix(np.zeros(6), np.zeros(5))
+    with pytest.raises(groebot.BadValueError, match="row 1"):
+        robot.mass_matrix([[0.0] * 6, [np.nan] * 6])
+    with pytest.raises(groebot.BadValueError, match="as many rows"):
+        robot.inverse_dynamics(np.zeros((2, 6)), np.zeros((3, 6)), np.zeros(6))
+    with pytest.raises(groebot.BadValueError) as raised:
+        robot.link_pose(np.zeros(6), "elbow")
+    assert raised.value.kind == "unknown_name"
+
+
+def test_robots_travel(robot):
+    import pickle
+
+    again = pickle.loads(pickle.dumps(robot))
+    assert again.to_urdf() == robot.to_urdf()
+    named = Robot.named("nao", tip="l_sole")
+    assert "l_sole" in named.links and named.mass > 4
+    assert groebot.derive(named).solutions == 8
+
+
+def test_a_humanoid_finds_its_way():
+    walk = groebot.navigate("rh0", REPOSITORY / "examples/living_room.toml", (7.2, 3.4), (1, 2.6))
+    assert walk.q.shape == (len(walk.times), len(walk.joints)) and (walk.margin > 0).all()
+    assert np.allclose(walk.way[0], [1, 2.6], atol=0.1) and np.allclose(walk.way[-1], [7.2, 3.4], atol=0.1)
+    assert np.hypot(*(walk.footsteps[-1, :2] - [7.2, 3.4])) < 0.3 and set(walk.feet) == {"left", "right"}
+    assert walk.csv.startswith("#") or "time" in walk.csv.splitlines()[0]
+
+
+def test_a_map_as_an_array_and_no_way_through_it():
+    room = np.zeros((60, 60), bool)
+    assert len(groebot.navigate("nao", room, (2.0, 1.5), (1.0, 1.5)).times) > 100
+    room[:, 30] = True
+    with pytest.raises(groebot.NoWayError) as raised:
+        groebot.navigate("nao", room, (2.5, 1.5), (0.6, 1.5))
+    assert raised.value.kind == "no_way" and raised.value.enclosure.shape[1] == 2
+    assert (raised.value.enclosure[:, 0] < 1.5).all()
+    with pytest.raises(groebot.BadValueError):
+        groebot.navigate("nao", room, (2.5,), (0.6, 1.5))
