@@ -1,0 +1,59 @@
+"""Many targets on many machines, by Dask (`pip install groebot[dask]`).
+
+All workers see the files under the same paths. Workers and the driver may be killed at any time: the second run does what is left, and the files are the same to the last byte.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from distributed import Client, as_completed
+
+from . import blocks, parquet
+from ._groebot import Solver
+
+
+def solve_parquet(
+    client: Client,
+    solver: Solver,
+    source: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    block: int = blocks.BLOCK,
+    columns: Sequence[str] | None = None,
+    keep: Sequence[str] = parquet.KEEP,
+    threads: int = 1,
+    **options: Any,
+) -> blocks.Done:
+    """Solves the targets of parquet files into the folder `out`, `block` of them in each file.
+
+    `source` is a file, a folder or a pattern; `columns` hold the numbers of a target in order, in single columns or as one of lists: the solver's inputs by default. `keep` says what is
+    written (`groebot.parquet.Solve`), `options` are those of `Solver.solve_batch`; `threads` are those of one task. `BadValueError` as `groebot.blocks.run` and `Solver.solve_batch`.
+    """
+    work = parquet.Solve.of(solver, source, columns, keep, threads, **options)
+    return run(client, work, out, block)
+
+
+def run(client: Client, work: blocks.Work, out: str | os.PathLike[str], block: int = blocks.BLOCK) -> blocks.Done:
+    """Does all blocks of a work on the workers of `client`, as `groebot.blocks.run` does here."""
+
+    def each(left: Sequence[blocks.Block]) -> Iterator[bool]:
+        # A task, not data that are scattered: Dask makes it again where a worker that held it is killed.
+        shared = client.submit(_same, work, key=f"groebot-work-{work.key}")
+        keys = [f"groebot-block-{work.key}-{one.start}-{one.stop}" for one in left]
+        futures = client.map(_write, left, work=shared, key=keys)
+        try:
+            yield from (future.result() for future in as_completed(futures))
+        finally:
+            client.cancel(futures)
+
+    return blocks.run(work, out, block, each)
+
+
+def _same(work: blocks.Work) -> blocks.Work:
+    return work
+
+
+def _write(block: blocks.Block, work: blocks.Work) -> bool:
+    return block.write(work)
