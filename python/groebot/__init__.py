@@ -9,6 +9,7 @@ from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoWayError
 from ._groebot import Robot, Solution, Solver, __version__, derive, navigate
 from ._records import Check, Explanation, Jump, Path, Walk
+from ._view import View, view
 
 __all__ = [
     "BadValueError",
@@ -24,8 +25,13 @@ __all__ = [
     "Solution",
     "Solver",
     "Status",
+    "View",
     "Walk",
     "__version__",
     "derive",
     "navigate",
 ]
+
+# All else of `Solver` is compiled.
+setattr(Solver, "view", view)
+del view

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from ._batch import Batch, PaddedBatch
 from ._records import Check, Explanation, Path, Walk
+from ._view import View
 
 __all__ = ["Robot", "Solution", "Solver", "__version__", "_run", "derive", "navigate"]
 __version__: str
@@ -123,6 +124,7 @@ class Solver:
     def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
     def c_source(self, *, single: bool = False) -> str: ...
     def rust_source(self, *, alone: bool = True) -> str: ...
+    def view(self, path: _File | None = None, *, open: bool | None = None, height: int = 600) -> View: ...
 
 @final
 class Robot:

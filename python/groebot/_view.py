@@ -1,0 +1,72 @@
+"""The page of a solver: all solutions, live, while the target is dragged."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import webbrowser
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+from ._errors import BadValueError, GroebotError
+from ._groebot import Solver
+
+
+@dataclass(frozen=True)
+class View:
+    """A page that shows a solver. Notebooks show it in their frame; it needs no server and asks nobody for anything."""
+
+    path: Path
+    """The page, one HTML file."""
+    height: int = 600
+    """How high it is in a notebook [pixels]."""
+
+    def _repr_html_(self) -> str:
+        # The page itself, not its address: a notebook of another machine reads it as well.
+        page = html.escape(self.path.read_text(encoding="utf-8"))
+        style = "width: 100%; border: none"
+        return f'<iframe srcdoc="{page}" height="{self.height}" sandbox="allow-scripts allow-downloads" style="{style}"></iframe>'
+
+
+def view(self: Solver, path: str | PathLike[str] | None = None, *, open: bool | None = None, height: int = 600) -> View:
+    """The page of `groebot view` for this solver: all solutions while the target is dragged.
+
+    `path` takes the page; without it that is a file among the temporary ones. It opens in the browser, unless a notebook shows what is returned; `open` decides otherwise. `height` is that
+    in a notebook [pixels]. `GroebotError` where a solver has no chain, or a task other than a pose.
+    """
+    page = Path(path) if path is not None else Path(tempfile.mkdtemp(prefix="groebot-view-"), f"{_file_name(self.name)}.html")
+    with tempfile.TemporaryDirectory(prefix="groebot-view-") as folder:
+        _write(self, Path(folder))
+        command = [sys.executable, "-m", "groebot", "view", folder, "--out", str(page.absolute())]
+        told = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    if told.returncode:
+        raise GroebotError(told.stderr.strip().removeprefix("error: ") or f"`groebot view` ended with {told.returncode}")
+    if open or (open is None and not _in_notebook()):
+        webbrowser.open(page.absolute().as_uri())
+    return View(page, height)
+
+
+def _write(solver: Solver, folder: Path) -> None:
+    """The folder that `groebot derive` would write, as far as the page needs it."""
+    stored = json.loads(solver.to_json())
+    files = stored.get("files")
+    if not files:
+        raise BadValueError("this solver was read without the description of its chain; load the folder of its derivation", "missing_key")
+    for name, text in files.items():
+        (folder / Path(name).name).write_text(text, encoding="utf-8")
+    (folder / "5_program.json").write_text(json.dumps(stored["program"]), encoding="utf-8")
+
+
+def _file_name(name: str) -> str:
+    return re.sub(r"[^\w-]+", "_", name) or "solver"
+
+
+def _in_notebook() -> bool:
+    shell = sys.modules.get("IPython")
+    running = shell.get_ipython() if shell is not None else None
+    return running is not None and hasattr(running, "kernel")
