@@ -34,10 +34,10 @@ bare/bin/python -c 'import groebot; ur5 = groebot.Solver.named("ur5"); assert le
 bare/bin/groebot --version
 
 environment oldest "$wheel" "numpy==1.26.*" pytest hypothesis "scipy<1.15"
-oldest/bin/pytest --quiet "$here/tests"
+oldest/bin/pytest --quiet -rs "$here/tests"
 
-environment newest "$wheel" "numpy>=2" pytest hypothesis scipy mypy pyright
-newest/bin/pytest --quiet "$here/tests"
+environment newest "${wheel}[dask,notebooks]" "numpy>=2" pytest hypothesis scipy mypy pyright
+GROEBOT_REQUIRE_TOOLS=1 newest/bin/pytest --quiet "$here/tests"
 newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
 newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"
 newest/bin/python -m mypy.stubtest groebot._groebot
@@ -45,4 +45,4 @@ newest/bin/python "$here/examples/first.py"
 # pyright looks at the python that is found first, and brings Node with it where there is none.
 export PATH=$work/newest/bin:$PATH
 pyright --verifytypes groebot --ignoreexternal
-pyright "$here/examples"
+pyright "$here/examples/first.py"

@@ -18,6 +18,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -47,8 +48,8 @@ class Work(ABC):
         """All that the result depends on, as what JSON can hold. `Work.key` is its hash."""
 
     @abstractmethod
-    def table(self, start: int, stop: int) -> arrow.Table:
-        """What becomes of the rows from `start` to before `stop`: the same whenever it is asked."""
+    def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
+        """What becomes of the rows from `start` to before `stop`, in pieces: the same whenever it is asked. Each becomes a row group of the file."""
 
     @cached_property
     def key(self) -> str:
@@ -83,12 +84,9 @@ class Block:
         """Does the block where it is not done: whether it was to be done."""
         if self.is_done(work):
             return False
-        table = work.table(self.start, self.stop)
-        table = table.replace_schema_metadata(self.marks(work))
         aside = self.path.with_name(f".{self.path.stem}-{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex}{_ASIDE}")
         try:
-            # LZ4 saves two bytes of five, and on a disk as much time as it takes; dictionaries of joint values would grow as long as the columns.
-            parquet.write_table(table, aside, compression="lz4", use_dictionary=False, row_group_size=1 << 17)
+            self._write(work, aside)
             with open(aside, "rb+") as file:
                 os.fsync(file.fileno())
             os.replace(aside, self.path)
@@ -96,6 +94,15 @@ class Block:
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(aside)
         return True
+
+    def _write(self, work: Work, path: Path) -> None:
+        tables = work.tables(self.start, self.stop)
+        first = next(tables)
+        schema = first.schema.with_metadata(self.marks(work))
+        # LZ4 saves two bytes of five, and on a disk as much time as it takes; dictionaries of joint values would grow as long as the columns.
+        with parquet.ParquetWriter(path, schema, compression="lz4", use_dictionary=False) as writer:
+            for table in chain([first], tables):
+                writer.write_table(table.replace_schema_metadata(schema.metadata), row_group_size=max(len(table), 1))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,8 @@ from ._groebot import Solver
 
 KEEP = ("status", "q", "residual", "branch", "free")
 """What is written of each target."""
+PIECE = 1 << 15
+"""Rows that are solved and written at once."""
 _JOINT = "q_"
 
 
@@ -150,7 +152,7 @@ class Solve(blocks.Work):
         work = Solve(solver.to_json(), Targets.of(source, names), tuple(keep), plain, threads)
         if work.rows:
             # Wrong shapes are told here, not by a machine far away.
-            work.solved(0, 1)
+            next(work.solved(0, 1))
         return work
 
     @property
@@ -168,21 +170,21 @@ class Solve(blocks.Work):
             "options": self.options,
         }
 
-    def solved(self, start: int, stop: int) -> Batch:
-        """The solutions of the rows from `start` to before `stop`."""
+    def solved(self, start: int, stop: int) -> Iterator[Batch]:
+        """The solutions of the rows from `start` to before `stop`, in pieces that stay in the processor's reach."""
         solver = _solver(self.solver)
         numbers = self.targets.read(start, stop)
         if numbers.shape[1] == 16:
             numbers = numbers.reshape(-1, 4, 4)
-        batch: Batch = solver.solve_batch(numbers, threads=self.threads, **self.options)
-        return batch
+        for first in range(0, len(numbers), PIECE):
+            yield solver.solve_batch(numbers[first : first + PIECE], threads=self.threads, **self.options)
 
-    def table(self, start: int, stop: int) -> arrow.Table:
-        batch = self.solved(start, stop)
-        columns = {}
-        for name in self.keep:
-            columns.update(_columns(name, batch))
-        return arrow.table(columns)
+    def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
+        for batch in self.solved(start, stop):
+            columns = {}
+            for name in self.keep:
+                columns.update(_columns(name, batch))
+            yield arrow.table(columns)
 
 
 @lru_cache(maxsize=4)

@@ -56,7 +56,8 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_what_is_written_is_what_solve_batch_finds(tmp_path, ur5, poses, source):
+def test_what_is_written_is_what_solve_batch_finds(tmp_path, ur5, poses, source, monkeypatch):
+    monkeypatch.setattr("groebot.parquet.PIECE", 300)
     done = blocks.run(Solve.of(ur5, source), tmp_path / "out", block=1_000)
     assert (done.written, done.found) == (3, 0) and [path.name for path in done.files] == sorted(os.listdir(tmp_path / "out"))
     wanted, seen = ur5.solve_batch(poses), 0

@@ -145,5 +145,5 @@ class Squares(blocks.Work):
     def told(self):
         return {"work": "squares"}
 
-    def table(self, start, stop):
-        return arrow.table({"square": np.arange(start, stop) ** 2})
+    def tables(self, start, stop):
+        yield arrow.table({"square": np.arange(start, stop) ** 2})
