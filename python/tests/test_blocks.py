@@ -154,6 +154,40 @@ def test_a_block_that_cannot_be_written_leaves_nothing(tmp_path, ur5, source):
     assert os.listdir(block.folder) == []
 
 
+class Watched(blocks.Work):
+    """Tells what the folder holds while it is written, and may break off."""
+
+    def __init__(self, folder, breaks=False):
+        self.folder, self.breaks, self.seen = folder, breaks, []
+
+    rows = 10
+
+    def told(self):
+        return {}
+
+    def tables(self, start, stop):
+        for row in range(start, stop):
+            self.seen += os.listdir(self.folder)
+            if self.breaks and row == 7:
+                raise ArithmeticError("row 7")
+            yield arrow.table({"row": [row]})
+
+
+def test_a_block_has_its_name_when_it_is_whole(tmp_path):
+    work, block = Watched(tmp_path), blocks.Block(str(tmp_path), 0, 10)
+    assert block.write(work) and not block.write(work)
+    assert work.seen and all(name.startswith(".block") and name.endswith(".aside") for name in work.seen)
+    assert os.listdir(tmp_path) == [block.path.name]
+    assert parquet.read_table(block.path)["row"].to_pylist() == list(range(10))
+
+
+def test_a_block_that_breaks_off_leaves_nothing(tmp_path):
+    work, block = Watched(tmp_path, breaks=True), blocks.Block(str(tmp_path), 0, 10)
+    with pytest.raises(ArithmeticError):
+        block.write(work)
+    assert work.seen and os.listdir(tmp_path) == []
+
+
 def test_blocks_of_other_work_are_kept(tmp_path, ur5, source, poses):
     out = tmp_path / "out"
     blocks.run(Solve.of(ur5, source), out, block=1_000)
