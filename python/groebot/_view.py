@@ -37,7 +37,7 @@ def view(self: Solver, path: str | PathLike[str] | None = None, *, open: bool | 
     """The page of `groebot view` for this solver: all solutions while the target is dragged.
 
     `path` takes the page; without it that is a file among the temporary ones. It opens in the browser, unless a notebook shows what is returned; `open` decides otherwise. `height` is that
-    in a notebook [pixels]. `GroebotError` where a solver has no chain, or a task other than a pose.
+    in a notebook [pixels]. Of a task other than a pose the page shows the chain alone. `BadValueError` where a solver does not know its chain.
     """
     page = Path(path) if path is not None else Path(tempfile.mkdtemp(prefix="groebot-view-"), f"{_file_name(self.name)}.html")
     with tempfile.TemporaryDirectory(prefix="groebot-view-") as folder:

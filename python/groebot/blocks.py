@@ -99,8 +99,8 @@ class Block:
         tables = work.tables(self.start, self.stop)
         first = next(tables)
         schema = first.schema.with_metadata(self.marks(work))
-        # LZ4 saves two bytes of five, and on a disk as much time as it takes; dictionaries of joint values would grow as long as the columns.
-        with parquet.ParquetWriter(path, schema, compression="lz4", use_dictionary=False) as writer:
+        # Snappy saves two bytes of five, and on a disk the time that it takes; dictionaries of joint values would grow as long as the columns.
+        with parquet.ParquetWriter(path, schema, compression="snappy", use_dictionary=False) as writer:
             for table in chain([first], tables):
                 writer.write_table(table.replace_schema_metadata(schema.metadata), row_group_size=max(len(table), 1))
 
