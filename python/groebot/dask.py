@@ -29,7 +29,7 @@ def solve_parquet(
     """Solves the targets of parquet files into the folder `out`, `block` of them in each file.
 
     `source` is a file, a folder or a pattern; `columns` hold the numbers of a target in order, in single columns or as one of lists: the solver's inputs by default. `keep` says what is
-    written (`groebot.parquet.Solve`), `options` are those of `Solver.solve_batch`; `threads` are those of one task. `BadValueError` as `groebot.blocks.run` and `Solver.solve_batch`.
+    written (`groebot.parquet.Solve`), `options` are those of `groebot.parquet.Solve.of`; `threads` are those of one task. `BadValueError` as `groebot.blocks.run` and `Solver.solve_batch`.
     """
     work = parquet.Solve.of(solver, source, columns, keep, threads, **options)
     return run(client, work, out, block)

@@ -139,11 +139,12 @@ class Solve(blocks.Work):
     ) -> Solve:
         """The work on targets in parquet files, looked at before any of it is sent away.
 
-        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=`, `dtype=` and `strict=` of `solve_batch`.
+        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=` and `dtype=` of `solve_batch`; rows that are no targets have
+        their status.
         """
-        unknown = set(options) - {"limits", "near", "given", "dtype", "strict"}
+        unknown = set(options) - {"limits", "near", "given", "dtype"}
         if unknown:
-            raise BadValueError(f"the option {min(unknown)} is not known; give limits, near, given, dtype or strict", "bad_value")
+            raise BadValueError(f"the option {min(unknown)} is not known; give limits, near, given or dtype", "bad_value")
         if not keep or (wrong := set(keep) - {*KEEP, "count"}):
             raise BadValueError(f"of a target there are {', '.join(KEEP)} and count; not {sorted(wrong) if keep else 'nothing'}", "bad_value")
         plain = {name: _plain(name, value) for name, value in options.items() if value is not None}

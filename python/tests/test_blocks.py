@@ -221,6 +221,7 @@ def test_a_missing_block_is_told(tmp_path, ur5, source):
         ({"keep": ["branches"]}, "branches"),
         ({"keep": []}, "nothing"),
         ({"layout": "padded"}, "layout"),
+        ({"strict": True}, "strict"),
         ({"near": np.zeros((3, 6))}, "near"),
         ({"limits": np.zeros((5, 2))}, "limits"),
         ({"dtype": int}, "dtype"),
