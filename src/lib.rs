@@ -61,6 +61,8 @@ mod drawing;
 
 pub mod solver;
 
+pub mod reach;
+
 pub mod motion;
 
 pub mod gait;

@@ -27,11 +27,8 @@ impl Angles {
 
     fn symbol(self, unit: Unit) -> &'static str {
         match unit {
-            Unit::Metre => "m",
-            Unit::Millimetre => "mm",
             Unit::Radian if self == Angles::Degrees => "deg",
-            Unit::Radian => "rad",
-            Unit::One => "",
+            unit => unit.symbol(),
         }
     }
 

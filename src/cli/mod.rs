@@ -36,6 +36,7 @@ mod path;
 mod physics;
 mod plan;
 mod progress;
+mod reach;
 mod report;
 mod simulate;
 mod solve;
@@ -62,6 +63,7 @@ const EXAMPLES: &str = "Examples:
   groebot check derivations/nao_leg_sagittal
   groebot explain derivations/nao_leg_sagittal
   groebot codegen derivations/puma --lang c -o puma.c
+  groebot reach derivations/ur5 -o reach.json --plot reach.svg
   groebot info derivations/nao_arm_planar
   groebot info robot.urdf --tip tool0
   groebot fk robot.urdf --tip tool0 --q 0,-90,90,0,0,0 --degrees
@@ -103,6 +105,7 @@ enum Command {
     Navigate(navigate::Arguments),
     Task(task::Arguments),
     Path(path::Arguments),
+    Reach(reach::Arguments),
     Dynamics(dynamics::Arguments),
     Track(track::Arguments),
     Identify(identify::Arguments),
@@ -171,6 +174,7 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Navigate(arguments) => navigate::run(arguments),
         Command::Task(arguments) => task::run(arguments),
         Command::Path(arguments) => path::run(arguments),
+        Command::Reach(arguments) => reach::run(arguments),
         Command::Dynamics(arguments) => dynamics::run(arguments),
         Command::Track(arguments) => track::run(arguments),
         Command::Identify(arguments) => identify::run(arguments),

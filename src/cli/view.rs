@@ -13,7 +13,9 @@ use crate::document::{read_text, shown};
 use crate::files::write_atomically;
 use crate::gait::{Footprint, Side};
 use crate::model::Robot;
+use crate::motion::table::TABLE_LIMIT;
 use crate::nav::Room;
+use crate::reach::ReachMap;
 use crate::robots::{self, Outline};
 use crate::view::{Asked, Page, Sole};
 use crate::{Error, ErrorKind, Result};
@@ -28,6 +30,7 @@ const EXAMPLES: &str = "Examples:
   groebot view robot.urdf --tip tool0 -o solutions.html
   groebot view nao --tip l_sole --tip r_sole -o legs.html
   groebot view derivations/ur5 -o ur5.html
+  groebot view derivations/ur5 --reach ur5.json -o reach.html
   groebot view rh0 --room living-room --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
 With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
@@ -52,6 +55,9 @@ pub struct Arguments {
     /// The link that such chains begin with; the root without it
     #[arg(long, value_name = "LINK", requires = "tip")]
     base: Option<String>,
+    /// Show what it reaches: a map of `groebot reach`, of the derivation or of the last --tip
+    #[arg(long, value_name = "MAP.json", conflicts_with = "room")]
+    reach: Option<PathBuf>,
     /// Let nao, rh0 or teo walk through a room: living-room, encirclement, or TOML
     #[arg(long, value_name = "ROOM-or-FILE", requires = "goal")]
     room: Option<PathBuf>,
@@ -64,7 +70,7 @@ pub struct Arguments {
 
 /// Writes the page.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let page = arguments.page()?;
+    let page = arguments.reached(arguments.page()?)?;
     write_atomically(&arguments.out, page.to_html().as_bytes())?;
     console::print(&format!("{}\n", arguments.out.display()))
 }
@@ -99,6 +105,17 @@ impl Arguments {
                 self.room.as_ref().map_or(Ok(page.clone()), |room| self.running(page, room))
             }
         }
+    }
+
+    /// A page with the map that is asked for.
+    fn reached(&self, page: Page) -> Result<Page> {
+        let Some(file) = &self.reach else { return Ok(page) };
+        if !self.shown.is_dir() && self.tip.is_empty() {
+            let text = "a map is of a limb; give the folder of its derivation, or --tip";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(&self.shown));
+        }
+        let map = ReachMap::from_json(&read_text(file, TABLE_LIMIT)?).map_err(|error| error.in_file(file))?;
+        Ok(page.with_reach(&map))
     }
 
     /// The robot of a page with the limbs whose solutions are asked for.

@@ -94,6 +94,30 @@ impl Chain {
     }
 }
 
+impl Chain {
+    /// How well the tip moves at the joint values `q`, in what the task determines: Yoshikawa's measure `sqrt(det(J J'))` (Manipulability of robotic mechanisms, IJRR 4, 1985), by metres and radians. Of fewer joints than
+    /// the task determines numbers, `sqrt(det(J' J))`.
+    ///
+    /// # Panics
+    /// When `q` has fewer values than the chain has joints.
+    pub fn manipulability(&self, q: &[f64]) -> f64 {
+        let mut jacobian = self.task_jacobian(q, &[]);
+        let reach = if self.reach() > 0.0 { self.reach() } else { 1.0 };
+        jacobian.rows_mut(0, self.task().lengths()).scale_mut(reach);
+        for (mut column, screw) in jacobian.column_iter_mut().zip(self.screws()) {
+            // A slide is in reaches, too.
+            if let Screw::Prismatic(_) = screw {
+                column.unscale_mut(reach);
+            }
+        }
+        let gram = match jacobian.nrows() <= jacobian.ncols() {
+            true => &jacobian * jacobian.transpose(),
+            false => jacobian.transpose() * &jacobian,
+        };
+        gram.determinant().max(0.0).sqrt()
+    }
+}
+
 impl Task {
     /// What a task sees of a motion of the tip, by `v` and turning with `w`, where it aims along the unit vector `aim`.
     fn sees(self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {

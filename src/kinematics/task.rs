@@ -92,6 +92,15 @@ impl Task {
         }
     }
 
+    /// How many of its numbers are lengths; they come first.
+    pub fn lengths(self) -> usize {
+        match self {
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll => 3,
+            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
+            Task::Direction | Task::Rotation => 0,
+        }
+    }
+
     /// Whether it aims a direction of the tip frame.
     pub fn aims(self) -> bool {
         matches!(self, Task::Ray | Task::Direction)

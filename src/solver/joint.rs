@@ -16,6 +16,18 @@ pub enum Unit {
     One,
 }
 
+impl Unit {
+    /// `m`, `mm`, `rad`, or nothing for a plain number.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Unit::Metre => "m",
+            Unit::Millimetre => "mm",
+            Unit::Radian => "rad",
+            Unit::One => "",
+        }
+    }
+}
+
 /// How the value of a joint follows from the unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -24,6 +24,8 @@ pub struct Data {
     pub run: Option<Run>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub task: Option<TaskRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reach: Option<Reach>,
     /// What solves for them, packed: WebAssembly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wasm: Option<String>,
@@ -45,6 +47,26 @@ pub struct Limb {
     /// The SHA-256 of its certificate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub certificate: Option<String>,
+}
+
+/// What a limb reaches: places of a grid, by x, y and z in the frame of a link, of which z changes first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reach {
+    /// A link, by its place.
+    pub base: usize,
+    /// The solver and what is asked of its tip, in words.
+    pub of: String,
+    /// By x, y and z: from, to, and how many.
+    pub axes: [(f64, f64, usize); 3],
+    /// How many orientations each place has.
+    pub orientations: usize,
+    /// Whether only answers within limits were counted.
+    pub limited: bool,
+    /// By place, how many orientations have an answer, how many answers there are, and the mean manipulability.
+    pub reached: Column,
+    pub answers: Column,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub manipulability: Option<Column>,
 }
 
 /// A run of the simulator: what it is asked for, and the room as it is drawn.

@@ -7,6 +7,7 @@ mod chain;
 mod data;
 mod motion;
 mod page;
+mod reach;
 mod robot;
 mod run;
 mod sole;

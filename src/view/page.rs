@@ -8,11 +8,12 @@ use super::robot::described;
 use super::run::{Asked, run};
 use super::sole::Sole;
 use super::walk::WalkRecord;
-use super::{bytes, chain, data};
+use super::{bytes, chain, data, reach};
 use crate::document::shown;
 use crate::kinematics::Chain;
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
+use crate::reach::ReachMap;
 use crate::sim::TaskRecord;
 use crate::{Error, ErrorKind, Result};
 
@@ -103,6 +104,15 @@ impl Page {
         self
     }
 
+    /// The same page with what its last limb reaches, or a chain from the robot's root.
+    #[must_use]
+    pub fn with_reach(mut self, map: &ReachMap) -> Self {
+        let (base, metres) =
+            self.data.limbs.last().map_or((self.data.robot.base, 1.0), |limb| (limb.base, limb.metres));
+        self.data.reach = Some(reach::described(map, base, metres));
+        self
+    }
+
     fn of(robot: data::Robot) -> Self {
         let title = robot.name.clone();
         Page {
@@ -114,6 +124,7 @@ impl Page {
                 limbs: Vec::new(),
                 run: None,
                 task: None,
+                reach: None,
                 wasm: None,
             },
         }

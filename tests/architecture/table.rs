@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 25] = [
+const TABLE: [(&str, Uses); 26] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -21,6 +21,7 @@ const TABLE: [(&str, Uses); 25] = [
     ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
     ("control", Uses::Only(&["drawing", "spatial", "model", "dynamics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
+    ("reach", Uses::Only(&["drawing", "spatial", "kinematics", "solver"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (
         "witness",
@@ -33,7 +34,10 @@ const TABLE: [(&str, Uses); 25] = [
     ("nav", Uses::Only(&["spatial"])),
     ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
-    ("view", Uses::Only(&["spatial", "model", "kinematics", "motion", "gait", "robots", "nav", "task", "sim"])),
+    (
+        "view",
+        Uses::Only(&["spatial", "model", "kinematics", "reach", "motion", "gait", "robots", "nav", "task", "sim"]),
+    ),
     ("serve", Uses::Only(&["sim"])),
     ("cli", Uses::AllAbove),
 ];

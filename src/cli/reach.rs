@@ -1,0 +1,171 @@
+//! `groebot reach`: a map of what a derived solver reaches.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::moving::ends;
+use super::progress::{Limits, Session, mebibytes, seconds};
+use super::solve::read_program;
+use super::{Outcome, console};
+use crate::derive::{Ends, InputFile};
+use crate::document::shown;
+use crate::files::write_atomically;
+use crate::kinematics::Chain;
+use crate::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
+use crate::solver::Program;
+use crate::{Error, ErrorKind, Result};
+
+/// How many places an axis has that is not told.
+const USUAL: usize = 21;
+
+const EXAMPLES: &str = "Examples:
+  groebot reach derivations/ur5 -o ur5.json --plot ur5.svg
+  groebot reach derivations/ur5 --x -1:1:41 --y -1:1:41 --z 0.3 --orientations 400 --plot at_30_cm.svg
+  groebot reach derivations/ur5 --measure manipulability -o map.csv
+  groebot reach derivations/iiwa14 --given 0.5 --measure limits --plot within.svg
+  groebot view derivations/ur5 --reach ur5.json -o ur5.html
+
+An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, from minus to plus the chain's reach. At each place are orientations, spread evenly over all that the task tells apart: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
+manipulability (of each orientation that of the best answer).";
+
+/// Counts what a derived solver reaches, place by place
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// A folder that `groebot derive` wrote, or its 5_program.json
+    derivation: PathBuf,
+    /// Places by x, in the derivation's unit of length
+    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
+    x: Option<Axis>,
+    /// Places by y
+    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
+    y: Option<Axis>,
+    /// Places by z
+    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
+    z: Option<Axis>,
+    /// Orientations at each place
+    #[arg(long, value_name = "COUNT", default_value_t = 100)]
+    orientations: usize,
+    /// What is counted: all answers, those within the described limits, or all and how well the arm moves
+    #[arg(long, default_value = "count", value_parser = measure)]
+    measure: Measure,
+    /// Count only answers within the described limits, whatever is measured
+    #[arg(long)]
+    limits: bool,
+    /// Turn the orientations of each place by a rotation of its own
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
+    /// The values of the joints that are given with each target [rad, m]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', allow_hyphen_values = true)]
+    given: Vec<f64>,
+    /// Write the map: JSON, which `groebot view` shows, or CSV
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write slices of it as a picture: SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Slice across this axis (default: one with a single place, else z)
+    #[arg(long, value_parser = ["x", "y", "z"], requires = "plot")]
+    across: Option<String>,
+    /// The time budget
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
+    /// The memory budget
+    #[arg(long, value_name = "MiB", value_parser = mebibytes)]
+    memory: Option<usize>,
+    /// Neither progress nor summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Makes the map.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let file = &arguments.derivation;
+    if let Some(out) = arguments.out.as_ref().filter(|out| !ends(out, "json") && !ends(out, "csv")) {
+        let text = "a map is written as JSON or CSV; end its name in .json or .csv";
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(out).into());
+    }
+    let (program, chain) = (read_program(file)?, chain(file)?);
+    let ask = arguments.ask(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;
+    let Arguments { time, memory, quiet, .. } = *arguments;
+    let session = Session::start(Limits { time, memory, terms: None, quiet })?;
+    let (start, solver) = (Instant::now(), program.solver());
+    let map = Survey::new(&solver, &program, chain.as_ref(), &ask)
+        .map_err(|error| error.in_file(file))?
+        .map(&session.watch)?;
+    drop(session);
+    if let Some(out) = &arguments.out {
+        let text = if ends(out, "csv") { map.to_csv() } else { map.to_json() };
+        write_atomically(out, text.as_bytes())?;
+    }
+    if let Some(plot) = &arguments.plot {
+        let across = arguments.across.as_deref().and_then(|name| ["x", "y", "z"].iter().position(|own| *own == name));
+        write_atomically(plot, map.to_svg(across).as_bytes())?;
+    }
+    if quiet { Ok(()) } else { console::print(&summary(&map, start.elapsed())) }
+}
+
+impl Arguments {
+    fn ask(&self, program: &Program, chain: Option<&Chain>) -> Result<Ask> {
+        let asked = |name: &str| program.inputs.iter().any(|input| input.name == name);
+        let axis = |told: Option<Axis>, name: &str, input: &str| match (told, chain) {
+            (Some(axis), _) => Ok(axis),
+            _ if !asked(input) => Axis::new(0.0, 0.0, 1),
+            (None, Some(chain)) if chain.reach() > 0.0 => Axis::new(-chain.reach(), chain.reach(), USUAL),
+            _ => Err(Error::new(ErrorKind::MissingKey, format!("no places by {name}; give --{name} FROM:TO:COUNT"))),
+        };
+        let grid = Grid::new([axis(self.x, "x", "px")?, axis(self.y, "y", "py")?, axis(self.z, "z", "pz")?])?;
+        let limits = self.limits || self.measure == Measure::Limits;
+        Ok(Ask {
+            orientations: self.orientations,
+            seed: self.seed,
+            given: self.given.clone(),
+            measure: self.measure,
+            limits: limits.then(|| Ask::described(program)).transpose()?,
+            ..Ask::new(grid)
+        })
+    }
+}
+
+/// The chain that was derived in a folder, where there is one.
+fn chain(file: &Path) -> Result<Option<Chain>> {
+    if file.is_dir() { InputFile::read(file)?.chain(&Ends::default()) } else { Ok(None) }
+}
+
+fn summary(map: &ReachMap, time: Duration) -> String {
+    let ReachMap { solver, task, orientations, .. } = map;
+    let (places, reached) = (map.grid.places(), map.entries.iter().filter(|entry| entry.reached > 0).count());
+    let answers: u64 = map.entries.iter().map(|entry| u64::from(entry.answers)).sum();
+    let (targets, solved) = (places * orientations, map.reached());
+    let within = if map.limited { " within limits" } else { "" };
+    let mut text = format!(
+        "{solver}, {task}: {places} places, {orientations} orientations at each, {:.2} s\nreached{within}: {reached} places; {solved} of {targets} targets ({:.1} %), with {answers} answers\n",
+        time.as_secs_f64(),
+        100.0 * solved as f64 / targets as f64
+    );
+    if map.open > 0 {
+        text += &format!("{} targets lie on strata that could not be derived; they count as not reached\n", map.open);
+    }
+    if map.measure == Measure::Manipulability {
+        let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f64::max);
+        text += &format!("the greatest manipulability is {best:.6} (metres, radians)\n");
+    }
+    text
+}
+
+/// Reads `-1:1:41` or `0.3`.
+fn axis(text: &str) -> std::result::Result<Axis, String> {
+    let wrong = || format!("`{}` is no axis; give FROM:TO:COUNT such as -1:1:41, or a number", shown(text));
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
+    let parts: Vec<&str> = text.split(':').collect();
+    let axis = match *parts.as_slice() {
+        [at] => Axis::new(number(at)?, number(at)?, 1),
+        [from, to, count] => Axis::new(number(from)?, number(to)?, count.trim().parse().map_err(|_| wrong())?),
+        _ => return Err(wrong()),
+    };
+    axis.map_err(|error| error.message().to_owned())
+}
+
+fn measure(name: &str) -> std::result::Result<Measure, String> {
+    Measure::of(name).map_err(|error| error.message().to_owned())
+}

@@ -1,0 +1,209 @@
+//! Counting answers, place by place. Main type: [`Survey`].
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::ask::{Ask, Measure};
+use super::map::{Entry, ReachMap};
+use super::poses::Poses;
+use crate::kinematics::{Chain, Solution};
+use crate::solver::{JointValue, Program, Solved, Solver};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// So many targets are solved at once.
+const PIECE: usize = 2048;
+/// How far beyond a limit rounding may bring a joint that is at it.
+const SLACK: f64 = 1e-9;
+
+/// What solves many targets.
+pub trait Solves: Sync {
+    /// Hands over the answers for targets one after the other, each target's followed by its end.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_each`].
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()>;
+
+    /// The answers within limits, as [`Solver::solve_within`].
+    ///
+    /// # Errors
+    /// As there.
+    fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
+}
+
+impl Solves for Solver {
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
+        self.solve_each(targets, take)
+    }
+
+    fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        self.solve_within(target, limits)
+    }
+}
+
+/// A question to a solver.
+pub struct Survey<'a> {
+    solver: &'a dyn Solves,
+    program: &'a Program,
+    /// Whose manipulability is measured.
+    chain: Option<&'a Chain>,
+    ask: &'a Ask,
+    poses: Poses,
+    /// By joint, whether it turns.
+    turns: Vec<bool>,
+    limits: Option<Vec<[f64; 2]>>,
+}
+
+/// What was counted at places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// One for each place.
+    pub entries: Vec<Entry>,
+    /// How many targets lie on strata that could not be derived; they count as if they had no answers.
+    pub open: usize,
+}
+
+/// What is known of a target's answers while they come.
+#[derive(Default)]
+struct Target {
+    answers: u32,
+    /// Whether a member of a self-motion was beyond the limits: another one of it may be within.
+    strides: bool,
+    best: f64,
+}
+
+impl<'a> Survey<'a> {
+    /// What is asked of a solver, the program that it solves by, and the chain that this was derived from where there is one.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a task without a position, for targets that are more than one tip's place, orientation and given joints, and for a manipulability without a chain; [`ErrorKind::BadValue`] for no
+    /// orientations or more than 10^6, for another number of given values than joints, for several places on an axis that the task does not ask for, and for limits that are none, or are not described.
+    pub fn new(solver: &'a dyn Solves, program: &'a Program, chain: Option<&'a Chain>, ask: &'a Ask) -> Result<Self> {
+        let poses = Poses::new(program, ask)?;
+        let turns: Vec<bool> =
+            program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
+        let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
+        if ask.measure == Measure::Manipulability && chain.is_none() {
+            let text = "a manipulability is that of a chain; this solver was derived from equations alone";
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let limits = match (&ask.limits, ask.measure) {
+            (None, Measure::Limits) => Some(Ask::described(program)?),
+            (limits, _) => limits.clone(),
+        };
+        if let Some(limits) = &limits
+            && (limits.len() != turns.len() || limits.iter().flatten().any(|limit| limit.is_nan()))
+        {
+            let text = format!("{limits:?} are no limits of {} joints", turns.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        Ok(Survey { solver, program, chain, ask, poses, turns, limits })
+    }
+
+    /// How many orientations there are at each place.
+    pub fn orientations(&self) -> usize {
+        self.poses.orientations()
+    }
+
+    /// Counts the answers at the places with these numbers, on rayon's threads. The result depends neither on their number nor on what other places are asked for.
+    ///
+    /// # Errors
+    /// [`Watch::check`], and as [`Solves::each`].
+    ///
+    /// # Panics
+    /// For places that the grid does not have.
+    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Found> {
+        assert!(places.end <= self.ask.grid.places(), "the grid has {} places", self.ask.grid.places());
+        let share = (PIECE / self.orientations()).max(1);
+        let (done, open) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let mut entries = vec![Entry::default(); places.len()];
+        entries.par_chunks_mut(share).enumerate().try_for_each(|(number, entries)| {
+            watch.check()?;
+            open.fetch_add(self.fill(places.start + number * share, entries, watch)?, Ordering::Relaxed);
+            let done = done.fetch_add(entries.len(), Ordering::Relaxed) + entries.len();
+            watch.report("reach: places", done, places.len() - done);
+            Ok::<_, Error>(())
+        })?;
+        Ok(Found { entries, open: open.into_inner() })
+    }
+
+    /// The map of all places.
+    ///
+    /// # Errors
+    /// As [`Survey::entries`].
+    pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
+        let Found { entries, open } = self.entries(0..self.ask.grid.places(), watch)?;
+        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries, open))
+    }
+
+    /// Counts at the places from `first` on: how many targets lie on strata that could not be derived.
+    fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<usize> {
+        let (orientations, mut open, mut targets) = (self.orientations(), 0, Vec::new());
+        let (start, end) = (first * orientations, (first + entries.len()) * orientations);
+        for start in (start..end).step_by(PIECE) {
+            watch.check()?;
+            let numbers = start..end.min(start + PIECE);
+            self.poses.write(numbers, &mut targets);
+            open += self.piece(&targets, |number, target| {
+                entries[(start + number) / orientations - first].add(target.answers, target.best);
+            })?;
+        }
+        entries.iter_mut().for_each(Entry::finish);
+        Ok(open)
+    }
+
+    /// Solves targets; each is handed over with its number.
+    fn piece(&self, targets: &[f64], mut take: impl FnMut(usize, &Target)) -> Result<usize> {
+        let inputs = self.poses.inputs();
+        let (mut number, mut open, mut target, mut failed) = (0, 0, Target::default(), None);
+        self.solver.each(targets, &mut |solved| match solved {
+            Solved::Answer { q, free, .. } => self.answer(q, free, &mut target),
+            Solved::Target { refused } => {
+                open += usize::from(refused.is_some());
+                if target.strides {
+                    match self.stride(&targets[number * inputs..][..inputs]) {
+                        Ok(found) => target = found,
+                        Err(error) => failed = Some(error),
+                    }
+                }
+                take(number, &target);
+                (number, target) = (number + 1, Target::default());
+            }
+        })?;
+        failed.map_or(Ok(open), Err)
+    }
+
+    fn answer(&self, q: &[f64], free: u32, target: &mut Target) {
+        if self.limits.as_ref().is_some_and(|limits| !has_turn_within(&self.turns, q, limits)) {
+            target.strides |= free != 0;
+            return;
+        }
+        target.answers += 1;
+        if let Some(chain) = self.chain {
+            target.best = target.best.max(chain.manipulability(q));
+        }
+    }
+
+    /// A target whose self-motions are walked along to get within the limits.
+    fn stride(&self, numbers: &[f64]) -> Result<Target> {
+        let mut target = Target::default();
+        for solution in self.solver.within(numbers, self.limits.as_deref().unwrap_or_default())? {
+            self.answer(&solution.q, 0, &mut target);
+        }
+        Ok(target)
+    }
+}
+
+/// Whether each joint is within its limits, an angle with some of its turns.
+fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
+    turns.iter().zip(q).zip(limits).all(|((turns, value), [low, high])| {
+        let (low, high) = (low - SLACK, high + SLACK);
+        match turns {
+            false => (low..=high).contains(value),
+            true if low.is_infinite() || high.is_infinite() => true,
+            true => value + TAU * ((low - value) / TAU).ceil() <= high,
+        }
+    })
+}
