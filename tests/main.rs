@@ -19,6 +19,7 @@ mod motion;
 mod nav;
 mod number;
 mod poly;
+mod reach;
 mod real;
 mod robots;
 mod roots;

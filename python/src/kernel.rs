@@ -43,6 +43,9 @@ pub trait Kernel: Send + Sync {
     /// What joint values reach, where the equations tell it.
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
 
+    /// Hands over the answers for targets one after the other, each target's followed by its end.
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()>;
+
     /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>);
 }
@@ -130,6 +133,31 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
 
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
         self.mechanism.forward(&Array::by(q.len(), |i| q[i])).map(|target| target.as_ref().to_vec())
+    }
+
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
+        let Shape { usual, capacity, inputs, .. } = self.shape;
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); PIECE * usual + capacity];
+        let mut piece: Vec<Inputs<M>> = Vec::with_capacity(PIECE);
+        let mut counts = [Ok(0); PIECE];
+        for numbers in targets.chunks(PIECE * inputs) {
+            piece.clear();
+            piece.extend(numbers.chunks_exact(inputs).map(|row| self.row(row)));
+            let mut done = 0;
+            while done < piece.len() {
+                let solved = self.mechanism.solve_batch(&piece[done..], &mut room, &mut counts);
+                let mut answers = room.iter();
+                for count in &counts[..solved] {
+                    for answer in answers.by_ref().take(count.unwrap_or(0)) {
+                        let runtime::Solution { q, residual, branch, free, .. } = answer;
+                        take(Solved::Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free });
+                    }
+                    take(Solved::Target { refused: count.err().map(refused) });
+                }
+                done += solved;
+            }
+        }
+        Ok(())
     }
 
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {
@@ -238,6 +266,10 @@ impl Kernel for Interpreted {
 
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
         self.solver.reached(q)
+    }
+
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
+        self.solver.solve_each(targets, take)
     }
 
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>) {

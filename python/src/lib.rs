@@ -13,6 +13,7 @@ mod many;
 mod navigate;
 mod origin;
 mod path;
+mod reach;
 mod robot;
 mod sink;
 mod solution;
@@ -31,6 +32,8 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<solution::Solution>()?;
     module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
     module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;
+    module.add_function(wrap_pyfunction!(reach::reach, module)?)?;
+    module.add_function(wrap_pyfunction!(reach::reach_as, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
     Ok(())
 }

@@ -316,7 +316,7 @@ impl Solver {
     }
 
     /// The limits that are asked for: those of an array, or with `True` those of the description.
-    fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
+    pub fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
         let Some(limits) = limits else { return Ok(None) };
         match limits.extract::<bool>() {
             Ok(true) => Ok(Some(self.0.limits())),

@@ -143,11 +143,11 @@ fn summary(map: &ReachMap, time: Duration) -> String {
         time.as_secs_f64(),
         100.0 * solved as f64 / targets as f64
     );
-    if map.open > 0 {
-        text += &format!("{} targets lie on strata that could not be derived; they count as not reached\n", map.open);
+    if map.open() > 0 {
+        text += &format!("{} targets lie on strata that could not be derived; they count as not reached\n", map.open());
     }
     if map.measure == Measure::Manipulability {
-        let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f64::max);
+        let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f32::max);
         text += &format!("the greatest manipulability is {best:.6} (metres, radians)\n");
     }
     text

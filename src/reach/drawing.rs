@@ -84,7 +84,7 @@ impl ReachMap {
     /// What is coloured at a place; `None` where nothing is reached.
     fn value(&self, place: usize) -> Option<f64> {
         let entry = &self.entries[place];
-        let value = if self.measure == Measure::Manipulability { entry.mean } else { self.index(place) };
+        let value = if self.measure == Measure::Manipulability { entry.mean.into() } else { self.index(place) };
         (entry.reached > 0).then_some(value)
     }
 

@@ -11,24 +11,12 @@ pub struct Entry {
     pub reached: u32,
     /// How many answers count.
     pub answers: u32,
+    /// How many orientations lie on strata that could not be derived; they count as if they had no answers.
+    pub open: u32,
     /// The greatest manipulability of an answer; nought where it is not measured, or nothing is reached.
-    pub best: f64,
+    pub best: f32,
     /// The mean, over the orientations that are reached, of the greatest manipulability of each.
-    pub mean: f64,
-}
-
-impl Entry {
-    /// Adds an orientation with so many answers, of which the greatest manipulability is `best`. Until [`Entry::finish`] the mean is a sum.
-    pub(super) fn add(&mut self, answers: u32, best: f64) {
-        self.reached += u32::from(answers > 0);
-        self.answers = self.answers.saturating_add(answers);
-        self.best = self.best.max(best);
-        self.mean += best;
-    }
-
-    pub(super) fn finish(&mut self) {
-        self.mean /= f64::from(self.reached.max(1));
-    }
+    pub mean: f32,
 }
 
 /// What a solver reaches, place by place.
@@ -50,8 +38,6 @@ pub struct ReachMap {
     pub measure: Measure,
     /// Whether only answers within limits were counted.
     pub limited: bool,
-    /// How many targets lie on strata that could not be derived; they count as if they had no answers.
-    pub open: usize,
     /// One for each place.
     pub entries: Vec<Entry>,
 }
@@ -61,7 +47,7 @@ impl ReachMap {
     ///
     /// # Panics
     /// For another number of entries than places.
-    pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>, open: usize) -> Self {
+    pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>) -> Self {
         assert_eq!(entries.len(), ask.grid.places(), "an entry for each place");
         let unit = program.inputs.iter().find(|input| input.name.starts_with('p')).map(|input| input.unit);
         ReachMap {
@@ -73,7 +59,6 @@ impl ReachMap {
             seed: ask.seed,
             measure: ask.measure,
             limited: ask.limits.is_some() || ask.measure == Measure::Limits,
-            open,
             entries,
         }
     }
@@ -86,5 +71,10 @@ impl ReachMap {
     /// How many targets have an answer that counts.
     pub fn reached(&self) -> usize {
         self.entries.iter().map(|entry| entry.reached as usize).sum()
+    }
+
+    /// How many targets lie on strata that could not be derived.
+    pub fn open(&self) -> usize {
+        self.entries.iter().map(|entry| entry.open as usize).sum()
     }
 }

@@ -15,4 +15,4 @@ mod survey;
 pub use ask::{Ask, Measure};
 pub use grid::{Axis, Grid};
 pub use map::{Entry, ReachMap};
-pub use survey::{Found, Solves, Survey};
+pub use survey::{Solves, Survey};

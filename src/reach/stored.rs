@@ -26,13 +26,14 @@ struct Written {
     seed: Option<u64>,
     measure: String,
     limited: bool,
-    open: usize,
     reached: Vec<u32>,
     answers: Vec<u32>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    best: Vec<f64>,
+    open: Vec<u32>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    mean: Vec<f64>,
+    best: Vec<f32>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    mean: Vec<f32>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -43,11 +44,11 @@ struct WrittenAxis {
 }
 
 impl ReachMap {
-    /// The map as JSON: `format` (1), `solver`, `task`, `unit`, the axes `x`, `y` and `z` (from, to, count), `orientations`, `seed`, `measure`, `limited`, `open`, and by place, of which z changes
-    /// first, `reached`, `answers`, and where manipulability was measured `best` and `mean`.
+    /// The map as JSON: `format` (1), `solver`, `task`, `unit`, the axes `x`, `y` and `z` (from, to, count), `orientations`, `seed`, `measure`, `limited`, and by place, of which z changes
+    /// first, `reached`, `answers`, where some are `open`, and where manipulability was measured `best` and `mean`.
     pub fn to_json(&self) -> String {
         let [x, y, z] = self.grid.axes().map(|Axis { from, to, count }| WrittenAxis { from, to, count });
-        let numbers = |number: fn(&Entry) -> f64| match self.measure {
+        let numbers = |number: fn(&Entry) -> f32| match self.measure {
             Measure::Manipulability => self.entries.iter().map(number).collect(),
             _ => Vec::new(),
         };
@@ -63,9 +64,9 @@ impl ReachMap {
             seed: self.seed,
             measure: self.measure.name().to_owned(),
             limited: self.limited,
-            open: self.open,
             reached: self.entries.iter().map(|entry| entry.reached).collect(),
             answers: self.entries.iter().map(|entry| entry.answers).collect(),
+            open: if self.open() > 0 { self.entries.iter().map(|entry| entry.open).collect() } else { Vec::new() },
             best: numbers(|entry| entry.best),
             mean: numbers(|entry| entry.mean),
         };
@@ -106,29 +107,30 @@ impl ReachMap {
         let lengths = [
             ("reached", reached.len(), true),
             ("answers", answers.len(), true),
+            ("open", open.len(), !open.is_empty()),
             ("best", best.len(), is_measured),
             ("mean", mean.len(), is_measured),
         ];
         for (name, length, is_wanted) in lengths {
             let wanted = if is_wanted { places } else { 0 };
             if length != wanted {
-                let text = format!(
-                    "`{name}` has {length} numbers; the {places} places of a map by {} have {wanted}",
-                    measure.name()
-                );
+                let measure = measure.name();
+                let text =
+                    format!("`{name}` has {length} numbers; the {places} places of a map by {measure} have {wanted}");
                 return Err(Error::new(ErrorKind::BadValue, text));
             }
         }
-        let number = |column: &[f64], place: usize| column.get(place).copied().unwrap_or(0.0);
+        let number = |column: &[f32], place: usize| column.get(place).copied().unwrap_or(0.0);
         let entry = |place: usize| Entry {
             reached: reached[place],
             answers: answers[place],
+            open: open.get(place).copied().unwrap_or(0),
             best: number(&best, place),
             mean: number(&mean, place),
         };
         let entries: Vec<Entry> = (0..places).map(entry).collect();
         let is_whole = |entry: &Entry| {
-            entry.reached as usize <= orientations
+            u64::from(entry.reached) + u64::from(entry.open) <= orientations as u64
                 && entry.reached <= entry.answers
                 && [entry.best, entry.mean].iter().all(|number| *number >= 0.0)
         };
@@ -136,7 +138,7 @@ impl ReachMap {
             let text = format!("place {place}: {:?} cannot be counted of {orientations} orientations", entries[place]);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        Ok(ReachMap { solver, task, unit, grid, orientations, seed, measure, limited, open, entries })
+        Ok(ReachMap { solver, task, unit, grid, orientations, seed, measure, limited, entries })
     }
 
     /// The map as CSV with a line of names: `x`, `y`, `z`, `reached`, `answers`, and where manipulability was measured `best` and `mean`; a line a place, of which z changes first.
@@ -145,7 +147,7 @@ impl ReachMap {
         let mut text = String::from("x,y,z,reached,answers");
         text += if is_measured { ",best,mean\n" } else { "\n" };
         for (place, entry) in self.entries.iter().enumerate() {
-            let ([x, y, z], Entry { reached, answers, best, mean }) = (self.grid.at(place), entry);
+            let ([x, y, z], Entry { reached, answers, best, mean, .. }) = (self.grid.at(place), entry);
             // Writing to a string cannot fail.
             let _ = write!(text, "{x},{y},{z},{reached},{answers}");
             let _ = if is_measured { writeln!(text, ",{best},{mean}") } else { writeln!(text) };

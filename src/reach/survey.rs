@@ -56,21 +56,13 @@ pub struct Survey<'a> {
     limits: Option<Vec<[f64; 2]>>,
 }
 
-/// What was counted at places.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Found {
-    /// One for each place.
-    pub entries: Vec<Entry>,
-    /// How many targets lie on strata that could not be derived; they count as if they had no answers.
-    pub open: usize,
-}
-
 /// What is known of a target's answers while they come.
 #[derive(Default)]
 struct Target {
     answers: u32,
     /// Whether a member of a self-motion was beyond the limits: another one of it may be within.
     strides: bool,
+    is_open: bool,
     best: f64,
 }
 
@@ -114,19 +106,19 @@ impl<'a> Survey<'a> {
     ///
     /// # Panics
     /// For places that the grid does not have.
-    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Found> {
+    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
         assert!(places.end <= self.ask.grid.places(), "the grid has {} places", self.ask.grid.places());
         let share = (PIECE / self.orientations()).max(1);
-        let (done, open) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let done = AtomicUsize::new(0);
         let mut entries = vec![Entry::default(); places.len()];
         entries.par_chunks_mut(share).enumerate().try_for_each(|(number, entries)| {
             watch.check()?;
-            open.fetch_add(self.fill(places.start + number * share, entries, watch)?, Ordering::Relaxed);
+            self.fill(places.start + number * share, entries, watch)?;
             let done = done.fetch_add(entries.len(), Ordering::Relaxed) + entries.len();
             watch.report("reach: places", done, places.len() - done);
             Ok::<_, Error>(())
         })?;
-        Ok(Found { entries, open: open.into_inner() })
+        Ok(entries)
     }
 
     /// The map of all places.
@@ -134,45 +126,52 @@ impl<'a> Survey<'a> {
     /// # Errors
     /// As [`Survey::entries`].
     pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
-        let Found { entries, open } = self.entries(0..self.ask.grid.places(), watch)?;
-        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries, open))
+        let entries = self.entries(0..self.ask.grid.places(), watch)?;
+        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries))
     }
 
-    /// Counts at the places from `first` on: how many targets lie on strata that could not be derived.
-    fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<usize> {
-        let (orientations, mut open, mut targets) = (self.orientations(), 0, Vec::new());
+    /// Counts at the places from `first` on.
+    fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
+        let (orientations, mut targets, mut sums) = (self.orientations(), Vec::new(), vec![0.0; entries.len()]);
         let (start, end) = (first * orientations, (first + entries.len()) * orientations);
         for start in (start..end).step_by(PIECE) {
             watch.check()?;
-            let numbers = start..end.min(start + PIECE);
-            self.poses.write(numbers, &mut targets);
-            open += self.piece(&targets, |number, target| {
-                entries[(start + number) / orientations - first].add(target.answers, target.best);
+            self.poses.write(start..end.min(start + PIECE), &mut targets);
+            self.piece(&targets, |number, target| {
+                let place = (start + number) / orientations - first;
+                let entry = &mut entries[place];
+                entry.reached += u32::from(target.answers > 0);
+                entry.answers = entry.answers.saturating_add(target.answers);
+                entry.open += u32::from(target.is_open);
+                entry.best = entry.best.max(target.best as f32);
+                sums[place] += target.best;
             })?;
         }
-        entries.iter_mut().for_each(Entry::finish);
-        Ok(open)
+        for (entry, sum) in entries.iter_mut().zip(sums) {
+            entry.mean = (sum / f64::from(entry.reached.max(1))) as f32;
+        }
+        Ok(())
     }
 
     /// Solves targets; each is handed over with its number.
-    fn piece(&self, targets: &[f64], mut take: impl FnMut(usize, &Target)) -> Result<usize> {
+    fn piece(&self, targets: &[f64], mut take: impl FnMut(usize, &Target)) -> Result<()> {
         let inputs = self.poses.inputs();
-        let (mut number, mut open, mut target, mut failed) = (0, 0, Target::default(), None);
+        let (mut number, mut target, mut failed) = (0, Target::default(), None);
         self.solver.each(targets, &mut |solved| match solved {
             Solved::Answer { q, free, .. } => self.answer(q, free, &mut target),
             Solved::Target { refused } => {
-                open += usize::from(refused.is_some());
                 if target.strides {
                     match self.stride(&targets[number * inputs..][..inputs]) {
                         Ok(found) => target = found,
                         Err(error) => failed = Some(error),
                     }
                 }
+                target.is_open = refused.is_some();
                 take(number, &target);
                 (number, target) = (number + 1, Target::default());
             }
         })?;
-        failed.map_or(Ok(open), Err)
+        failed.map_or(Ok(()), Err)
     }
 
     fn answer(&self, q: &[f64], free: u32, target: &mut Target) {

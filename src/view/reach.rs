@@ -15,6 +15,6 @@ pub fn described(map: &ReachMap, base: usize, metres: f64) -> Reach {
         limited: map.limited,
         reached: numbers(|entry| f64::from(entry.reached)),
         answers: numbers(|entry| f64::from(entry.answers)),
-        manipulability: (map.measure == Measure::Manipulability).then(|| numbers(|entry| entry.mean)),
+        manipulability: (map.measure == Measure::Manipulability).then(|| numbers(|entry| entry.mean.into())),
     }
 }

@@ -17,6 +17,7 @@ mod info;
 mod interrupted;
 mod navigate;
 mod plan;
+mod reach;
 mod refused;
 mod simulate;
 mod solve;

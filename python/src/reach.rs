@@ -1,0 +1,85 @@
+//! What a solver reaches, place by place: `groebot.reach_map`.
+
+use groebot::kinematics::Solution;
+use groebot::reach::{Ask, Axis, Entry, Grid, Measure, ReachMap, Solves, Survey};
+use groebot::solver::Solved;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::{bad_value, raised};
+use crate::kernel::Kernel;
+use crate::solver::Solver;
+use crate::work::watched;
+
+struct Solving<'a>(&'a dyn Kernel);
+
+impl Solves for Solving<'_> {
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> groebot::Result<()> {
+        self.0.each(targets, take)
+    }
+
+    fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> groebot::Result<Vec<Solution>> {
+        self.0.solve_within(target, limits)
+    }
+}
+
+/// The columns of a map at the places from `start` to before `stop`, all of them by default: see `groebot.reach_map`.
+#[pyfunction]
+#[pyo3(name = "_reach", signature = (solver, axes, orientations, measure, limits, given, seed, start, stop, threads, progress))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it with all of them")]
+pub fn reach<'py>(
+    py: Python<'py>,
+    solver: &Solver,
+    axes: [(f64, f64, usize); 3],
+    orientations: usize,
+    measure: &str,
+    limits: Option<&Bound<'py, PyAny>>,
+    given: Vec<f64>,
+    seed: Option<u64>,
+    start: usize,
+    stop: Option<usize>,
+    threads: Option<usize>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let stored = &solver.0;
+    let limits = solver.bounds(limits)?;
+    let measure = Measure::of(measure).map_err(|error| raised(&error))?;
+    let [x, y, z] = axes.map(|(from, to, count)| Axis::new(from, to, count));
+    let grid = x.and_then(|x| Grid::new([x, y?, z?])).map_err(|error| raised(&error))?;
+    let stop = stop.unwrap_or(grid.places());
+    if start > stop || stop > grid.places() {
+        return Err(bad_value(format!("places from {start} to {stop}; the grid has {}", grid.places())));
+    }
+    let ask = Ask { orientations, seed, given, measure, limits, ..Ask::new(grid) };
+    let solving = Solving(&*stored.kernel);
+    let survey = Survey::new(&solving, &stored.program, stored.chain.as_ref(), &ask).map_err(|error| raised(&error))?;
+    let entries = watched(py, progress, crate::work::threads(threads), |watch| survey.entries(start..stop, watch))?;
+    let columns = PyDict::new(py);
+    let wholes = |number: fn(&Entry) -> u32| PyArray1::from_iter(py, entries.iter().map(number));
+    columns.set_item("orientations", survey.orientations())?;
+    columns.set_item("reached", wholes(|entry| entry.reached))?;
+    columns.set_item("answers", wholes(|entry| entry.answers))?;
+    columns.set_item("open", wholes(|entry| entry.open))?;
+    if measure == Measure::Manipulability {
+        let singles = |number: fn(&Entry) -> f32| PyArray1::from_iter(py, entries.iter().map(number));
+        columns.set_item("best", singles(|entry| entry.best))?;
+        columns.set_item("mean", singles(|entry| entry.mean))?;
+    }
+    Ok(columns)
+}
+
+/// A map's JSON as CSV, as a picture, or not at all: `format` is csv, svg or json. It is checked.
+#[pyfunction]
+#[pyo3(name = "_reach_as", signature = (text, format, across=None))]
+pub fn reach_as(py: Python<'_>, text: &str, format: &str, across: Option<usize>) -> PyResult<String> {
+    py.detach(|| {
+        let map = ReachMap::from_json(text)?;
+        Ok(match format {
+            "csv" => map.to_csv(),
+            "svg" => map.to_svg(across),
+            _ => map.to_json(),
+        })
+    })
+    .map_err(|error: groebot::Error| raised(&error))
+}

@@ -1,0 +1,118 @@
+//! Places, orientations and refusals.
+
+use groebot::reach::{Ask, Axis, Grid, Measure, Survey};
+use groebot::{ErrorKind, Watch};
+
+use super::{derivation, grid, map};
+
+#[test]
+fn places_are_numbered_with_z_first() {
+    let grid = grid([(-1.0, 1.0, 3), (0.0, 3.0, 4), (0.5, 0.5, 1)]);
+    assert_eq!(grid.places(), 12);
+    assert_eq!((grid.at(0), grid.at(1), grid.at(4)), ([-1.0, 0.0, 0.5], [-1.0, 1.0, 0.5], [0.0, 0.0, 0.5]));
+    assert_eq!(grid.at(11), [1.0, 3.0, 0.5]);
+    assert!((0..12).all(|place| grid.place(grid.numbers(place)) == place));
+    assert_eq!((grid.axes()[1].step(), grid.axes()[2].step()), (1.0, 0.0));
+}
+
+#[test]
+fn what_is_no_grid_is_refused() {
+    for (from, to, count) in
+        [(0.0, 1.0, 0), (1.0, 0.0, 2), (0.0, 0.0, 2), (0.0, 1.0, 1), (f64::NAN, 1.0, 2), (0.0, f64::INFINITY, 2)]
+    {
+        assert_eq!(Axis::new(from, to, count).unwrap_err().kind(), ErrorKind::BadValue, "{from} {to} {count}");
+    }
+    let long = Axis::new(0.0, 1.0, 1000).unwrap();
+    assert_eq!(Grid::new([long; 3]).unwrap_err().kind(), ErrorKind::BadValue);
+    let vast = Axis::new(0.0, 1.0, usize::MAX).unwrap();
+    assert_eq!(Grid::new([vast; 3]).unwrap_err().kind(), ErrorKind::BadValue);
+}
+
+#[test]
+fn questions_that_no_map_answers_are_refused() {
+    let here = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
+    let refused = |name: &str, ask: &Ask| map(name, ask).unwrap_err();
+    // No place is asked for, or two tips.
+    for name in ["wrist_rotation", "nao_head", "nao_legs"] {
+        assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
+    }
+    let line = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
+    assert!(refused("planar_2r", &line).message().contains("asks for no z"));
+    for orientations in [0, 1_000_001] {
+        assert_eq!(refused("ur5", &Ask { orientations, ..here.clone() }).kind(), ErrorKind::BadValue);
+    }
+    for given in [vec![], vec![0.1, 0.2], vec![f64::NAN]] {
+        assert!(refused("iiwa14", &Ask { given, ..here.clone() }).message().contains("A3"));
+    }
+    // Nothing is said of its limits, or the wrong thing.
+    assert_eq!(refused("planar_2r", &Ask { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
+    for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2]] {
+        assert_eq!(refused("planar_2r", &Ask { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
+    }
+    let (_, program) = derivation("planar_2r");
+    let ask = Ask { measure: Measure::Manipulability, ..here };
+    let without = Survey::new(&program.solver(), &program, None, &ask).err().unwrap();
+    assert_eq!(without.kind(), ErrorKind::Unsupported);
+}
+
+#[test]
+fn orientations_are_spread_evenly_over_all() {
+    // A wrist of three axes, each across the next one, whose tip is where they meet: for each way of the arm, of rotations that are spread evenly the cosine of the middle joint is, and one of two answers has it above
+    // nought. So up to an angle a it has the share (1 - cos a) / 2.
+    let free = [f64::NEG_INFINITY, f64::INFINITY];
+    let places = grid([(0.3, 0.3, 1), (0.2, 0.2, 1), (0.6, 0.6, 1)]);
+    let orientations = 2000;
+    for (most, seed) in [(0.5, None), (1.0, None), (1.6, None), (2.5, Some(3)), (1.0, Some(4))] {
+        let mut limits = vec![free; 6];
+        limits[4] = [0.0, most];
+        let found = map("puma", &Ask { orientations, seed, limits: Some(limits), ..Ask::new(places) }).unwrap();
+        let all = map("puma", &Ask { orientations, seed, ..Ask::new(places) }).unwrap();
+        assert_eq!((all.index(0), all.entries[0].answers as usize % (2 * orientations)), (1.0, 0));
+        let share = 2.0 * f64::from(found.entries[0].answers) / f64::from(all.entries[0].answers);
+        let wanted = (1.0 - f64::cos(most)) / 2.0;
+        assert!((share - wanted).abs() < 0.01, "{most}: {share} {wanted}");
+    }
+}
+
+#[test]
+fn a_map_does_not_depend_on_how_it_is_cut() {
+    let (chain, program) = derivation("ur5");
+    let solver = program.solver();
+    let places = grid([(-0.9, 0.9, 5), (0.0, 0.8, 3), (-0.1, 0.9, 4)]);
+    for measure in [Measure::Count, Measure::Manipulability] {
+        for seed in [None, Some(7)] {
+            let ask = Ask { orientations: 37, measure, seed, ..Ask::new(places) };
+            let survey = Survey::new(&solver, &program, Some(&chain), &ask).unwrap();
+            let whole = survey.map(&Watch::none()).unwrap();
+            let cuts = [0, 1, 17, 18, 60];
+            let parts = cuts.windows(2).flat_map(|ends| survey.entries(ends[0]..ends[1], &Watch::none()).unwrap());
+            assert_eq!(whole.entries, parts.collect::<Vec<_>>());
+            let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+            assert_eq!(whole, alone.install(|| survey.map(&Watch::none())).unwrap());
+            assert!(whole.reached() > 0 && whole.entries.iter().any(|entry| entry.reached == 0));
+        }
+    }
+}
+
+#[test]
+fn a_seed_turns_each_place_otherwise() {
+    let places = grid([(0.3, 0.6, 4), (0.3, 0.3, 1), (0.4, 0.4, 1)]);
+    let reached = |seed: Option<u64>| -> Vec<u32> {
+        let map = map("ur5", &Ask { orientations: 300, seed, ..Ask::new(places) }).unwrap();
+        map.entries.iter().map(|entry| entry.reached).collect()
+    };
+    let (own, one, two) = (reached(None), reached(Some(1)), reached(Some(2)));
+    assert!(own != one && one != two && one == reached(Some(1)));
+}
+
+#[test]
+fn long_maps_can_be_stopped() {
+    let (_, program) = derivation("ur5");
+    let ask = Ask { orientations: 1000, ..Ask::new(grid([(-1.0, 1.0, 100), (-1.0, 1.0, 100), (-1.0, 1.0, 100)])) };
+    let solver = program.solver();
+    let survey = Survey::new(&solver, &program, None, &ask).unwrap();
+    let budget = Watch::none().with_time(std::time::Duration::from_millis(30));
+    assert_eq!(survey.map(&budget).unwrap_err().kind(), ErrorKind::Budget);
+    let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
+    assert_eq!(survey.map(&Watch::none().with_cancel(flag)).unwrap_err().kind(), ErrorKind::Cancelled);
+}
