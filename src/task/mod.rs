@@ -9,10 +9,12 @@ mod drawing;
 mod floor;
 mod follow;
 mod journey;
+mod lattice;
 mod pilot;
 mod plan;
 mod reach;
 mod search;
+mod stance;
 
 pub use body::Body;
 pub use course::{Blocked, Course, Goal, Method};
