@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use groebot::solver::MAX_JOINTS;
 
-use crate::kernel::Kernel;
+use crate::kernel::{Answer, Kernel};
 use crate::sink::{Sink, Status};
 use crate::targets::Targets;
 
@@ -72,12 +72,11 @@ fn keep_within(
         targets.row(target, &mut numbers);
         if let Ok(found) = kernel.solve_within(&numbers, limits) {
             sink.taken = begun;
-            for answer in found {
+            for answer in &found {
                 let Some(rows) = sink.more(1) else { return };
-                rows.q.copy_from_slice(&answer.q);
-                rows.residual[0] = answer.residual;
-                rows.branch[0] = answer.branch as i32;
-                rows.free[0] = answer.free.iter().fold(0, |bits, joint| bits | 1 << joint);
+                let Answer { q, residual, branch, free, .. } = answer.into();
+                rows.q.copy_from_slice(q);
+                (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
             }
         }
     }

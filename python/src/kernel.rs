@@ -66,6 +66,21 @@ impl<'a> From<&'a Solution> for Answer<'a> {
     }
 }
 
+impl<'a, M: Mechanism> From<&'a runtime::Solution<M>> for Answer<'a> {
+    fn from(solution: &'a runtime::Solution<M>) -> Self {
+        let runtime::Solution { q, residual, branch, free, chosen, .. } = solution;
+        Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free, chosen: *chosen }
+    }
+}
+
+impl From<Answer<'_>> for Solution {
+    fn from(answer: Answer<'_>) -> Self {
+        let Answer { q, residual, branch, free, chosen } = answer;
+        let free = (0..q.len()).filter(|joint| free >> joint & 1 == 1).collect();
+        Solution { q: q.to_vec(), residual, branch, free, chosen }
+    }
+}
+
 /// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
 pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink<'_>, usize, usize, Status);
 
@@ -102,10 +117,7 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
             Array::by(self.shape.capacity, |_| runtime::Solution::empty(&self.mechanism));
         let room = room.as_mut();
         let count = self.mechanism.solve(&self.row(target), room).map_err(refused)?;
-        for answer in &room[..count] {
-            let runtime::Solution { q, residual, branch, free, chosen, .. } = answer;
-            take(Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free, chosen: *chosen });
-        }
+        room[..count].iter().for_each(|answer| take(answer.into()));
         Ok(())
     }
 
@@ -113,7 +125,7 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
         let limits = Array::by(limits.len(), |i| limits[i]);
         let mut room = vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity];
         let count = self.mechanism.solve_within(&self.row(target), &limits, &mut room).map_err(refused)?;
-        Ok(room[..count].iter().map(solution).collect())
+        Ok(room[..count].iter().map(|answer| Answer::from(answer).into()).collect())
     }
 
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
@@ -177,17 +189,6 @@ fn why(form: Status, solved: std::result::Result<(), runtime::Error>) -> Status 
 fn refused(error: runtime::Error) -> Error {
     let is_open = matches!(error, runtime::Error::OpenStratum(_));
     Error::new(if is_open { ErrorKind::Unsupported } else { ErrorKind::BadValue }, error.to_string())
-}
-
-fn solution<M: Mechanism>(answer: &runtime::Solution<M>) -> Solution {
-    let joints = answer.q.as_ref().len();
-    Solution {
-        q: answer.q.as_ref().to_vec(),
-        residual: answer.residual,
-        branch: answer.branch,
-        free: (0..joints).filter(|joint| answer.is_free(*joint)).collect(),
-        chosen: answer.chosen,
-    }
 }
 
 /// The program of a derived solver.

@@ -11,7 +11,6 @@ use pyo3::types::PyList;
 use crate::arrays::{Numbers, finite, joint_rows, shaped};
 use crate::batch::reason;
 use crate::errors::bad_value;
-use crate::kernel::Answer;
 use crate::sink::Status;
 use crate::solver::chain;
 use crate::stored::Stored;
@@ -29,11 +28,7 @@ impl std::fmt::Debug for ByKernel<'_> {
 impl InverseKinematics for ByKernel<'_> {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> groebot::Result<()> {
         out.clear();
-        self.0.kernel.solve(&[&target.numbers()[..], given].concat(), &mut |answer| {
-            let Answer { q, residual, branch, free, chosen } = answer;
-            let free = (0..q.len()).filter(|joint| free >> joint & 1 == 1).collect();
-            out.push(Solution { q: q.to_vec(), residual, branch, free, chosen });
-        })
+        self.0.kernel.solve(&[&target.numbers()[..], given].concat(), &mut |answer| out.push(answer.into()))
     }
 }
 
