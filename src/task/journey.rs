@@ -1,20 +1,19 @@
 //! A walk that grows step by step along a course. Main type: [`Journey`].
 
 use std::borrow::Cow;
-use std::fmt;
 
-use nalgebra::{Point2, Point3};
+use nalgebra::Point2;
 
 use super::course::Course;
 use super::floor::Floor;
 use super::follow::{Next, next};
 use super::lattice::Lattice;
 use super::pilot::Pilot;
+use super::refusal::{Obstacle, Reason, Refusal, met};
 use super::search::{Guide, Refused, Search, key, step_key};
 use super::stance::Stances;
-use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Polygon, Side, Walk};
+use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Side, Walk};
 use crate::nav::{self, Field};
-use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many steps ahead on its course a search looks for a place at first.
@@ -26,52 +25,6 @@ const MOST_NEAR: usize = 8;
 
 /// Trunks whose heights differ by less are at the same \[m\].
 const SAME_HEIGHT: f64 = 1e-9;
-
-/// What meets an obstacle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The sole of that side.
-    Sole(Side),
-    /// The body.
-    Body,
-}
-
-/// Why a step is not taken.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Reason {
-    /// It cannot be walked: a joint's limit or speed, a sole out of reach, the balance.
-    Gait(String),
-    /// It would meet an obstacle, at a place of the floor \[m\].
-    Obstacle(Obstacle, Point2<f64>),
-}
-
-/// A step that was planned and is not taken.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
-    /// The number of the step that it would have been, from 1.
-    pub step: usize,
-    /// The foot and where it would have landed.
-    pub footstep: Footstep,
-    /// Why it is not taken.
-    pub reason: Reason,
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Footstep { side, print } = &self.footstep;
-        write!(f, "step {}, {} foot to ({:.3}, {:.3}): ", self.step, side.name(), print.x, print.y)?;
-        match &self.reason {
-            Reason::Gait(text) => write!(f, "{text}"),
-            Reason::Obstacle(Obstacle::Body, at) => {
-                write!(f, "the body meets an obstacle at ({:.3}, {:.3})", at.x, at.y)
-            }
-            Reason::Obstacle(Obstacle::Sole(side), at) => {
-                write!(f, "the {} sole meets an obstacle at ({:.3}, {:.3})", side.name(), at.x, at.y)
-            }
-        }
-    }
-}
 
 /// A walk that grows step by step. Between two steps the robot rests on both feet: floor and course may change there.
 #[derive(Clone, Debug)]
@@ -388,48 +341,4 @@ fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) ->
 /// The middle of the feet if the other one came to the side of a step.
 fn beside(pilot: &Pilot, step: &Footstep) -> Footprint {
     step.print.then(&Footprint { y: -step.side.sign() * pilot.half_width(), ..Footprint::default() })
-}
-
-/// What of a walk meets an obstacle first, and where: soles and body as they are swept from sample to sample.
-///
-/// # Errors
-/// As [`crate::dynamics::Model::place`].
-fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Point2<f64>)>> {
-    let biped = &pilot.walker().biped;
-    for (sample, (reference, posture)) in walk.references.iter().zip(&walk.motion.postures).enumerate() {
-        let before = sample.saturating_sub(1);
-        for side in [Side::Left, Side::Right] {
-            let poses = [before, sample].map(|sample| walk.references[sample].world_from_soles[side as usize]);
-            let stood = sample > 0 && reference.stands[side as usize];
-            let middle: Point2<f64> = poses[1].translation.vector.xy().into();
-            if stood || floor.is_far(&middle, pilot.sole_reach(side)) {
-                continue;
-            }
-            if let Some(at) = floor.under_sole(&both(poses.map(|pose| sole(pilot, side, &pose)))) {
-                return Ok(Some((Obstacle::Sole(side), at)));
-            }
-        }
-        let placed = biped.model.place(&posture.world_from_torso, &posture.q)?;
-        let middle: Point2<f64> = posture.world_from_torso.translation.vector.xy().into();
-        if floor.is_far(&middle, pilot.body().reach(&placed, &middle)) {
-            continue;
-        }
-        let outline = |sample: usize| pilot.body().outline(biped, &walk.motion.postures[sample]);
-        if let Some(at) = floor.beside_body(&both([outline(before)?, outline(sample)?])) {
-            return Ok(Some((Obstacle::Body, at)));
-        }
-    }
-    Ok(None)
-}
-
-/// What two outlines and all between them cover.
-fn both(outlines: [Polygon; 2]) -> Polygon {
-    Polygon::hull(&outlines.iter().flat_map(|outline| outline.corners()).copied().collect::<Vec<_>>())
-}
-
-/// A sole from above.
-fn sole(pilot: &Pilot, side: Side, world_from_sole: &Pose) -> Polygon {
-    let corners = &pilot.walker().biped.feet[side as usize].corners;
-    let at = |corner: &Point2<f64>| (world_from_sole * Point3::new(corner.x, corner.y, 0.0)).xy();
-    Polygon::hull(&corners.iter().map(at).collect::<Vec<_>>())
 }

@@ -13,13 +13,15 @@ mod lattice;
 mod pilot;
 mod plan;
 mod reach;
+mod refusal;
 mod search;
 mod stance;
 
 pub use body::Body;
 pub use course::{Blocked, Course, Goal, Method};
 pub use floor::Floor;
-pub use journey::{Journey, Obstacle, Reason, Refusal};
+pub use journey::Journey;
 pub use pilot::Pilot;
 pub use plan::Plan;
 pub use reach::Reach;
+pub use refusal::{Obstacle, Reason, Refusal};
