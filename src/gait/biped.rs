@@ -167,8 +167,7 @@ impl Biped {
 
     /// What the foot of `side` covers when its sole stands flat on `print`.
     pub fn sole_at(&self, side: Side, print: &Footprint) -> Polygon {
-        let corners = &self.feet[side as usize].corners;
-        Polygon::hull(&corners.iter().map(|corner| print.carry(corner)).collect::<Vec<_>>())
+        Polygon::hull(&print.carry_all(&self.feet[side as usize].corners))
     }
 
     /// The support polygon: the hull of the contact points of the feet that stand, each at the pose world_from_sole \[m\]; the floor is

@@ -65,9 +65,26 @@ impl Footprint {
         Footprint { x: at.x, y: at.y, yaw: self.yaw + other.yaw }
     }
 
+    /// What stands below a pose whose x axis is not vertical: its origin, and where its x axis points.
+    pub fn below(pose: &Pose) -> Footprint {
+        let ahead = pose.rotation * Vector3::x();
+        Footprint { x: pose.translation.x, y: pose.translation.y, yaw: ahead.y.atan2(ahead.x) }
+    }
+
     /// A point seen from here, in the world.
     pub fn carry(&self, point: &Point2<f64>) -> Point2<f64> {
         self.point() + Rotation2::new(self.yaw) * point.coords
+    }
+
+    /// Points seen from here, in the world.
+    pub fn carry_all(&self, points: &[Point2<f64>]) -> Vec<Point2<f64>> {
+        let turn = Rotation2::new(self.yaw);
+        points.iter().map(|point| self.point() + turn * point.coords).collect()
+    }
+
+    /// A point of the world, seen from here.
+    pub fn seen(&self, point: &Point2<f64>) -> Point2<f64> {
+        Point2::from(Rotation2::new(-self.yaw) * (point - self.point()))
     }
 
     /// The origin.

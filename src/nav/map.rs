@@ -102,7 +102,7 @@ impl Map {
         let mut map = self.clone();
         for shape in obstacles {
             shape.check()?;
-            for cell in self.touched(&self.placed_in_map(shape)) {
+            for cell in self.touched(&self.placed_in_map(shape), |_| true) {
                 map.cells[cell] = Cell::Occupied;
             }
         }
@@ -116,7 +116,7 @@ impl Map {
         let beyond = [low, high].into_iter().find(|corner| !self.is_on(corner));
         beyond
             .map(|corner| self.in_world(&corner))
-            .or_else(|| self.touched(&placed).find(|cell| !self.is_free(*cell)).map(|cell| self.centre(cell)))
+            .or_else(|| self.touched(&placed, |cell| !self.is_free(cell)).next().map(|cell| self.centre(cell)))
     }
 
     /// A shape of the world, counted in cells.
@@ -124,8 +124,12 @@ impl Map {
         shape.moved(&|point| self.in_map(point), 1.0 / self.resolution)
     }
 
-    /// The cells that a shape touches, which is counted in cells.
-    fn touched<'a>(&self, placed: &'a Shape) -> impl Iterator<Item = usize> + use<'a> {
+    /// The cells that a shape touches, which is counted in cells, of those that are wanted.
+    fn touched<'a, W: Fn(usize) -> bool>(
+        &self,
+        placed: &'a Shape,
+        wanted: W,
+    ) -> impl Iterator<Item = usize> + use<'a, W> {
         let (low, high) = placed.bounds();
         let range = |low: f64, high: f64, most: usize| {
             (low.floor().max(0.0) as usize).min(most)..(high.floor() + 1.0).clamp(0.0, most as f64) as usize
@@ -134,7 +138,8 @@ impl Map {
         let width = self.columns;
         let all = rows.flat_map(move |row| columns.clone().map(move |column| (row, column)));
         let touches = |(row, column): &(usize, usize)| placed.touches(&Point2::new(*column as f64, *row as f64));
-        all.filter(touches).map(move |(row, column)| row * width + column)
+        let cell = move |(row, column): &(usize, usize)| row * width + column;
+        all.filter(move |at| wanted(cell(at))).filter(touches).map(move |at| cell(&at))
     }
 
     /// The same, cells that have not been seen taken to be free.
@@ -148,6 +153,16 @@ impl Map {
     #[must_use]
     pub fn with_unknown_occupied(mut self) -> Self {
         self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Occupied);
+        self
+    }
+
+    /// The same where of the free cells only those stay free that are `kept`.
+    pub(crate) fn keeping_where(mut self, mut kept: impl FnMut(usize) -> bool) -> Self {
+        for cell in 0..self.cells.len() {
+            if self.is_free(cell) && !kept(cell) {
+                self.cells[cell] = Cell::Occupied;
+            }
+        }
         self
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nalgebra::{Point2, Rotation2, Vector2, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::gait::Footprint;
@@ -162,7 +162,7 @@ fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2
     let distance = |row: usize| {
         let side = usize::from(!soles[0].stands[row]);
         let seen = |sole: &Contact, walk: &Trajectory, point: usize| {
-            seen_from(&print(&sole.poses[row]), walk.points[point].at[row].xy())
+            Footprint::below(&sole.poses[row]).seen(&walk.points[point].at[row].xy())
         };
         (seen(own[side], answer, is) - seen(soles[side], plan, should)).norm()
     };
@@ -170,26 +170,15 @@ fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2
     Ok([distances[greatest(&distances)], rms(distances.iter().copied())])
 }
 
-/// Where a sole is seen from above, and its heading.
-fn print(pose: &Pose) -> Footprint {
-    let ahead = pose.rotation * Vector3::x();
-    Footprint { x: pose.translation.x, y: pose.translation.y, yaw: ahead.y.atan2(ahead.x) }
-}
-
-/// A point as it is seen from a footprint.
-fn seen_from(print: &Footprint, at: Point2<f64>) -> Vector2<f64> {
-    Rotation2::new(-print.yaw) * (at - print.point())
-}
-
 /// The middle of the feet at a sample.
 fn middle(soles: [&Contact; 2], row: usize) -> Footprint {
-    let [left, right] = soles.map(|sole| print(&sole.poses[row]));
+    let [left, right] = soles.map(|sole| Footprint::below(&sole.poses[row]));
     left.middle(&right)
 }
 
 /// The way of the middle of the feet; turns are followed from sample to sample.
 fn way(soles: [&Contact; 2], samples: usize) -> Way {
-    let seen = seen_from(&middle(soles, 0), middle(soles, samples - 1).point());
+    let seen = middle(soles, 0).seen(&middle(soles, samples - 1).point());
     let turn = (1..samples).map(|row| angle::wrap(middle(soles, row).yaw - middle(soles, row - 1).yaw)).sum();
     Way { ahead: seen.x, left: seen.y, turn }
 }

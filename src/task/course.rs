@@ -6,6 +6,7 @@ use nalgebra::Point2;
 
 use super::floor::Floor;
 use super::pilot::Pilot;
+use super::stance::Stances;
 use crate::gait::Footprint;
 use crate::nav::{self, Enclosure, Field, Forces, Guide, Map, Potential, Way};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -63,12 +64,12 @@ pub struct Course {
     pub goal: Goal,
     /// The way.
     pub way: Way,
-    /// Whether there is room for the walker on it however it is turned; else only for its body's core, and steps are to be searched.
+    /// Whether there is room for the walker on it however it is turned; else steps are to be searched.
     pub is_wide: bool,
 }
 
 impl Course {
-    /// The way from a place to a goal: with room for the walker however it is turned, or where there is none with room for its core. Where there is no way for that, either, what encloses start or goal,
+    /// The way from a place to a goal: with room for the walker however it is turned; where there is none, with room for it at some heading everywhere; else with room for its core. Where there is no way for that, either, what encloses start or goal,
     /// which is proof that the walker gets nowhere.
     ///
     /// # Errors
@@ -84,12 +85,17 @@ impl Course {
         if goal.heading.is_some_and(|heading| !heading.is_finite()) {
             return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));
         }
-        let wide = floor.of_disc(pilot.radius() + floor.map().half_diagonal() + ROUNDED * floor.apart())?;
-        match way(&wide, &start.point(), &goal.place, method, watch) {
-            Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide: true })),
-            Ok(Err(_)) => {}
-            Err(error) if error.kind() == ErrorKind::BadValue => {}
-            Err(error) => return Err(error),
+        let places = |is_wide: bool| match is_wide {
+            true => floor.of_disc(pilot.radius() + floor.map().half_diagonal() + ROUNDED * floor.apart()),
+            false => Stances::new(pilot, floor)?.places(),
+        };
+        for is_wide in [true, false] {
+            match way(&places(is_wide)?, &start.point(), &goal.place, method, watch) {
+                Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide })),
+                Ok(Err(_)) => {}
+                Err(error) if error.kind() == ErrorKind::BadValue => {}
+                Err(error) => return Err(error),
+            }
         }
         let narrow = floor.of_core(pilot)?;
         let found = way(&narrow, &start.point(), &goal.place, method, watch)?;

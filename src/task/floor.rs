@@ -71,13 +71,21 @@ impl Floor {
 
     /// A place where a sole would stand on an obstacle.
     pub fn under_sole(&self, sole: &Polygon) -> Option<Point2<f64>> {
-        self.map.obstacle_under(&Shape::Polygon(sole.corners().to_vec()))
+        self.under(sole.corners().to_vec())
     }
 
     /// A place where a body would come too near to an obstacle.
     pub fn beside_body(&self, outline: &Polygon) -> Option<Point2<f64>> {
-        let corners: Vec<Point2<f64>> =
-            outline.corners().iter().flat_map(|corner| around(*corner, self.apart)).collect();
-        self.map.obstacle_under(&Shape::Polygon(Polygon::hull(&corners).corners().to_vec()))
+        self.under(self.grown(outline).corners().to_vec())
+    }
+
+    /// An outline and all that keeps away from it.
+    pub(super) fn grown(&self, outline: &Polygon) -> Polygon {
+        Polygon::hull(&outline.corners().iter().flat_map(|corner| around(*corner, self.apart)).collect::<Vec<_>>())
+    }
+
+    /// A place under a polygon that is not free.
+    pub(super) fn under(&self, corners: Vec<Point2<f64>>) -> Option<Point2<f64>> {
+        self.map.obstacle_under(&Shape::Polygon(corners))
     }
 }

@@ -1,74 +1,30 @@
 //! A walk that grows step by step along a course. Main type: [`Journey`].
 
 use std::borrow::Cow;
-use std::collections::HashSet;
-use std::fmt;
 
-use nalgebra::{Point2, Point3};
+use nalgebra::Point2;
 
 use super::course::Course;
 use super::floor::Floor;
 use super::follow::{Next, next};
+use super::lattice::Lattice;
 use super::pilot::Pilot;
-use super::search::{Key, Search, fits, key};
-use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Polygon, Side, Walk};
-use crate::spatial::Pose;
+use super::refusal::{Obstacle, Reason, Refusal, met};
+use super::search::{Guide, Refused, Search, key, step_key};
+use super::stance::Stances;
+use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Side, Walk};
+use crate::nav::{self, Field};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// How many steps ahead on its course a search looks for a place at first.
 const STEPS_AHEAD: f64 = 6.0;
-/// How often steps are searched anew on one journey at least, and once more for so many steps that were taken.
-const MOST_SEARCHES: usize = 12;
+/// How often steps are searched anew on a course at least, once more for so many steps that were taken, and how often to a place some steps ahead.
+const MOST_SEARCHES: usize = 60;
 const STEPS_A_SEARCH: usize = 4;
+const MOST_NEAR: usize = 8;
 
 /// Trunks whose heights differ by less are at the same \[m\].
 const SAME_HEIGHT: f64 = 1e-9;
-
-/// What meets an obstacle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The sole of that side.
-    Sole(Side),
-    /// The body.
-    Body,
-}
-
-/// Why a step is not taken.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Reason {
-    /// It cannot be walked: a joint's limit or speed, a sole out of reach, the balance.
-    Gait(String),
-    /// It would meet an obstacle, at a place of the floor \[m\].
-    Obstacle(Obstacle, Point2<f64>),
-}
-
-/// A step that was planned and is not taken.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
-    /// The number of the step that it would have been, from 1.
-    pub step: usize,
-    /// The foot and where it would have landed.
-    pub footstep: Footstep,
-    /// Why it is not taken.
-    pub reason: Reason,
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Footstep { side, print } = &self.footstep;
-        write!(f, "step {}, {} foot to ({:.3}, {:.3}): ", self.step, side.name(), print.x, print.y)?;
-        match &self.reason {
-            Reason::Gait(text) => write!(f, "{text}"),
-            Reason::Obstacle(Obstacle::Body, at) => {
-                write!(f, "the body meets an obstacle at ({:.3}, {:.3})", at.x, at.y)
-            }
-            Reason::Obstacle(Obstacle::Sole(side), at) => {
-                write!(f, "the {} sole meets an obstacle at ({:.3}, {:.3})", side.name(), at.x, at.y)
-            }
-        }
-    }
-}
 
 /// A walk that grows step by step. Between two steps the robot rests on both feet: floor and course may change there.
 #[derive(Clone, Debug)]
@@ -83,8 +39,10 @@ pub struct Journey<'p> {
     corner: usize,
     /// Steps that were searched and are still to be taken.
     searched: Vec<Footstep>,
+    /// What led them to the goal, as long as there are some.
+    lattice: Option<Lattice>,
     searches: usize,
-    forbidden: HashSet<(Key, Key)>,
+    refused: Refused,
     refusals: Vec<Refusal>,
 }
 
@@ -108,8 +66,9 @@ impl<'p> Journey<'p> {
             side: None,
             corner: 1,
             searched: Vec::new(),
+            lattice: None,
             searches: 0,
-            forbidden: HashSet::new(),
+            refused: Refused::default(),
             refusals: Vec::new(),
         })
     }
@@ -145,7 +104,8 @@ impl<'p> Journey<'p> {
         // A course begins where the robot is.
         (self.corner, self.searches) = (1, 0);
         self.searched.clear();
-        self.forbidden.clear();
+        self.lattice = None;
+        self.refused = Refused::default();
     }
 
     /// To be said when the robot is to walk otherwise from the next step on: other lengths, another pace, or another height, which it takes at once: then the walk grows by that.
@@ -173,9 +133,9 @@ impl<'p> Journey<'p> {
 
     /// The same journey with a pilot of its own.
     pub fn into_owned(self) -> Journey<'static> {
-        let Journey { pilot, walk, lead, side, corner, searched, searches, forbidden, refusals } = self;
+        let Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals } = self;
         let pilot = Cow::Owned(pilot.into_owned());
-        Journey { pilot, walk, lead, side, corner, searched, searches, forbidden, refusals }
+        Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals }
     }
 
     /// Takes the next step along a course; false where it has arrived, with its feet side by side.
@@ -191,6 +151,9 @@ impl<'p> Journey<'p> {
                 let step = self.searched.remove(0);
                 if self.take(floor, step, watch)? {
                     self.lead = beside(&self.pilot, &step);
+                    if self.searched.is_empty() {
+                        self.lattice = None;
+                    }
                     return Ok(true);
                 }
                 self.searched.clear();
@@ -241,16 +204,25 @@ impl<'p> Journey<'p> {
         // Who turns starts with the foot on that side.
         let turns = leads.first().map_or(0.0, |lead| lead.yaw - self.lead.yaw);
         let side = self.side.unwrap_or(if turns < 0.0 { Side::Right } else { Side::Left });
-        for lead in leads {
-            let step = Footstep { side, print: lead.feet(self.pilot.half_width())[side as usize] };
-            let mut feet = self.feet();
-            feet[side as usize] = step.print;
-            if fits(&self.pilot, floor, &feet, side) && self.take(floor, step, watch)? {
-                self.lead = *lead;
+        let step = |lead: &Footprint| Footstep { side, print: lead.feet(self.pilot.half_width())[side as usize] };
+        let steps: Vec<_> = leads.iter().map(|lead| (*lead, step(lead))).collect();
+        for (lead, step) in steps {
+            if self.fits(floor, &step) && self.take(floor, step, watch)? {
+                self.lead = lead;
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Whether the floor has room for a foot where it is to land, and for the body between both.
+    fn fits(&self, floor: &Floor, step: &Footstep) -> bool {
+        let mut feet = self.feet();
+        feet[step.side as usize] = step.print;
+        let (middle, biped) = (feet[0].middle(&feet[1]), &self.pilot.walker().biped);
+        floor.under_sole(&biped.sole_at(step.side, &step.print)).is_none()
+            && (floor.is_far(&middle.point(), self.pilot.radius())
+                || floor.beside_body(&self.pilot.outline_at(&middle)).is_none())
     }
 
     /// Takes a step, or notes why not.
@@ -267,37 +239,68 @@ impl<'p> Journey<'p> {
             Err(error) if error.kind() == ErrorKind::BadValue => Reason::Gait(error.message().to_owned()),
             Err(error) => return Err(error),
         };
-        let stance = footstep.side.other();
-        let from = key(&self.pilot, stance, &self.feet()[stance as usize]);
-        self.forbidden.insert((from, key(&self.pilot, footstep.side, &footstep.print)));
+        let Footstep { side, print } = footstep;
+        let (stance, feet) = (side.other(), self.feet());
+        if let Reason::Gait(_) = reason {
+            self.refused.steps.insert(step_key(&self.pilot, &feet, side, &print));
+        }
+        let from = key(&self.pilot, stance, &feet[stance as usize]);
+        self.refused.pairs.insert((from, key(&self.pilot, side, &print)));
         self.refusals.push(Refusal { step: self.walk.schedule.route.steps.len() + 1, footstep, reason });
         Ok(false)
     }
 
-    /// Searches for steps around what is in the way: to a place some steps ahead on the course, or where none lead there to the goal.
+    /// Searches for steps around what is in the way: to a place some steps ahead on the course, or where none lead there to the goal, by what stances get there.
     fn search(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<()> {
         if self.searches >= MOST_SEARCHES + self.walk.schedule.route.steps.len() / STEPS_A_SEARCH {
             return self.stuck("steps were searched too often; none leads on");
         }
         self.searches += 1;
-        let map = floor.of_core(&self.pilot)?;
-        let last = course.way.points.len().saturating_sub(1);
-        let near = self.near(floor, course);
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
-        // A way along a border of cells is beside obstacles: what is near may be none of the core's places.
-        let targets = near.into_iter().chain([(last, course.goal.place)]);
-        let targets = targets.filter(|(_, at)| map.free_cell_at(at).is_ok());
-        for (corner, target) in targets {
-            let search = Search::new((&self.pilot, floor), &map, &target, &self.forbidden, watch)?;
-            for first in sides {
-                let steps = search.steps(self.feet(), first, watch)?.unwrap_or_default();
+        let last = course.way.points.len().saturating_sub(1);
+        if self.lattice.is_none() && self.searches <= MOST_NEAR {
+            let map = floor.of_core(&self.pilot)?;
+            // A way along a border of cells is beside obstacles: what is near may be none of the places.
+            if let Some((corner, target)) = self.near(floor, course)
+                && map.free_cell_at(&target).is_ok()
+            {
+                let field = Field::new(&map, &[target], nav::Method::FastMarching(1), watch)?;
+                let steps = self.found(floor, target, Guide::Field(&map, &field), &sides, watch)?;
                 if !steps.is_empty() {
                     (self.searched, self.corner) = (steps, corner);
                     return Ok(());
                 }
             }
         }
-        self.stuck("no steps of this robot lead on")
+        let lattice = match self.lattice.take() {
+            Some(lattice) => lattice,
+            None => Lattice::new(&Stances::new(&self.pilot, floor)?, &course.goal.place, &self.middle(), watch)?,
+        };
+        let steps = self.found(floor, course.goal.place, Guide::Lattice(&lattice), &sides, watch)?;
+        if steps.is_empty() {
+            return self.stuck("no steps of this robot lead on");
+        }
+        (self.searched, self.corner, self.lattice) = (steps, last, Some(lattice));
+        Ok(())
+    }
+
+    /// The steps that a search finds, with one foot or the other one first.
+    fn found(
+        &self,
+        floor: &Floor,
+        goal: Point2<f64>,
+        guide: Guide<'_>,
+        sides: &[Side],
+        watch: &Watch,
+    ) -> Result<Vec<Footstep>> {
+        let stances = Stances::new(&self.pilot, floor)?;
+        let search = Search::new(&stances, goal, guide, &self.refused);
+        for first in sides {
+            if let Some(steps) = search.steps(self.feet(), *first, watch)?.filter(|steps| !steps.is_empty()) {
+                return Ok(steps);
+            }
+        }
+        Ok(Vec::new())
     }
 
     /// The first place some steps ahead on the course where the body has room looking along it, and the corner behind that.
@@ -338,48 +341,4 @@ fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) ->
 /// The middle of the feet if the other one came to the side of a step.
 fn beside(pilot: &Pilot, step: &Footstep) -> Footprint {
     step.print.then(&Footprint { y: -step.side.sign() * pilot.half_width(), ..Footprint::default() })
-}
-
-/// What of a walk meets an obstacle first, and where: soles and body as they are swept from sample to sample.
-///
-/// # Errors
-/// As [`crate::dynamics::Model::place`].
-fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(Obstacle, Point2<f64>)>> {
-    let biped = &pilot.walker().biped;
-    for (sample, (reference, posture)) in walk.references.iter().zip(&walk.motion.postures).enumerate() {
-        let before = sample.saturating_sub(1);
-        for side in [Side::Left, Side::Right] {
-            let poses = [before, sample].map(|sample| walk.references[sample].world_from_soles[side as usize]);
-            let stood = sample > 0 && reference.stands[side as usize];
-            let middle: Point2<f64> = poses[1].translation.vector.xy().into();
-            if stood || floor.is_far(&middle, pilot.sole_reach(side)) {
-                continue;
-            }
-            if let Some(at) = floor.under_sole(&both(poses.map(|pose| sole(pilot, side, &pose)))) {
-                return Ok(Some((Obstacle::Sole(side), at)));
-            }
-        }
-        let placed = biped.model.place(&posture.world_from_torso, &posture.q)?;
-        let middle: Point2<f64> = posture.world_from_torso.translation.vector.xy().into();
-        if floor.is_far(&middle, pilot.body().reach(&placed, &middle)) {
-            continue;
-        }
-        let outline = |sample: usize| pilot.body().outline(biped, &walk.motion.postures[sample]);
-        if let Some(at) = floor.beside_body(&both([outline(before)?, outline(sample)?])) {
-            return Ok(Some((Obstacle::Body, at)));
-        }
-    }
-    Ok(None)
-}
-
-/// What two outlines and all between them cover.
-fn both(outlines: [Polygon; 2]) -> Polygon {
-    Polygon::hull(&outlines.iter().flat_map(|outline| outline.corners()).copied().collect::<Vec<_>>())
-}
-
-/// A sole from above.
-fn sole(pilot: &Pilot, side: Side, world_from_sole: &Pose) -> Polygon {
-    let corners = &pilot.walker().biped.feet[side as usize].corners;
-    let at = |corner: &Point2<f64>| (world_from_sole * Point3::new(corner.x, corner.y, 0.0)).xy();
-    Polygon::hull(&corners.iter().map(at).collect::<Vec<_>>())
 }

@@ -1,6 +1,6 @@
 //! A walker that finds its way. Main type: [`Pilot`].
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Point2;
 
 use super::body::Body;
 use super::reach::Reach;
@@ -12,6 +12,9 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// A step that would have to be slower than so many times its pace is not taken: another one is.
 const SLOWEST: f64 = 2.0;
 
+/// Every so many samples of a step are looked at to see what the body covers.
+const EVERY: usize = 4;
+
 /// A walker with its body, how far it steps, and what it covers of the floor.
 #[derive(Clone, Debug)]
 pub struct Pilot {
@@ -19,8 +22,10 @@ pub struct Pilot {
     usual: Usual,
     body: Body,
     reach: Reach,
-    /// What the body covers while it steps, seen from the middle of the feet.
+    /// What the body covers while it steps in its place, seen from the middle of the feet.
     outline: Polygon,
+    /// What it covers while it makes its greatest steps and turns.
+    stride: Polygon,
     /// How far the body always reaches, whichever way it looks \[m\].
     core: f64,
     /// How far body and soles reach at most \[m\].
@@ -50,6 +55,7 @@ impl Pilot {
             body,
             reach,
             outline: Polygon::hull(&[Point2::origin()]),
+            stride: Polygon::hull(&[Point2::origin()]),
             core: 0.0,
             radius: 0.0,
             soles,
@@ -58,12 +64,14 @@ impl Pilot {
         let posture = &stand.motion.postures[0];
         let outline = pilot.body.outline(&pilot.walker.biped, posture)?;
         pilot.core = outline.signed_distance(&Point2::origin()).max(0.0);
-        let sway = pilot.usual.amplitude;
-        let aside = |y: f64| outline.corners().iter().map(move |corner| corner + Vector2::new(0.0, y));
-        pilot.outline = Polygon::hull(&aside(sway).chain(aside(-sway)).collect::<Vec<_>>());
+        let Reach { ahead, turn, .. } = *pilot.reach();
+        pilot.outline = pilot.covered(&Footprint::default(), watch)?;
+        let turned = pilot.covered(&Footprint { yaw: turn, ..Footprint::default() }, watch)?;
+        let strode = pilot.covered(&Footprint { x: ahead, ..Footprint::default() }, watch)?;
+        pilot.stride = hull(&[&pilot.outline, &turned, &strode]);
         let feet = Footprint::default().feet(pilot.half_width());
         let soles = [Side::Left, Side::Right].map(|side| pilot.walker.biped.sole_at(side, &feet[side as usize]));
-        pilot.radius = soles.iter().chain([&pilot.outline]).map(|own| farthest(own.corners())).fold(0.0, f64::max);
+        pilot.radius = soles.iter().chain([&pilot.stride]).map(|own| farthest(own.corners())).fold(0.0, f64::max);
         Ok(pilot)
     }
 
@@ -108,9 +116,14 @@ impl Pilot {
         matches!(self.usual.gait, Gait::OneStep(one_step) if one_step.upright.is_some())
     }
 
-    /// What the body covers while it steps with the middle of its feet there.
+    /// What the body covers while it steps in its place, with the middle of its feet there.
     pub fn outline_at(&self, middle: &Footprint) -> Polygon {
-        Polygon::hull(&self.outline.corners().iter().map(|corner| middle.carry(corner)).collect::<Vec<_>>())
+        Polygon::hull(&middle.carry_all(self.outline.corners()))
+    }
+
+    /// What the body covers while it steps in its place, and while it makes its greatest steps and turns, seen from the middle of the feet.
+    pub(super) fn outlines(&self) -> [&Polygon; 2] {
+        [&self.outline, &self.stride]
     }
 
     /// How far from the middle of its feet it reaches at most, with its body and the soles side by side \[m\].
@@ -160,6 +173,33 @@ impl Pilot {
         plan_actions(&self.walker.biped, &self.walker.legs, &request, &[action], watch)
     }
 
+    /// What the body covers while each foot, one first and then the other one, steps by as much as the lead does, seen from where the middle of the feet is at
+    /// each time; steps that cannot be walked are left out.
+    fn covered(&self, step: &Footprint, watch: &Watch) -> Result<Polygon> {
+        let mut corners = Vec::new();
+        for first in [Side::Left, Side::Right] {
+            // A foot turns outwards first.
+            let step = Footprint { yaw: first.sign() * step.yaw, ..*step };
+            let (mut lead, mut feet) = (Footprint::default(), Footprint::default().feet(self.half_width()));
+            for side in [first, first.other()] {
+                lead = lead.then(&step);
+                let print = lead.feet(self.half_width())[side as usize];
+                let walk = match self.step(feet, Footstep { side, print }, watch) {
+                    Err(error) if error.kind() == ErrorKind::BadValue => break,
+                    walk => walk?,
+                };
+                feet[side as usize] = print;
+                for (reference, posture) in walk.references.iter().zip(&walk.motion.postures).step_by(EVERY) {
+                    let [left, right] = reference.world_from_soles.each_ref().map(Footprint::below);
+                    let world_from_middle = left.middle(&right);
+                    let outline = self.body.outline(&self.walker.biped, posture)?;
+                    corners.extend(outline.corners().iter().map(|corner| world_from_middle.seen(corner)));
+                }
+            }
+        }
+        Ok(Polygon::hull(&corners))
+    }
+
     fn walk(&self, route: Route, actions: &[Action], watch: &Watch) -> Result<Walk> {
         plan_actions(&self.walker.biped, &self.walker.legs, &self.request(route), actions, watch)
     }
@@ -177,6 +217,11 @@ fn crouched(usual: &Usual) -> Usual {
         one_step.upright = None;
     }
     usual
+}
+
+/// The hull of polygons.
+fn hull(polygons: &[&Polygon]) -> Polygon {
+    Polygon::hull(&polygons.iter().flat_map(|polygon| polygon.corners()).copied().collect::<Vec<_>>())
 }
 
 /// How far points are from the origin at most.

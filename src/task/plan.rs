@@ -4,8 +4,9 @@ use std::fmt;
 
 use super::course::{Blocked, Course, Goal, Method};
 use super::floor::Floor;
-use super::journey::{Journey, Refusal};
+use super::journey::Journey;
 use super::pilot::Pilot;
+use super::refusal::Refusal;
 use crate::gait::{Footprint, Walk};
 use crate::{Result, Watch};
 

@@ -1,0 +1,108 @@
+//! Where a walker has room on a floor. Main type: [`Stances`].
+
+use std::f64::consts::TAU;
+
+use nalgebra::Point2;
+
+use super::floor::Floor;
+use super::pilot::Pilot;
+use crate::Result;
+use crate::gait::{Footprint, Polygon, Side};
+use crate::nav::{Map, Shape};
+
+/// At so many headings a stance is tried.
+pub(super) const HEADINGS: usize = 16;
+
+/// A walker on a floor, and what it covers together with what it keeps away from.
+pub(super) struct Stances<'a> {
+    pub(super) pilot: &'a Pilot,
+    pub(super) floor: &'a Floor,
+    /// While it steps in its place, and while it makes its greatest steps, seen from the middle of the feet.
+    outlines: [Polygon; 2],
+    /// By heading, the cells that body and soles cover side by side about the middle of a cell, as columns and rows from it.
+    covered: [Vec<[i64; 2]>; HEADINGS],
+}
+
+impl<'a> Stances<'a> {
+    /// # Errors
+    /// As [`Map::new`].
+    pub(super) fn new(pilot: &'a Pilot, floor: &'a Floor) -> Result<Self> {
+        let outlines = pilot.outlines().map(|outline| floor.grown(outline));
+        let mut stances = Stances { pilot, floor, outlines, covered: Default::default() };
+        stances.covered = stances.cells()?;
+        Ok(stances)
+    }
+
+    /// What is covered by heading.
+    fn cells(&self) -> Result<[Vec<[i64; 2]>; HEADINGS]> {
+        let map = self.floor.map();
+        let reach =
+            self.outlines[0].corners().iter().map(|corner| corner.coords.norm()).fold(self.pilot.radius(), f64::max);
+        let half = (reach / map.resolution()).ceil() as i64 + 1;
+        let side = (2 * half + 1) as usize;
+        let around = Map::new(side, side, map.resolution())?.placed(Point2::origin(), map.yaw())?;
+        let at = around.centre(around.cells().len() / 2);
+        let mut all: [Vec<[i64; 2]>; HEADINGS] = Default::default();
+        for (heading, covered) in all.iter_mut().enumerate() {
+            let middle = Footprint { x: at.x, y: at.y, yaw: yaw(heading) };
+            let feet = middle.feet(self.pilot.half_width());
+            let sole = |side: Side| feet[side as usize].carry_all(self.sole(side));
+            let parts = [middle.carry_all(self.outlines[0].corners()), sole(Side::Left), sole(Side::Right)];
+            let with = around.with(&parts.map(Shape::Polygon))?;
+            let taken = (0..with.cells().len()).filter(|cell| !with.is_free(*cell)).map(|cell| cell as i64);
+            covered.extend(taken.map(|cell| [cell % side as i64 - half, cell / side as i64 - half]));
+        }
+        Ok(all)
+    }
+
+    /// Whether there is room for a foot where it has landed, and for the body between both; with its greatest steps where it strides.
+    pub(super) fn fits(&self, feet: &[Footprint; 2], landed: Side, strides: bool) -> bool {
+        self.is_on_floor(feet, landed) && self.has_room(&feet[0].middle(&feet[1]), strides)
+    }
+
+    /// Whether there is room with the feet side by side about the middle of a cell, at a heading.
+    pub(super) fn stands(&self, cell: usize, heading: usize) -> bool {
+        let map = self.floor.map();
+        let (columns, rows) = (map.columns() as i64, map.rows() as i64);
+        let (column, row) = (cell as i64 % columns, cell as i64 / columns);
+        self.covered[heading].iter().all(|[right, up]| {
+            let (column, row) = (column + right, row + up);
+            (0..columns).contains(&column) && (0..rows).contains(&row) && map.is_free((row * columns + column) as usize)
+        })
+    }
+
+    /// Whether there is room for the body.
+    pub(super) fn has_room(&self, middle: &Footprint, strides: bool) -> bool {
+        let outline = &self.outlines[usize::from(strides)];
+        self.floor.is_far(&middle.point(), self.pilot.radius())
+            || self.floor.under(middle.carry_all(outline.corners())).is_none()
+    }
+
+    /// Whether a sole is on free cells.
+    fn is_on_floor(&self, feet: &[Footprint; 2], side: Side) -> bool {
+        self.floor.under(feet[side as usize].carry_all(self.sole(side))).is_none()
+    }
+
+    fn sole(&self, side: Side) -> &[Point2<f64>] {
+        &self.pilot.walker().biped.feet[side as usize].corners
+    }
+
+    /// Where the middle of the feet may be when they are side by side, at one heading at least, at the middle of a cell: narrower than what the core gets through, and no proof.
+    ///
+    /// # Errors
+    /// As [`Map::grown`].
+    pub(super) fn places(&self) -> Result<Map> {
+        // What fits in a cell mostly fits in the next one.
+        let mut last = 0;
+        Ok(self.floor.of_core(self.pilot)?.keeping_where(|cell| {
+            let found = (0..HEADINGS).map(|turn| (last + turn) % HEADINGS).find(|heading| self.stands(cell, *heading));
+            last = found.unwrap_or(last);
+            found.is_some()
+        }))
+    }
+}
+
+/// A heading \[rad\].
+pub(super) fn yaw(heading: usize) -> f64 {
+    TAU * heading as f64 / HEADINGS as f64
+}
