@@ -9,7 +9,7 @@ from ._batch import Batch, PaddedBatch
 from ._records import Check, Explanation, Path, Walk
 from ._view import View
 
-__all__ = ["Robot", "Solution", "Solver", "__version__", "_run", "derive", "navigate"]
+__all__ = ["Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
 __version__: str
 
 class _Matrix(Protocol):
@@ -124,7 +124,7 @@ class Solver:
     def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
     def c_source(self, *, single: bool = False) -> str: ...
     def rust_source(self, *, alone: bool = True) -> str: ...
-    def view(self, path: _File | None = None, *, open: bool | None = None, height: int = 600) -> View: ...
+    def view(self, path: _File | None = None, *, open: bool | None = None, height: int = 600, reach: _File | None = None) -> View: ...
 
 @final
 class Robot:
@@ -192,3 +192,18 @@ def navigate(
     progress: _Progress | None = None,
 ) -> Walk: ...
 def _run(arguments: Sequence[str]) -> int: ...
+
+def _reach(
+    solver: Solver,
+    axes: Sequence[tuple[float, float, int]],
+    orientations: int,
+    measure: str,
+    limits: _Limits | None,
+    given: Sequence[float],
+    seed: int | None,
+    start: int,
+    stop: int | None,
+    threads: int | None,
+    progress: _Progress | None,
+) -> dict[str, Any]: ...
+def _reach_as(text: str, format: str, across: int | None = None) -> str: ...

@@ -33,16 +33,24 @@ class View:
         return f'<iframe srcdoc="{page}" height="{self.height}" sandbox="allow-scripts allow-downloads" style="{style}"></iframe>'
 
 
-def view(self: Solver, path: str | PathLike[str] | None = None, *, open: bool | None = None, height: int = 600) -> View:
+def view(
+    self: Solver,
+    path: str | PathLike[str] | None = None,
+    *,
+    open: bool | None = None,
+    height: int = 600,
+    reach: str | PathLike[str] | None = None,
+) -> View:
     """The page of `groebot view` for this solver: all solutions while the target is dragged.
 
     `path` takes the page; without it that is a file among the temporary ones. It opens in the browser, unless a notebook shows what is returned; `open` decides otherwise. `height` is that
-    in a notebook [pixels]. Of a task other than a pose the page shows the chain alone. `BadValueError` where a solver does not know its chain.
+    in a notebook [pixels]; `reach` is a file with a map of what is reached (`ReachMap.save`). Of a task other than a pose the page shows the chain alone. `BadValueError` where a solver does not know its chain.
     """
     page = Path(path) if path is not None else Path(tempfile.mkdtemp(prefix="groebot-view-"), f"{_file_name(self.name)}.html")
     with tempfile.TemporaryDirectory(prefix="groebot-view-") as folder:
         _write(self, Path(folder))
         command = [sys.executable, "-m", "groebot", "view", folder, "--out", str(page.absolute())]
+        command += [] if reach is None else ["--reach", str(Path(reach).absolute())]
         told = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     if told.returncode:
         raise GroebotError(told.stderr.strip().removeprefix("error: ") or f"`groebot view` ended with {told.returncode}")

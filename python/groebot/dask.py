@@ -11,8 +11,9 @@ from typing import Any
 
 from distributed import Client, as_completed
 
-from . import blocks, parquet
+from . import blocks, parquet, reach
 from ._groebot import Solver
+from ._reach import Grid, Measure, ReachMap
 
 
 def solve_parquet(
@@ -33,6 +34,27 @@ def solve_parquet(
     """
     work = parquet.Solve.of(solver, source, columns, keep, threads, **options)
     return run(client, work, out, block)
+
+
+def reach_map(
+    client: Client,
+    solver: Solver,
+    grid: Grid,
+    out: str | os.PathLike[str],
+    orientations: int = 100,
+    measure: Measure = "count",
+    block: int | None = None,
+    threads: int = 1,
+    **options: Any,
+) -> ReachMap:
+    """Counts what a solver reaches into the folder `out`, and reads the map.
+
+    Arguments as those of `groebot.reach_map`; `options` are its `limits=`, `given=` and `seed=`. A block has `block` places, by default those of about a million poses; `threads` are those of one task. `BadValueError` as
+    `groebot.blocks.run` and `groebot.reach_map`.
+    """
+    work = reach.Reach.of(solver, grid, orientations, measure, threads=threads, **options)
+    run(client, work, out, reach.block(work.ask) if block is None else block)
+    return reach.read(out, work)
 
 
 def run(client: Client, work: blocks.Work, out: str | os.PathLike[str], block: int = blocks.BLOCK) -> blocks.Done:

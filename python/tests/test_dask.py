@@ -19,7 +19,8 @@ import pyarrow as arrow
 import pyarrow.parquet as parquet
 from distributed import Client, LocalCluster
 
-from groebot import BadValueError, Solver, blocks
+import groebot.dask
+from groebot import BadValueError, Solver, blocks, reach_map
 from groebot.dask import run, solve_parquet
 from groebot.parquet import Solve, batches
 
@@ -147,3 +148,12 @@ class Squares(blocks.Work):
 
     def tables(self, start, stop):
         yield arrow.table({"square": np.arange(start, stop) ** 2})
+
+
+def test_a_map_on_two_workers_is_that_of_one_process(tmp_path, client, ur5):
+    grid = {"x": (-0.8, 0.8, 6), "y": 0.3, "z": (0.0, 0.6, 4)}
+    here = reach_map(ur5, grid, 200, seed=1)
+    there = groebot.dask.reach_map(client, ur5, grid, tmp_path / "map", 200, block=5, seed=1)
+    assert count(tmp_path / "map") == 5
+    np.testing.assert_array_equal(there.answers, here.answers)
+    np.testing.assert_array_equal(there.reached, here.reached)

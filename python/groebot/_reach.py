@@ -1,0 +1,262 @@
+"""What a solver reaches, place by place."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import BadValueError
+from ._groebot import Solver, _reach, _reach_as
+from ._view import View, view
+
+if TYPE_CHECKING:
+    import pyarrow as arrow
+
+Measure = Literal["count", "limits", "manipulability"]
+AxisLike = float | tuple[float, float, int] | npt.ArrayLike
+Grid = Mapping[str, AxisLike] | Sequence[AxisLike]
+_COLUMNS = ("reached", "answers", "open", "best", "mean")
+
+
+class Axis(NamedTuple):
+    """Places on an axis, evenly spaced."""
+
+    start: float
+    """The first one, in the solver's unit of length."""
+    stop: float
+    """The last one."""
+    count: int
+
+    @property
+    def places(self) -> npt.NDArray[np.float64]:
+        """Where they are: (count,)."""
+        share = np.arange(self.count) / max(self.count - 1, 1)
+        return self.start * (1 - share) + self.stop * share
+
+
+@dataclass(frozen=True)
+class Ask:
+    """What `reach_map` is asked for, as what JSON can hold."""
+
+    axes: tuple[Axis, Axis, Axis]
+    orientations: int
+    measure: Measure = "count"
+    limits: list[list[float]] | bool | None = None
+    given: list[float] = field(default_factory=list)
+    seed: int | None = None
+
+    @property
+    def places(self) -> int:
+        """How many places there are."""
+        x, y, z = (axis.count for axis in self.axes)
+        return x * y * z
+
+    def columns(
+        self,
+        solver: Solver,
+        start: int = 0,
+        stop: int | None = None,
+        threads: int | None = None,
+        progress: Callable[[str, int, int], object] | None = None,
+    ) -> dict[str, Any]:
+        """The columns of the places from `start` to before `stop`, and the number of orientations."""
+        limits = self.limits if isinstance(self.limits, (bool, type(None))) else np.asarray(self.limits, np.float64)
+        given = list(self.given)
+        return _reach(solver, self.axes, self.orientations, self.measure, limits, given, self.seed, start, stop, threads, progress)
+
+
+def asked(
+    grid: Grid,
+    orientations: int,
+    measure: Measure,
+    limits: npt.ArrayLike | bool | None,
+    given: npt.ArrayLike | None,
+    seed: int | None,
+) -> Ask:
+    """What is asked for, in plain numbers. `BadValueError` for what is no grid."""
+    if isinstance(grid, Mapping):
+        if unknown := set(grid) - {"x", "y", "z"}:
+            raise BadValueError(f"a grid has the axes x, y and z; {min(unknown)!r} is none of them", "bad_value")
+        grid = [grid.get(name, 0.0) for name in "xyz"]
+    if len(grid) != 3:
+        raise BadValueError(f"a grid has three axes, x, y and z; {len(grid)} are given", "bad_value")
+    x, y, z = (_axis(name, axis) for name, axis in zip("xyz", grid))
+    if limits is not None and not isinstance(limits, bool):
+        limits = np.asarray(limits, np.float64).tolist()
+    numbers = [] if given is None else np.atleast_1d(np.asarray(given, np.float64)).tolist()
+    return Ask((x, y, z), int(orientations), measure, limits, numbers, seed)
+
+
+def _axis(name: str, axis: AxisLike) -> Axis:
+    if isinstance(axis, tuple) and len(axis) == 3 and isinstance(axis[2], (int, np.integer)):
+        return Axis(float(axis[0]), float(axis[1]), int(axis[2]))
+    places = np.atleast_1d(np.asarray(axis, np.float64))
+    if places.ndim != 1 or not len(places):
+        raise BadValueError(f"{name}: an axis of shape {places.shape} has no places in a row; give (from, to, count), a number, or places", "bad_value")
+    made = Axis(float(places[0]), float(places[-1]), len(places))
+    if not np.allclose(places, made.places, rtol=0, atol=1e-9 * max(np.ptp(places), 1e-300)):
+        raise BadValueError(f"{name}: these places are not evenly spaced; a map has one step an axis", "bad_value")
+    return made
+
+
+@dataclass(frozen=True)
+class ReachMap:
+    """What a solver reaches: for each place of a grid, how many orientations have an answer and how many answers there are. Columns have the shape (x, y, z)."""
+
+    solver: str
+    """The solver's name."""
+    task: str
+    unit: str
+    """The unit of the grid: m or mm."""
+    axes: tuple[Axis, Axis, Axis]
+    orientations: int
+    """How many orientations there are at each place."""
+    seed: int | None
+    measure: Measure
+    limited: bool
+    """Whether only answers within limits were counted."""
+    reached: npt.NDArray[np.uint32]
+    """How many orientations have an answer that counts."""
+    answers: npt.NDArray[np.uint32]
+    """How many answers count."""
+    open: npt.NDArray[np.uint32]
+    """How many orientations lie on strata that could not be derived; they count as if they had no answers."""
+    best: npt.NDArray[np.float32] | None = None
+    """The greatest manipulability of an answer (Yoshikawa's, metres and radians), where it was measured."""
+    mean: npt.NDArray[np.float32] | None = None
+    """The mean, over the orientations that are reached, of the greatest manipulability of each."""
+
+    @staticmethod
+    def of(solver: Solver, ask: Ask, columns: Mapping[str, Any]) -> ReachMap:
+        """The map of the columns of all places."""
+        shape = tuple(axis.count for axis in ask.axes)
+        own = {name: columns[name].reshape(shape) for name in _COLUMNS if name in columns}
+        limited = bool(ask.limits) or ask.measure == "limits"
+        unit = solver.length_unit
+        return ReachMap(solver.name, solver.task, unit, ask.axes, columns["orientations"], ask.seed, ask.measure, limited, **own)
+
+    @property
+    def index(self) -> npt.NDArray[np.float64]:
+        """The share of orientations that are reached, (x, y, z)."""
+        return self.reached / self.orientations
+
+    @property
+    def x(self) -> npt.NDArray[np.float64]:
+        return self.axes[0].places
+
+    @property
+    def y(self) -> npt.NDArray[np.float64]:
+        return self.axes[1].places
+
+    @property
+    def z(self) -> npt.NDArray[np.float64]:
+        return self.axes[2].places
+
+    def __repr__(self) -> str:
+        x, y, z = self.reached.shape
+        share = self.reached.sum(dtype=np.int64) / (self.reached.size * self.orientations)
+        return f"<groebot.ReachMap {self.solver}: {x} x {y} x {z} places, {self.orientations} orientations, {100 * share:.1f} % reached>"
+
+    def to_json(self) -> str:
+        """The map as `groebot reach` writes it; `groebot view` shows it."""
+        told = {"format": 1, "solver": self.solver, "task": self.task, "unit": self.unit}
+        axes = {name: {"from": axis.start, "to": axis.stop, "count": axis.count} for name, axis in zip("xyz", self.axes)}
+        seed = {} if self.seed is None else {"seed": self.seed}
+        counted = {"orientations": self.orientations, "measure": self.measure, "limited": self.limited}
+        numbers = {name: column.ravel().tolist() for name in _COLUMNS if (column := getattr(self, name)) is not None}
+        if not self.open.any():
+            del numbers["open"]
+        return json.dumps({**told, **axes, **seed, **counted, **numbers})
+
+    @staticmethod
+    def from_json(text: str) -> ReachMap:
+        """Reads what `to_json` and `groebot reach` write. `BadValueError` for what is no map."""
+        told = json.loads(_reach_as(text, "json"))
+        axes = tuple(Axis(told[name]["from"], told[name]["to"], told[name]["count"]) for name in "xyz")
+        shape = tuple(axis.count for axis in axes)
+        kinds = {"best": np.float32, "mean": np.float32}
+        own = {name: np.array(told[name], kinds.get(name, np.uint32)).reshape(shape) for name in _COLUMNS if name in told}
+        own.setdefault("open", np.zeros(shape, np.uint32))
+        same = {name: told[name] for name in ("solver", "task", "unit", "orientations", "measure", "limited")}
+        return ReachMap(axes=axes, seed=told.get("seed"), **same, **own)  # type: ignore[arg-type]
+
+    def table(self) -> arrow.Table:
+        """The map as a table of pyarrow: x, y, z and the columns, a row a place."""
+        import pyarrow as arrow
+
+        places = np.meshgrid(self.x, self.y, self.z, indexing="ij")
+        columns = {name: column.ravel() for name, column in zip("xyz", places)}
+        columns |= {name: column.ravel() for name in _COLUMNS if (column := getattr(self, name)) is not None}
+        return arrow.table(columns)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the map: `.json`, `.csv`, `.svg` (slices across z), `.npz` (all columns and axes) or `.parquet` (a row a place)."""
+        file = Path(path)
+        if file.suffix == ".npz":
+            columns = {name: column for name in _COLUMNS if (column := getattr(self, name)) is not None}
+            np.savez_compressed(file, x=self.x, y=self.y, z=self.z, orientations=self.orientations, **columns)
+        elif file.suffix == ".parquet":
+            import pyarrow.parquet as parquet
+
+            parquet.write_table(self.table(), file)
+        elif file.suffix in (".json", ".csv", ".svg"):
+            file.write_text(_reach_as(self.to_json(), file.suffix[1:]), encoding="utf-8")
+        else:
+            raise BadValueError(f"{file}: a map is written as .json, .csv, .svg, .npz or .parquet", "bad_value")
+
+    def slices(self, across: Literal["x", "y", "z"] | None = None) -> Picture:
+        """At most twelve slices across an axis, coloured by the share of orientations, or by the mean manipulability where it was measured."""
+        if across not in (None, "x", "y", "z"):
+            raise BadValueError(f"slices are across x, y or z; not {across!r}", "bad_value")
+        return Picture(_reach_as(self.to_json(), "svg", None if across is None else "xyz".index(across)))
+
+    def _repr_svg_(self) -> str:
+        return self.slices().svg
+
+    def view(self, solver: Solver, path: str | PathLike[str] | None = None, *, open: bool | None = None, height: int = 600) -> View:
+        """The page of the solver with this map in it, as `Solver.view` shows it."""
+        with tempfile.TemporaryDirectory(prefix="groebot-reach-") as folder:
+            file = Path(folder, "map.json")
+            file.write_text(self.to_json(), encoding="utf-8")
+            return view(solver, path, open=open, height=height, reach=file)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture that notebooks show."""
+
+    svg: str
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+
+def reach_map(
+    solver: Solver,
+    grid: Grid,
+    orientations: int = 100,
+    measure: Measure = "count",
+    *,
+    limits: npt.ArrayLike | bool | None = None,
+    given: npt.ArrayLike | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> ReachMap:
+    """Counts what a solver reaches, place by place.
+
+    `grid` tells x, y and z in the solver's unit of length, each as (from, to, count), as a number, or as evenly spaced places; an axis that the task does not ask for is left out of a mapping. At each place are `orientations`, spread
+    evenly over all that the task tells apart; with `seed` those of each place are turned by a rotation of its own. `measure` is count, limits (answers within the described limits alone) or manipulability; `limits` as
+    in `Solver.solve_batch` restrict the answers of each. `given` are the values of given joints, `threads` all processors by default, `progress(stage, done, open)` is called now and then. Poses are made where they are counted: the
+    map takes 20 bytes a place.
+    """
+    ask = asked(grid, orientations, measure, limits, given, seed)
+    return ReachMap.of(solver, ask, ask.columns(solver, threads=threads, progress=progress))

@@ -1,0 +1,91 @@
+"""Maps of what a solver reaches in blocks of parquet files (`pip install groebot[parquet]`).
+
+`groebot.blocks.run(Reach.of(solver, grid), "map")` counts here, `groebot.dask.reach_map` on many machines; `read` reads the map that was written.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pyarrow as arrow
+import pyarrow.parquet as parquet
+
+from . import blocks
+from ._groebot import Solver
+from ._reach import _COLUMNS, Ask, Grid, Measure, ReachMap, asked
+
+PIECE = 1 << 16
+"""Places that are counted and written at once."""
+
+
+@dataclass(frozen=True)
+class Reach(blocks.Work):
+    """Counts places: each row of a table is a place of the grid, `x`, `y`, `z` and the columns of `groebot.ReachMap`."""
+
+    solver: str
+    """What `Solver.to_json` writes."""
+    ask: Ask
+    threads: int = 1
+
+    @staticmethod
+    def of(
+        solver: Solver,
+        grid: Grid,
+        orientations: int = 100,
+        measure: Measure = "count",
+        *,
+        limits: npt.ArrayLike | bool | None = None,
+        given: npt.ArrayLike | None = None,
+        seed: int | None = None,
+        threads: int = 1,
+    ) -> Reach:
+        """The work on a grid, looked at before any of it is sent away. Arguments as those of `groebot.reach_map`; `threads` are those of one block."""
+        ask = asked(grid, orientations, measure, limits, given, seed)
+        # What is wrong is told here, not by a machine far away.
+        ask.columns(solver, 0, min(ask.places, 1), 1)
+        return Reach(solver.to_json(), ask, threads)
+
+    @property
+    def rows(self) -> int:
+        return self.ask.places
+
+    def told(self) -> dict[str, Any]:
+        ask = self.ask
+        told = {"work": "reach", "solver": self.solver, "axes": ask.axes, "orientations": ask.orientations, "measure": ask.measure}
+        return {**told, "limits": ask.limits, "given": ask.given, "seed": ask.seed}
+
+    def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
+        solver, shape = _solver(self.solver), tuple(axis.count for axis in self.ask.axes)
+        for first in range(start, stop, PIECE):
+            last = min(first + PIECE, stop)
+            numbers = np.unravel_index(np.arange(first, last), shape)
+            columns = {name: axis.places[number] for name, axis, number in zip("xyz", self.ask.axes, numbers)}
+            counted = self.ask.columns(solver, first, last, self.threads)
+            columns |= {name: counted[name] for name in _COLUMNS if name in counted}
+            yield arrow.table(columns)
+
+
+def block(ask: Ask, poses: int = blocks.BLOCK) -> int:
+    """So many places have about so many poses."""
+    return max(1, poses // ask.orientations)
+
+
+def read(out: str | os.PathLike[str], work: Reach) -> ReachMap:
+    """The map that a finished work wrote. `BadValueError` as `groebot.blocks.finished`."""
+    files = [path for _, path in blocks.finished(out)]
+    table = arrow.concat_tables(parquet.read_table(path, use_threads=False) for path in files)
+    columns: dict[str, Any] = {name: table[name].to_numpy() for name in _COLUMNS if name in table.column_names}
+    solver = _solver(work.solver)
+    columns["orientations"] = work.ask.columns(solver, 0, 0, 1)["orientations"]
+    return ReachMap.of(solver, work.ask, columns)
+
+
+@lru_cache(maxsize=4)
+def _solver(text: str) -> Solver:
+    return Solver.from_json(text)
