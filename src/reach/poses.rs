@@ -96,6 +96,11 @@ impl Poses {
         }
     }
 
+    /// Whether all three numbers of a position are asked for.
+    pub(super) fn are_in_space(&self) -> bool {
+        self.position.iter().all(Option::is_some)
+    }
+
     /// How many numbers a target has.
     pub(super) fn inputs(&self) -> usize {
         self.inputs

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use nalgebra::Point3;
 use rayon::prelude::*;
 
 use super::ask::{Ask, Measure};
@@ -11,10 +12,13 @@ use super::map::{Entry, ReachMap};
 use super::poses::Poses;
 use crate::kinematics::{Chain, Solution};
 use crate::solver::{JointValue, Program, Solved, Solver};
+use crate::spatial::Screw;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// So many targets are solved at once.
 const PIECE: usize = 2048;
+/// So many times its reach, a chain surely ends.
+const BEYOND: f64 = 1.0 + 1e-6;
 /// How far beyond a limit rounding may bring a joint that is at it.
 const SLACK: f64 = 1e-9;
 
@@ -49,6 +53,8 @@ pub struct Survey<'a> {
     program: &'a Program,
     /// Whose manipulability is measured.
     chain: Option<&'a Chain>,
+    /// Beyond it the tip never gets: its middle and radius.
+    sphere: Option<(Point3<f64>, f64)>,
     ask: &'a Ask,
     poses: Poses,
     /// By joint, whether it turns.
@@ -76,6 +82,7 @@ impl<'a> Survey<'a> {
         let poses = Poses::new(program, ask)?;
         let turns: Vec<bool> =
             program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
+        let sphere = chain.filter(|_| poses.are_in_space()).and_then(sphere);
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
             let text = "a manipulability is that of a chain; this solver was derived from equations alone";
@@ -91,7 +98,7 @@ impl<'a> Survey<'a> {
             let text = format!("{limits:?} are no limits of {} joints", turns.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        Ok(Survey { solver, program, chain, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, sphere, ask, poses, turns, limits })
     }
 
     /// How many orientations there are at each place.
@@ -132,25 +139,39 @@ impl<'a> Survey<'a> {
 
     /// Counts at the places from `first` on.
     fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
-        let (orientations, mut targets, mut sums) = (self.orientations(), Vec::new(), vec![0.0; entries.len()]);
-        let (start, end) = (first * orientations, (first + entries.len()) * orientations);
-        for start in (start..end).step_by(PIECE) {
-            watch.check()?;
-            self.poses.write(start..end.min(start + PIECE), &mut targets);
-            self.piece(&targets, |number, target| {
-                let place = (start + number) / orientations - first;
-                let entry = &mut entries[place];
-                entry.reached += u32::from(target.answers > 0);
-                entry.answers = entry.answers.saturating_add(target.answers);
-                entry.open += u32::from(target.is_open);
-                entry.best = entry.best.max(target.best as f32);
-                sums[place] += target.best;
-            })?;
+        let mut sums = vec![0.0; entries.len()];
+        let mut targets = Vec::new();
+        let mut place = 0;
+        while place < entries.len() {
+            // Places one after the other that may be reached.
+            let run = (place..entries.len()).take_while(|place| !self.is_beyond(first + place)).count();
+            let numbers = (first + place) * self.orientations()..(first + place + run) * self.orientations();
+            for start in numbers.clone().step_by(PIECE) {
+                watch.check()?;
+                self.poses.write(start..numbers.end.min(start + PIECE), &mut targets);
+                self.piece(&targets, |number, target| {
+                    let place = (start + number) / self.orientations() - first;
+                    let entry = &mut entries[place];
+                    entry.reached += u32::from(target.answers > 0);
+                    entry.answers = entry.answers.saturating_add(target.answers);
+                    entry.open += u32::from(target.is_open);
+                    entry.best = entry.best.max(target.best as f32);
+                    sums[place] += target.best;
+                })?;
+            }
+            place += run + 1;
         }
         for (entry, sum) in entries.iter_mut().zip(sums) {
             entry.mean = (sum / f64::from(entry.reached.max(1))) as f32;
         }
         Ok(())
+    }
+
+    /// Whether a place is farther away than the chain is long.
+    fn is_beyond(&self, place: usize) -> bool {
+        let beyond =
+            |(from, reach): &(Point3<f64>, f64)| (Point3::from(self.ask.grid.at(place)) - from).norm() > *reach;
+        self.sphere.as_ref().is_some_and(beyond)
     }
 
     /// Solves targets; each is handed over with its number.
@@ -193,6 +214,13 @@ impl<'a> Survey<'a> {
         }
         Ok(target)
     }
+}
+
+/// What the tip of a chain never gets out of, where no joint slides.
+fn sphere(chain: &Chain) -> Option<(Point3<f64>, f64)> {
+    let Screw::Revolute(first) = chain.screws().first()? else { return None };
+    let turns = chain.screws().iter().all(|screw| matches!(screw, Screw::Revolute(_)));
+    turns.then(|| (first.point(), chain.reach() * BEYOND))
 }
 
 /// Whether each joint is within its limits, an angle with some of its turns.
