@@ -1,58 +1,72 @@
 /** What a limb reaches in the picture: a box at each place that is chosen. */
 
-import { BoxGeometry, BufferAttribute, Color, InstancedBufferAttribute, InstancedMesh, Matrix4, MeshBasicMaterial, Vector3 } from "three";
+import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector3 } from "three";
 import type { Axis } from "./data";
 import { matrix } from "./body";
-import { along, type Reached } from "./map";
+import type { Reached } from "./map";
 import type { Frame, Vector } from "./pose";
 
 /** From least to greatest: viridis of matplotlib, as src/reach/drawing.rs has it. */
 export const VIRIDIS = [
   [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37],
 ] as const;
-/** So many colours are told apart. */
-const SHADES = 256;
 /** The most boxes that are drawn. */
 const MOST = 100_000;
 /** The sides of a box, and how thin it is across a map that is flat, in steps of the grid. */
 const [SIDE, THIN] = [0.5, 0.06];
-/** How bright the faces across x, y and z are, those ahead and those behind. The upper one has the colour of the legend. */
-const FACES = [0.74, 0.74, 0.58, 0.58, 1, 0.45];
+/** The corners of a box by their signs, and its triangles, seen from outside. */
+const CORNERS: Vector[] = [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]];
+const TRIANGLES = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5];
 /** Steps of the evenly spread sequence R3 (M. Roberts, 2018): powers of the inverse of the root of x^4 = x + 1. */
 const SPREAD = [0.8191725133961645, 0.6710436067037893, 0.5497004779019703] as const;
 
+const VERTEX = `
+  attribute vec3 middle;
+  attribute float share;
+  uniform vec3 colours[9];
+  varying vec3 place;
+  varying vec3 tone;
+  void main() {
+    int first = min(int(8.0 * share), 7);
+    tone = mix(colours[first], colours[first + 1], 8.0 * share - float(first));
+    place = position;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(middle + position, 1.0);
+  }`;
+/** The faces above have the colours of the legend, the others darker ones, whatever the light. */
+const FRAGMENT = `
+  varying vec3 place;
+  varying vec3 tone;
+  void main() {
+    vec3 across = normalize(cross(dFdx(place), dFdy(place)));
+    float bright = abs(across.x) > 0.6 ? 0.87 : abs(across.y) > 0.6 ? 0.78 : across.z > 0.0 ? 1.0 : 0.7;
+    gl_FragColor = vec4(bright * tone, 1.0);
+  }`;
+
 export class Cloud {
-  readonly mesh: InstancedMesh<BoxGeometry, MeshBasicMaterial>;
+  readonly mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private readonly most: number;
-  private readonly colours: InstancedBufferAttribute;
-  private readonly shades = new Float32Array(3 * SHADES);
+  private readonly middles: InstancedBufferAttribute;
+  private readonly shares: InstancedBufferAttribute;
 
   /** `size` is that of the robot [m]. */
   constructor(private readonly map: Reached, size: number) {
-    const geometry = new BoxGeometry(...sides(map.data.axes, size));
-    geometry.setAttribute("color", new BufferAttribute(Float32Array.from({ length: 72 }, (_, place) => FACES[Math.floor(place / 12)]!), 3));
     this.most = Math.max(Math.min(map.reached, MOST), 1);
-    // Colours are those of the legend: no light changes them.
-    this.mesh = new InstancedMesh(geometry, new MeshBasicMaterial({ vertexColors: true }), this.most);
-    this.mesh.instanceColor = this.colours = new InstancedBufferAttribute(new Float32Array(3 * this.most), 3);
+    const half = sides(map.data.axes, size).map((side) => side / 2);
+    const corners = Float32Array.from(CORNERS.flatMap((signs) => signs.map((sign, axis) => sign * half[axis]!)));
+    this.middles = new InstancedBufferAttribute(new Float32Array(3 * this.most), 3);
+    this.shares = new InstancedBufferAttribute(new Float32Array(this.most), 1);
+    const boxes = new InstancedBufferGeometry().setIndex(TRIANGLES);
+    boxes.setAttribute("position", new BufferAttribute(corners, 3)).setAttribute("middle", this.middles).setAttribute("share", this.shares);
+    const colours = { value: VIRIDIS.map((colour) => new Vector3(...colour).divideScalar(255)) };
+    this.mesh = new Mesh(boxes, new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms: { colours } }));
     this.mesh.matrixAutoUpdate = false;
     this.mesh.frustumCulled = false;
-    const upright = new Matrix4();
-    for (let box = 0; box < this.most; box++) this.mesh.setMatrixAt(box, upright);
-    for (let shade = 0; shade < SHADES; shade++) viridis(shade / (SHADES - 1)).toArray(this.shades, 3 * shade);
     this.fill();
   }
 
   /** How many boxes are drawn. */
   get drawn(): number {
-    return this.mesh.count;
-  }
-
-  /** Where the boxes are, from a point of the room [m]. */
-  places(from: Vector): Vector3[] {
-    const { array } = this.mesh.instanceMatrix;
-    const origin = new Vector3(...from);
-    return Array.from({ length: this.drawn }, (_, box) => new Vector3().fromArray(array, 16 * box + 12).applyMatrix4(this.mesh.matrix).sub(origin));
+    return this.mesh.geometry.instanceCount;
   }
 
   /** Goes with the link in whose frame the map is. */
@@ -63,24 +77,19 @@ export class Cloud {
 
   /** Draws a box at each place that is chosen, or where these are too many at some of them, evenly spread. */
   fill(): void {
-    const { chosen, values, greatest, data } = this.map;
-    const places = data.axes.map((axis) => Float64Array.from({ length: axis[2] }, (_, number) => along(axis, number)));
-    const { instanceMatrix } = this.mesh;
+    const { chosen, values, greatest } = this.map;
     // Spread evenly they are a few more or less than asked for.
-    const share = chosen.length > this.most ? (0.99 * this.most) / chosen.length : 1;
+    const part = chosen.length > this.most ? (0.99 * this.most) / chosen.length : 1;
     let box = 0;
     for (const place of chosen) {
-      const numbers = this.map.numbers(place);
-      if ((share < 1 && spread(numbers) >= share) || box === this.most) continue;
-      const shade = 3 * Math.round((SHADES - 1) * (greatest > 0 ? values[place]! / greatest : 0));
-      for (let axis = 0; axis < 3; axis++) {
-        instanceMatrix.array[16 * box + 12 + axis] = places[axis]![numbers[axis]!]!;
-        this.colours.array[3 * box + axis] = this.shades[shade + axis]!;
-      }
+      if (box === this.most) break;
+      if (part < 1 && spread(this.map.numbers(place)) >= part) continue;
+      this.middles.setXYZ(box, ...this.map.where(place));
+      this.shares.setX(box, greatest > 0 ? values[place]! / greatest : 0);
       box += 1;
     }
-    this.mesh.count = box;
-    instanceMatrix.needsUpdate = this.colours.needsUpdate = true;
+    this.middles.needsUpdate = this.shares.needsUpdate = true;
+    this.mesh.geometry.instanceCount = box;
   }
 }
 
@@ -96,12 +105,4 @@ function sides(axes: Axis[], size: number): Vector {
   const least = Math.min(...steps.filter((step) => step > 0), 0.05 * size);
   const isFlat = steps.filter((step) => step === 0).length === 1;
   return steps.map((step) => (step > 0 ? SIDE * step : (isFlat ? THIN : SIDE) * least)) as Vector;
-}
-
-/** The colour at a share of the way from the first to the last. */
-function viridis(share: number): Color {
-  const at = share * (VIRIDIS.length - 1);
-  const first = Math.min(Math.floor(at), VIRIDIS.length - 2);
-  const [red, green, blue] = VIRIDIS[first]!.map((from, part) => (from + (VIRIDIS[first + 1]![part]! - from) * (at - first)) / 255) as Vector;
-  return new Color().setRGB(red, green, blue, "srgb");
 }

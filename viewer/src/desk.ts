@@ -212,11 +212,12 @@ export class Desk {
     for (const other of element("views").children) other.ariaPressed = String((other as HTMLElement).dataset["view"] === view);
   }
 
-  /** Title and buttons cover a narrow picture at its top, the layers any at its bottom. */
+  /** Title and buttons cover a picture at its top where they do not stand beside one another, the layers any at its bottom. */
   private keepClear(): void {
     const [header, layers] = [document.querySelector("header")!, element("layers")];
-    const isNarrow = header.clientWidth <= 640;
-    this.picture?.keepClear(isNarrow ? header.offsetHeight : 20, layers.offsetHeight + 16);
+    const [name, views] = [header.querySelector<HTMLElement>(".name")!, header.querySelector("nav")!];
+    const isHigh = header.clientWidth <= 640 || views.offsetTop > name.offsetTop;
+    this.picture?.keepClear(isHigh ? header.offsetHeight : 20, layers.offsetHeight + 16);
   }
 
   /** Opens a panel and closes the others. */

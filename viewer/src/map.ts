@@ -99,6 +99,11 @@ export class Reached {
     return [Math.floor(place / (rows * layers)), Math.floor(place / layers) % rows, place % layers];
   }
 
+  /** Where a place is [m]. */
+  where(place: number): Vector {
+    return this.numbers(place).map((number, axis) => along(this.data.axes[axis]!, number)) as Vector;
+  }
+
   private measure(quantity: Quantity): void {
     const { reached, answers, manipulability, orientations } = this.data;
     this.values = quantity === "manipulability" ? manipulability! : (quantity === "share" ? reached : answers).map((count) => count / orientations);

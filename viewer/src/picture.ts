@@ -8,7 +8,7 @@ import type { Motion, Scene } from "./data";
 import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
-import type { Frame, Vector } from "./pose";
+import { move, type Frame, type Vector } from "./pose";
 import { RoomView, type Dragging } from "./room";
 import type { Run } from "./run";
 import { Stage } from "./stage";
@@ -48,7 +48,6 @@ export class Picture {
     this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
     this.cloud = app.reached && new Cloud(app.reached, size);
     if (this.cloud) this.stage.scene.add(this.cloud.mesh);
-    this.cloud?.show(app.frames);
     const { middle, extent } = this.sight();
     const { scene } = app.data.run ?? app.data.task ?? {};
     this.eye = new Eye(this.stage, canvas, middle, extent, scene && furnished(scene));
@@ -67,12 +66,19 @@ export class Picture {
   private sight(): { middle: Vector; extent: [number, number] } {
     const { min, max } = this.body.box;
     const corners = this.body.isSeen ? [min, max, new Vector3(min.x, max.y, min.z), new Vector3(max.x, min.y, min.z)] : [];
-    const points = corners.concat(this.cloud?.places(this.root) ?? []);
+    const points = corners.concat(this.reached());
     if (points.length === 0) return { middle: [0, 0, 0], extent: [Math.SQRT1_2, 1] };
     const box = new Box3().setFromPoints(points);
     const middle = box.getCenter(new Vector3());
     const radius = points.reduce((most, { x, y }) => Math.max(most, Math.hypot(x - middle.x, y - middle.y)), 0);
     return { middle: middle.toArray(), extent: [radius, box.max.z - box.min.z] };
+  }
+
+  /** The places that are reached, from the root [m]. */
+  private reached(): Vector3[] {
+    const { reached, frames } = this.app;
+    const root = new Vector3(...this.root);
+    return reached?.chosen.map((place) => new Vector3(...move(frames[reached.data.base]!, reached.where(place))).sub(root)) ?? [];
   }
 
   show(): void {

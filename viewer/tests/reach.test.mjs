@@ -153,14 +153,41 @@ test("the map goes with its link", async () => {
   }
 });
 
-test("a flat map has no slider across it, and one without manipulability does not offer it", async () => {
+/** The colours of a map from least to greatest, those of groebot's own pictures. */
+const COLOURS = [...readFileSync(path.join(root, "src/reach/drawing.rs"), "utf8").match(/COLOURS[^=]*= \[([\s\S]*?)\];/)[1].matchAll(/(\d+), (\d+), (\d+)/g)].map((found) => found.slice(1).map(Number));
+function colour(share) {
+  const first = Math.min(Math.floor(share * (COLOURS.length - 1)), COLOURS.length - 2);
+  return COLOURS[first].map((from, part) => from + (COLOURS[first + 1][part] - from) * (share * (COLOURS.length - 1) - first));
+}
+
+/** The colours of points of what is seen. */
+const pixels = async (opened, points) => opened.evaluate(async ([image, points]) => {
+  const shot = new Image();
+  shot.src = `data:image/png;base64,${image}`;
+  await shot.decode();
+  const seen = new OffscreenCanvas(shot.width, shot.height).getContext("2d");
+  seen.drawImage(shot, 0, 0);
+  return points.map(([x, y]) => [...seen.getImageData(Math.round(x), Math.round(y), 1, 1).data].slice(0, 3));
+}, [(await picture(opened)).toString("base64"), points]);
+
+test("a flat map is drawn where it is, in the colours of its legend", async () => {
   groebot("reach", UR5, "--x", "-1:1:9", "--y", "-1:1:9", "--z", "0.3", "--orientations", "4", "-o", inFolder("flat.json"), "--quiet");
   const flat = await open(browser, page("flat.html", UR5, "--reach", inFolder("flat.json")));
   assert.deepEqual(await flat.locator("#reach li label span").allInnerTexts(), ["At least", "x up to", "y up to"]);
   assert.equal(await flat.locator("#reach-quantity option").count(), 2);
-  const { reached } = JSON.parse(readFileSync(inFolder("flat.json"), "utf8"));
-  assert.equal(await count(flat), reached.filter((count) => count > 0).length);
   assert.equal(await flat.evaluate(() => groebot.reach.at(0.5, 0, 0).manipulability), undefined);
+  const { reached, answers } = JSON.parse(readFileSync(inFolder("flat.json"), "utf8"));
+  assert.equal(await count(flat), reached.filter((count) => count > 0).length);
+  for (const name of ["Robot", "Axes"]) await flat.getByRole("button", { name, exact: true }).click();
+  await flat.getByRole("button", { name: "Top" }).click();
+  await flat.evaluate(() => groebot.reach.show({ quantity: "answers" }));
+  const where = reached.map((_, place) => [-1 + Math.floor(place / 9) / 4, -1 + (place % 9) / 4, 0.3]);
+  const seen = await pixels(flat, await flat.evaluate((where) => where.map((point) => groebot.screen(point)), where));
+  const most = Math.max(...answers);
+  seen.forEach((own, place) => {
+    const off = Math.max(...colour(answers[place] / most).map((value, part) => Math.abs(value - own[part])));
+    assert.equal(off < 4, reached[place] > 0, `place ${place} is ${own}`);
+  });
 });
 
 test("a map of too many places is thinned out, and says so", async () => {
