@@ -86,6 +86,22 @@ test("places tell what the map says of them", async () => {
   await assert.rejects(shown.evaluate(() => groebot.reach.at(0, NaN, 0)), /three finite numbers/);
 });
 
+test("the page's own solver reaches what the map says", async () => {
+  const targets = Array.from({ length: 800 }, (_, turn) => {
+    const [a, b, c] = [0.5497, 0.6710, 0.8192].map((step) => (turn * step) % 1);
+    // Shoemake's uniform rotations.
+    const [x, y, z, w] = [Math.sqrt(1 - a) * Math.sin(2 * Math.PI * b), Math.sqrt(1 - a) * Math.cos(2 * Math.PI * b), Math.sqrt(a) * Math.sin(2 * Math.PI * c), Math.sqrt(a) * Math.cos(2 * Math.PI * c)];
+    const rotation = [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)];
+    return [...at((turn * 7919) % places()), ...rotation];
+  });
+  const [told, found] = await shown.evaluate((targets) => targets.reduce(([told, found], target) => {
+    groebot.drag("ur5", target);
+    return [told + groebot.reach.at(...target.slice(0, 3)).share, found + (groebot.solutions().length > 0 ? 1 : 0)];
+  }, [0, 0]), targets);
+  // Six orientations of each place are a sample of all.
+  assert.ok(found > 100 && Math.abs(found / told - 1) < 0.1, `${found} of ${targets.length} are reached, ${told} are told`);
+});
+
 test("thresholds and borders take places out of the picture", async () => {
   const counts = [await show(shown, {}), await show(shown, { least: 0.5 }), await show(shown, { least: 0.9 })].map(({ count }) => count);
   assert.ok(counts[0] > counts[1] && counts[1] > counts[2], String(counts));
