@@ -2,6 +2,7 @@
 
 import type { Data, Motion } from "./data";
 import { complete, forward, REST } from "./kinematics";
+import { Reached } from "./map";
 import type { Frame, Vector } from "./pose";
 import { Task } from "./task";
 import { at, placeOf, poseAt, type Place } from "./time";
@@ -24,6 +25,8 @@ export class App {
   frames: Frame[] = [];
   /** The room of a task that was done. */
   readonly task: Task | undefined;
+  /** What a limb reaches. */
+  readonly reached: Reached | undefined;
   /** Whether the room has become another one with the last change of time. */
   hasNewRoom = false;
   /** Hear of every change. */
@@ -32,6 +35,7 @@ export class App {
 
   constructor(readonly data: Data) {
     this.task = data.task && new Task(data.task);
+    this.reached = data.reach && new Reached(data.reach);
     this.seek(data.motion?.times[0] ?? 0);
   }
 

@@ -167,6 +167,29 @@ export interface Stage {
   pieces: Piece[];
 }
 
+/** `C` as of a motion. */
+interface WrittenReach<C> {
+  /** The link in whose frame the grid is, by its place. */
+  base: number;
+  /** The solver and what is asked of its tip, in words. */
+  of: string;
+  /** By x, y and z: from, to [m], and how many. */
+  axes: [Axis, Axis, Axis];
+  /** How many orientations each place has. */
+  orientations: number;
+  /** Whether only answers within limits were counted. */
+  limited: boolean;
+  /** By place, of which z changes first: how many orientations have an answer, how many answers there are, and the mean manipulability. */
+  reached: C;
+  answers: C;
+  manipulability?: C;
+}
+
+export type Axis = [from: number, to: number, count: number];
+
+/** What a limb reaches, place by place of a grid. */
+export type Reach = WrittenReach<Track>;
+
 export interface Data {
   title: string;
   robot: Robot;
@@ -174,11 +197,14 @@ export interface Data {
   limbs: Limb[];
   run?: RunData;
   task?: TaskData;
+  reach?: Reach;
   /** The WebAssembly that solves and walks, packed. */
   wasm?: string;
 }
 
 const FORMAT = 1;
+/** The most places of a grid, as src/reach/grid.rs says. */
+const MOST_PLACES = 1e8;
 
 /** The data that `text` holds; rejected with an Error that says what is wrong with them. */
 export async function read(text: string): Promise<Data> {
@@ -195,7 +221,8 @@ export async function read(text: string): Promise<Data> {
     const limbs: Limb[] = data.limbs ?? [];
     limbs.forEach((limb) => checkLimb(limb, data.robot));
     if (data.task) checkTask(data.task);
-    return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, task: data.task, wasm: data.wasm };
+    const reach = data.reach && (await readReach(data.reach, data.robot));
+    return { title: String(data.title), robot: data.robot, motion, limbs, run: data.run, task: data.task, reach, wasm: data.wasm };
   } catch (error) {
     throw new Error(`Its data are damaged: ${error instanceof Error ? error.message : error}`);
   }
@@ -224,20 +251,23 @@ function checkTask({ scene, stages }: TaskData): void {
 
 type Unpacked = number | Track;
 
+async function unpack(column: Column): Promise<Unpacked> {
+  return typeof column === "number" ? column : doubles(await inflated(column));
+}
+
 /** The motion with all its columns unpacked. */
 async function unpacked(written: WrittenMotion<Column>): Promise<WrittenMotion<Unpacked>> {
-  const one = async (column: Column) => (typeof column === "number" ? column : doubles(await inflated(column)));
-  const all = (columns: Column[]) => Promise.all(columns.map(one));
+  const all = (columns: Column[]) => Promise.all(columns.map(unpack));
   const { base, support } = written;
   return {
     ...written,
-    times: await one(written.times),
+    times: await unpack(written.times),
     q: await all(written.q),
     base: base && (await all(base)),
     contacts: await Promise.all(written.contacts.map(async (own) => ({ ...own, poses: await all(own.poses) }))),
     points: await Promise.all(written.points.map(async (own) => ({ ...own, at: await all(own.at) }))),
-    figures: await Promise.all(written.figures.map(async (own) => ({ ...own, values: await one(own.values) }))),
-    support: support && { starts: await one(support.starts), counts: await one(support.counts), corners: await one(support.corners) },
+    figures: await Promise.all(written.figures.map(async (own) => ({ ...own, values: await unpack(own.values) }))),
+    support: support && { starts: await unpack(support.starts), counts: await unpack(support.counts), corners: await unpack(support.corners) },
   };
 }
 
@@ -287,6 +317,33 @@ function polygons(written: { starts: Unpacked; counts: Unpacked; corners: Unpack
   });
   if (found.length !== count || first !== numbers.length) throw new Error("support polygons are missing");
   return found;
+}
+
+/** The reach with a number for each place in all its columns. */
+async function readReach(written: WrittenReach<Column>, robot: Robot): Promise<Reach> {
+  const { base, axes, orientations } = written;
+  if (!robot.links[base]) throw new Error("the reach starts at a link that is not there");
+  if (axes.length !== 3 || !axes.every(isAxis)) throw new Error("the reach has an axis that is none");
+  if (!Number.isInteger(orientations) || orientations < 1) throw new Error("the reach has no orientations");
+  const places = axes.reduce((product, [, , count]) => product * count, 1);
+  if (places > MOST_PLACES) throw new Error(`the reach has ${places} places; at most ${MOST_PLACES} are allowed`);
+  const column = async (packed: Column, isAllowed: (value: number, place: number) => boolean) => {
+    const found = await unpack(packed);
+    const values = typeof found === "number" ? new Float64Array(places).fill(found) : found;
+    if (values.length !== places) throw new Error(`a column of the reach has ${values.length} of ${places} places`);
+    if (!values.every(isAllowed)) throw new Error("the reach counts what cannot be");
+    return values;
+  };
+  const reached = await column(written.reached, (value) => Number.isInteger(value) && value >= 0 && value <= orientations);
+  const answers = await column(written.answers, (value, place) => Number.isInteger(value) && value >= reached[place]!);
+  const { manipulability: mean } = written;
+  const manipulability = mean === undefined ? undefined : await column(mean, (value) => Number.isFinite(value) && value >= 0);
+  return { ...written, reached, answers, manipulability };
+}
+
+function isAxis([from, to, count]: Axis): boolean {
+  if (!Number.isFinite(from) || !Number.isFinite(to) || !Number.isInteger(count)) return false;
+  return count === 1 ? from === to : count > 1 && from < to;
 }
 
 function bytes(base64: string): ArrayBuffer {

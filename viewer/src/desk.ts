@@ -19,13 +19,13 @@ const KEYS: [string, string][] = [
   ["Home End", "first, last sample"],
   ["1 \u2013 5", "front, side, top, iso, follow"],
   ["J", "joints"],
-  ["S, R", "solutions, simulator, where the page has them"],
+  ["S, M, R", "solutions, map of the reach, simulator, where the page has them"],
   ["T", "dark, light"],
   ["?", "these keys"],
 ];
 const PLAY = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4.500 2.8v10.4L13 8z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4 3h3v10H4zM9 3h3v10H9z" fill="currentColor"/></svg>';
-const PANELS = ["joints", "solutions", "run"] as const;
+const PANELS = ["joints", "reach", "solutions", "run"] as const;
 type Panel = (typeof PANELS)[number];
 /** So often at most words are read out [ms]. */
 const SAY_EVERY = 700;
@@ -98,7 +98,7 @@ export class Desk {
     if (motion) this.addTimeline();
     addEventListener("keydown", (event) => this.key(event));
     const hasSliders = !motion && robot.joints.some(moves);
-    this.open(run ? "run" : app.data.limbs.length > 0 ? "solutions" : hasSliders ? "joints" : undefined);
+    this.open(run ? "run" : app.reached ? "reach" : app.data.limbs.length > 0 ? "solutions" : hasSliders ? "joints" : undefined);
     this.keepClear();
     new ResizeObserver(() => this.keepClear()).observe(element("stage"));
     picture?.look(this.firstView);
@@ -173,6 +173,7 @@ export class Desk {
     }
     for (const panel of PANELS) element(`${panel}-button`).onclick = () => this.toggle(panel);
     element("solutions-button").hidden = this.app.data.limbs.length === 0;
+    element("reach-button").hidden = !this.app.reached;
     element("run-button").hidden = !this.app.data.run;
     element("rest-button").hidden = this.app.data.motion !== undefined;
     element("rest-button").onclick = () => {
@@ -211,11 +212,12 @@ export class Desk {
     for (const other of element("views").children) other.ariaPressed = String((other as HTMLElement).dataset["view"] === view);
   }
 
-  /** Title and buttons cover a narrow picture at its top, the layers any at its bottom. */
+  /** Title and buttons cover a picture at its top where they do not stand beside one another, the layers any at its bottom. */
   private keepClear(): void {
     const [header, layers] = [document.querySelector("header")!, element("layers")];
-    const isNarrow = header.clientWidth <= 640;
-    this.picture?.keepClear(isNarrow ? header.offsetHeight : 20, layers.offsetHeight + 16);
+    const [name, views] = [header.querySelector<HTMLElement>(".name")!, header.querySelector("nav")!];
+    const isHigh = header.clientWidth <= 640 || views.offsetTop > name.offsetTop;
+    this.picture?.keepClear(isHigh ? header.offsetHeight : 20, layers.offsetHeight + 16);
   }
 
   /** Opens a panel and closes the others. */
@@ -257,6 +259,7 @@ export class Desk {
       "?": () => this.help(),
     };
     if (app.data.limbs.length > 0) actions["s"] = () => this.toggle("solutions");
+    if (app.reached) actions["m"] = () => this.toggle("reach");
     if (app.data.run) actions["r"] = () => this.toggle("run");
     if (this.picture) VIEW_NAMES.forEach((view, place) => (actions[String(place + 1)] = () => this.look(view)));
     if (times && !takes("button, summary")) actions[" "] = () => this.player.toggle();

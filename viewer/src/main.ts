@@ -7,6 +7,8 @@ import { Picture } from "./picture";
 import type { Vector } from "./pose";
 import type { Solution } from "./limbs";
 import { Engine } from "./engine";
+import type { Choice, Found } from "./map";
+import { ReachPanel } from "./reach";
 import type { Furnished, Spot } from "./room";
 import { Run } from "./run";
 import type { Simulator } from "./simulator";
@@ -38,6 +40,8 @@ export interface Groebot {
   self_motion(place: number): number[][];
   /** How long they took, without drawing [ms]. */
   readonly update_ms: number;
+  /** What the limb reaches; null without a map. */
+  readonly reach: Reaching | null;
   /** The figures of the gait by their names; null where the gait has none. */
   readonly parameters: Record<string, number | null>;
   /** Another value of a figure from the next step on; throws the reason where it cannot be walked. */
@@ -58,6 +62,23 @@ export interface Groebot {
   readonly replan_ms: number;
 }
 
+/** A map of what a limb reaches. */
+export interface Reaching {
+  /** How many places it has. */
+  readonly places: number;
+  /** How many of them are shown: reached, with enough of the quantity, not beyond, and the map visible. */
+  readonly shown: number;
+  /** The greatest value of the quantity. */
+  readonly greatest: number;
+  /**
+   * Shows others; what is not told stays. `quantity` is `share`, `answers` or `manipulability`, `least` a share of the greatest, `upto` x, y and z in the frame of the
+   * limb's base [m]. Throws the reason where that cannot be.
+   */
+  show(told: Partial<Choice>): void;
+  /** What was found at the place that is nearest to a point in the frame of the limb's base [m]. */
+  at(x: number, y: number, z: number): Found;
+}
+
 declare global {
   interface Window {
     groebot: Groebot;
@@ -68,6 +89,7 @@ interface Started {
   app: App;
   picture: Picture | undefined;
   solutions: Solutions | undefined;
+  reach: ReachPanel | undefined;
   run: Run | undefined;
   simulator: Simulator | undefined;
 }
@@ -96,9 +118,10 @@ async function start(): Promise<Started> {
     message("No picture here", "This browser gives the page no WebGL, by which the robot is drawn. Joint values, plots and the timeline work.");
   }
   const solutions = Solutions.start(app, picture, engine);
+  const reach = ReachPanel.start(app, picture);
   const { simulator } = new Desk(app, picture, theme, solutions, run);
   if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shape, and no joint away from another one.`);
-  return { app, picture, solutions, run, simulator };
+  return { app, picture, solutions, reach, run, simulator };
 }
 
 let started: Started | undefined;
@@ -150,6 +173,9 @@ window.groebot = {
   self_motion: (place) => solved().selfMotion(place),
   get update_ms() {
     return solved().updateMs;
+  },
+  get reach() {
+    return started?.reach ?? null;
   },
   get parameters() {
     return Object.fromEntries(running().run.told.figures.map(({ name, value }) => [name, value]));

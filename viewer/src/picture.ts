@@ -1,19 +1,20 @@
 /** The robot in three dimensions, with all that stands about it. */
 
-import { Vector3 } from "three";
+import { Box3, Vector3 } from "three";
 import type { App } from "./app";
 import { Body } from "./body";
+import { Cloud } from "./cloud";
 import type { Motion, Scene } from "./data";
 import { Eye, type View } from "./eye";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
-import type { Frame, Vector } from "./pose";
+import { move, type Frame, type Vector } from "./pose";
 import { RoomView, type Dragging } from "./room";
 import type { Run } from "./run";
 import { Stage } from "./stage";
 
 /** What is seen of a room as a whole. */
-function whole({ size: [length, width], origin: [x, y, yaw] }: Scene): { middle: Vector; extent: [number, number] } {
+function furnished({ size: [length, width], origin: [x, y, yaw] }: Scene): { middle: Vector; extent: [number, number] } {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const [ahead, aside] = [length / 2, width / 2];
   return { middle: [x + c * ahead - s * aside, y + s * ahead + c * aside, 0.3], extent: [Math.hypot(ahead, aside), 0.8] };
@@ -30,6 +31,7 @@ export class Picture {
   private readonly eye: Eye;
   private ghosts: Ghosts | undefined;
   private room: RoomView | undefined;
+  private readonly cloud: Cloud | undefined;
 
   /** Throws NoPicture where the browser gives no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly app: App) {
@@ -44,10 +46,11 @@ export class Picture {
     this.stage.scene.add(this.body.group);
     if (this.overlays) this.stage.scene.add(this.overlays.group);
     this.layers = [{ name: "Robot", tone: "bone", isFlat: true, group: this.body.group }, ...(this.overlays?.layers ?? []), { name: "Axes", tone: "trace", isFlat: true, group: this.stage.axes }];
-    const middle = this.isSeen ? box.getCenter(new Vector3()) : new Vector3();
-    const sides = this.isSeen ? box.getSize(new Vector3()) : new Vector3(1, 1, 1);
+    this.cloud = app.reached && new Cloud(app.reached, size);
+    if (this.cloud) this.stage.scene.add(this.cloud.mesh);
+    const { middle, extent } = this.sight();
     const { scene } = app.data.run ?? app.data.task ?? {};
-    this.eye = new Eye(this.stage, canvas, middle.toArray(), [0.5 * Math.hypot(sides.x, sides.y), sides.z], scene && whole(scene));
+    this.eye = new Eye(this.stage, canvas, middle, extent, scene && furnished(scene));
     if (app.task) this.room = new RoomView(app.task, this.stage, canvas);
     this.paint();
     this.stage.resize();
@@ -59,8 +62,28 @@ export class Picture {
     return this.app.base.slice(0, 3) as Vector;
   }
 
+  /** What is seen of the robot, and of what it reaches, from its root: the middle, and radius and height of an upright cylinder [m]. */
+  private sight(): { middle: Vector; extent: [number, number] } {
+    const { min, max } = this.body.box;
+    const corners = this.body.isSeen ? [min, max, new Vector3(min.x, max.y, min.z), new Vector3(max.x, min.y, min.z)] : [];
+    const points = corners.concat(this.reached());
+    if (points.length === 0) return { middle: [0, 0, 0], extent: [Math.SQRT1_2, 1] };
+    const box = new Box3().setFromPoints(points);
+    const middle = box.getCenter(new Vector3());
+    const radius = points.reduce((most, { x, y }) => Math.max(most, Math.hypot(x - middle.x, y - middle.y)), 0);
+    return { middle: middle.toArray(), extent: [radius, box.max.z - box.min.z] };
+  }
+
+  /** The places that are reached, from the root [m]. */
+  private reached(): Vector3[] {
+    const { reached, frames } = this.app;
+    const root = new Vector3(...this.root);
+    return reached?.chosen.map((place) => new Vector3(...move(frames[reached.data.base]!, reached.where(place))).sub(root)) ?? [];
+  }
+
   show(): void {
     this.body.show(this.app.frames);
+    this.cloud?.show(this.app.frames);
     if (this.app.place) this.overlays?.show(this.app.place);
     if (this.app.hasNewRoom) this.room?.show();
     this.stage.moveTo(this.root);
@@ -77,6 +100,13 @@ export class Picture {
   withGhosts(dragged: (target: Frame) => void): Ghosts {
     this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.eye.hold(isHeld));
     return this.ghosts;
+  }
+
+  /** Draws what is chosen of the places that are reached; how many of them are drawn. */
+  showReach(): number {
+    this.cloud?.fill();
+    this.stage.draw();
+    return this.cloud?.drawn ?? 0;
   }
 
   /** The room of a run, whose goal and furniture are dragged. */

@@ -7,6 +7,7 @@ const PICTURES = [
   ["simulator_walk", ["walk.json"], { viewport: { width: 900, height: 580 } }, 4.3],
   ["simulator_joints", ["nao"], { viewport: { width: 900, height: 580 } }],
   ["simulator_solutions", [path.join(root, "derivations/ur5")], { viewport: { width: 900, height: 580 } }],
+  ["simulator_reach", [path.join(root, "derivations/ur5"), "--reach", "map.json"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_room", ["rh0", "--room", "living-room", "--start", "1,2.6", "--goal", "7.2,3.4"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_task", ["task.json"], { viewport: { width: 1000, height: 640 } }],
   ["simulator_phone", ["walk.json"], { viewport: { width: 390, height: 760 }, colorScheme: "dark" }, 6.1],
@@ -20,6 +21,10 @@ const ACTS = {
   },
   simulator_joints: (opened) => opened.getByLabel("LShoulderRoll", { exact: true }).fill("0.9"),
   simulator_solutions: (opened) => opened.evaluate(() => groebot.drag("ur5", [-0.4, -0.2, 0.3, 0.6, 0, 0.8, 0, 1, 0, -0.8, 0, 0.6])),
+  simulator_reach: async (opened) => {
+    await opened.getByRole("button", { name: "Front" }).click();
+    await opened.evaluate(() => groebot.reach.show({ upto: [0, 9, 9] }));
+  },
   simulator_room: (opened) =>
     opened.evaluate(() => {
       for (let step = 0; step < 14; step++) groebot.step();
@@ -31,6 +36,7 @@ const ACTS = {
 groebot("walk", "nao", "--turn", "8", "-o", inFolder("walk.json"), "--quiet");
 groebot("task", "rh0", "--room", "living-room", "--goal", "sofa", "--furniture", "piano=2.6,2.6,20", "-o", inFolder("task.json"), "--quiet");
 process.chdir(inFolder("."));
+groebot("reach", path.join(root, "derivations/ur5"), "-o", "map.json", "--quiet");
 const browser = await browse();
 for (const [name, given, options, time] of PICTURES) {
   const opened = await open(browser, page(`${name}.html`, ...given), options);
