@@ -110,7 +110,7 @@ def test_singular_rows_have_more_solutions_than_ordinary_ones(ur5):
     targets = dh_forward(UR5_DH, q)
     batch = ur5.solve_batch(targets)
     assert batch.free.any() and np.abs(dh_forward(UR5_DH, batch.q) - targets[batch.row]).max() < 1e-9
-    limited = ur5.solve_batch(targets, limits=np.tile([-np.pi, np.pi], (6, 1)))
+    limited = ur5.solve_batch(targets[:50], limits=np.tile([-np.pi, np.pi], (6, 1)))
     assert len(limited.q) > 0
 
 
