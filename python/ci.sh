@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 environment() {
     python3 -m venv "$work/$1"
-    "$work/$1/bin/pip" install --quiet --disable-pip-version-check "${@:2}"
+    "$work/$1/bin/pip" install --quiet --disable-pip-version-check --no-compile "${@:2}"
 }
 
 environment build "maturin>=1.9,<2"
@@ -37,7 +37,7 @@ environment oldest "$wheel" "numpy==1.26.*; python_version < '3.13'" "numpy==2.1
 oldest/bin/python -c 'import groebot; ur5 = groebot.Solver.named("ur5"); assert len(ur5.solve(ur5.forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8'
 oldest/bin/groebot --version
 # What arrays are made of differs between versions of numpy; all else is tested with the newest.
-oldest/bin/pip install --quiet --disable-pip-version-check pytest hypothesis "scipy<1.15"
+oldest/bin/pip install --quiet --disable-pip-version-check --no-compile pytest hypothesis "scipy<1.15"
 oldest/bin/pytest --quiet -rs "$here"/tests/test_{batch,input}.py
 
 environment newest "${wheel}[dask,notebooks]" "numpy>=2" pytest hypothesis scipy mypy pyright
