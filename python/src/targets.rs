@@ -1,9 +1,10 @@
 //! Targets in the forms in which numpy holds them. Main type: [`Targets`].
 
+use groebot::spatial::rotation::rows_of_quaternion;
+
 use crate::sink::Status;
 
-/// How far from one a quaternion's length, and from its place the last row of a matrix, may be.
-const UNIT: f64 = 1e-6;
+/// How far from its place the last row of a matrix may be.
 const LAST_ROW: f64 = 1e-9;
 /// How far a rotation of single precision may be off.
 const SINGLE: f64 = 1e-5;
@@ -81,22 +82,8 @@ impl Targets<'_> {
             return Status::NotFinite;
         }
         let given = [row[first], row[first + 1], row[first + 2], row[first + 3]];
-        let length = given.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if (length - 1.0).abs() > UNIT {
-            return Status::NotRotation;
-        }
-        let [x, y, z, w] = given.map(|value| value / length);
-        out[first..first + 9].copy_from_slice(&[
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ]);
+        let Ok(rotation) = rows_of_quaternion(given) else { return Status::NotRotation };
+        out[first..first + 9].copy_from_slice(&rotation);
         Status::Solved
     }
 }

@@ -4,9 +4,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import groebot
+
 sys.path.insert(0, str(Path(__file__).parent))
 
 
 @pytest.fixture
 def random():
     return np.random.default_rng(1)
+
+
+@pytest.fixture(scope="session")
+def derived():
+    """The solver of the URDF of a UR5: derived once for all tests, for it is immutable."""
+    from witness import UR5_URDF
+
+    return groebot.derive(groebot.Robot.from_urdf(UR5_URDF))

@@ -5,7 +5,7 @@ import threading
 
 import numpy as np
 import pytest
-from witness import UR5_DH, dh_forward
+from witness import DERIVATIONS, UR5_DH, dh_forward
 
 from groebot import BadValueError, Solver, Status
 
@@ -105,13 +105,35 @@ def test_limits_and_near(ur5, random):
 
 
 def test_singular_rows_have_more_solutions_than_ordinary_ones(ur5):
-    q = np.tile([0.3, -1.0, 1.2, 0.4, 0.0, 0.2], (2000, 1))
-    q[:, 0] = np.linspace(-3, 3, 2000)
+    q = np.tile([0.3, -1.0, 1.2, 0.4, 0.0, 0.2], (600, 1))
+    q[:, 0] = np.linspace(-3, 3, 600)
     targets = dh_forward(UR5_DH, q)
     batch = ur5.solve_batch(targets)
     assert batch.free.any() and np.abs(dh_forward(UR5_DH, batch.q) - targets[batch.row]).max() < 1e-9
-    limited = ur5.solve_batch(targets, limits=np.tile([-np.pi, np.pi], (6, 1)))
+    limited = ur5.solve_batch(targets[:50], limits=np.tile([-np.pi, np.pi], (6, 1)))
     assert len(limited.q) > 0
+
+
+@pytest.mark.parametrize(("name", "wrist", "free"), [("ur5", 0.0, 5), ("puma", np.pi / 2, 3), ("puma560", 0.0, 3), ("irb120", np.pi / 2, 3)])
+def test_members_that_are_moved_within_limits_along_self_motions_stay_free(name, wrist, free):
+    printed = Solver.named(name)
+    program = Solver.from_json((DERIVATIONS / name / "5_program.json").read_text().replace(f'"{name}"', '"other"', 1))
+    target = printed.forward([0.3, -1.0, 1.2, 0.4, wrist, 0.2])
+    (member, *_) = (solution for solution in printed.solve(target) if solution.free)
+    limits = np.tile([-np.pi, np.pi], (6, 1))
+    limits[free] = member.q[free] + [1.0, 1.5]
+    kept = printed.solve(target, limits=limits)
+    moved = [solution for solution in kept if solution.branch == member.branch]
+    assert [solution.free for solution in moved] == [(free,)]
+    # The definition: there is a motion of this joint that leaves the tip where it is.
+    *_, still = np.linalg.svd(printed.jacobian(moved[0].q))[2]
+    assert abs(still[free]) > 0.1 and np.abs(printed.jacobian(moved[0].q) @ still).max() < 1e-9
+    assert np.abs(printed.forward(moved[0].q) - target).max() < 1e-9
+    for solver in (printed, program):
+        batch = solver.solve_batch(target[None], limits=limits)
+        assert np.array_equal(batch.q, [solution.q for solution in kept])
+        assert batch.free.tolist() == [sum(1 << joint for joint in solution.free) for solution in kept]
+        assert [solution.free for solution in solver.solve(target, limits=limits)] == [solution.free for solution in kept]
 
 
 def test_no_rows_are_a_batch_as_well(ur5):

@@ -24,7 +24,7 @@ from groebot import BadValueError, Solver, blocks, reach_map
 from groebot.dask import run, solve_parquet
 from groebot.parquet import Solve, batches
 
-ROWS, BLOCK = 300_000, 5_000
+ROWS, BLOCK = 40_000, 1_000
 BLOCKS = ROWS // BLOCK
 
 
@@ -43,7 +43,7 @@ def source(tmp_path_factory, ur5, q):
     poses = dh_forward(UR5_DH, q)
     numbers = np.concatenate([poses[:, :3, 3], poses[:, :3, :3].reshape(-1, 9)], 1)
     path = tmp_path_factory.mktemp("targets") / "targets.parquet"
-    parquet.write_table(arrow.table(dict(zip(ur5.inputs, numbers.T.copy()))), path, row_group_size=50_000)
+    parquet.write_table(arrow.table(dict(zip(ur5.inputs, numbers.T.copy()))), path, row_group_size=15_000)
     return path
 
 

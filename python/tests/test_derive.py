@@ -1,6 +1,7 @@
 """From a description to a solver: derived, interrupted, asked for other tasks."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -15,19 +16,14 @@ import groebot
 from groebot import GroebotError, Robot, Solver, Status
 
 
-@pytest.fixture(scope="module")
-def ur5():
-    return groebot.derive(Robot.from_urdf(UR5_URDF))
-
-
-def test_a_urdf_is_derived_and_solves(ur5, random):
-    assert not ur5.compiled and len(ur5.joints) == 6
+def test_a_urdf_is_derived_and_solves(derived, random):
+    assert not derived.compiled and len(derived.joints) == 6
     tip = Robot.from_urdf(UR5_URDF).tips[0]
     q = random.uniform(-3, 3, (200, 6))
-    targets = ur5.forward(q)
+    targets = derived.forward(q)
     for row in range(20):
         assert np.allclose(targets[row], urdf_forward(UR5_URDF, q[row], _last_link(UR5_URDF)), atol=1e-12), tip
-    batch = ur5.solve_batch(targets)
+    batch = derived.solve_batch(targets)
     assert (batch.status == Status.SOLVED).all()
     assert all(same_angles(batch[row], q[row]).min() < 1e-6 for row in range(200))
 
@@ -41,18 +37,21 @@ def _last_link(path):
     return leaf
 
 
-def test_the_text_of_a_urdf_is_as_good_as_its_path(ur5):
+def test_the_text_of_a_urdf_is_as_good_as_its_path(derived):
     again = groebot.derive(Robot.from_urdf(UR5_URDF.read_text()))
-    assert again.to_json() == ur5.to_json()
+    assert again.to_json() == derived.to_json()
 
 
-def test_a_derived_solver_travels_with_its_proof(ur5):
-    import pickle
+def test_a_derived_solver_travels_with_its_proof(derived):
+    again = pickle.loads(pickle.dumps(derived))
+    assert again.to_json() == derived.to_json()
+    assert str(again.explain()) == str(derived.explain())
 
-    again = pickle.loads(pickle.dumps(ur5))
-    assert again.to_json() == ur5.to_json()
-    assert again.check().targets > 100
-    assert str(again.explain()) == str(ur5.explain())
+
+def test_a_proof_is_followed_again_where_it_has_travelled_to():
+    planar = groebot.derive(DERIVATIONS / "planar_2r/0_chain.toml")
+    checked = pickle.loads(pickle.dumps(planar)).check()
+    assert checked.targets > 100 and checked.weak_spots == ()
 
 
 def test_other_tasks(random):
@@ -113,7 +112,7 @@ def test_an_interrupt_from_the_keyboard():
             ur5.solve_batch(targets)
 
 
-def test_a_forked_process_derives(ur5):
+def test_a_forked_process_derives():
     script = """
         import os, groebot
         groebot.derive(PATH)

@@ -116,9 +116,12 @@ def test_sources(ur5):
     assert len(ur5.rust_source()) > len(ur5.rust_source(alone=False))
 
 
-def test_check_and_explain(ur5):
-    checked = ur5.check()
+def test_a_named_solver_follows_its_proof():
+    checked = Solver.named("nao_head").check()
     assert checked.targets > 100 and checked.weak_spots == ()
+
+
+def test_explain(ur5):
     told = ur5.explain()
     assert "UR5" in str(told).upper() and told._repr_latex_().startswith("\\documentclass")
 

@@ -26,12 +26,11 @@ def data_of(page):
     return json.loads(text)
 
 
-def test_the_page_holds_the_solver_and_opens_in_the_browser(tmp_path, opened):
-    solver = groebot.derive(Robot.from_urdf(UR5_URDF))
-    view = solver.view(tmp_path / "ur5.html")
+def test_the_page_holds_the_solver_and_opens_in_the_browser(tmp_path, opened, derived):
+    view = derived.view(tmp_path / "ur5.html")
     assert view.path == tmp_path / "ur5.html" and opened == [view.path.as_uri()]
     (limb,) = data_of(view.path.read_text())["limbs"]
-    assert json.loads(limb["program"]) == json.loads(solver.to_json())["program"]
+    assert json.loads(limb["program"]) == json.loads(derived.to_json())["program"]
 
 
 def test_a_notebook_shows_the_page_itself(opened, monkeypatch):

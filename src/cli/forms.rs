@@ -1,10 +1,8 @@
 //! In which forms a program's target may be written: its inputs, or each rotation among them as a quaternion.
 
 use crate::solver::{Condition, Program};
+use crate::spatial::rotation::{UNIT, rows_of_quaternion};
 use crate::{Error, ErrorKind, Result};
-
-/// A quaternion's length may be this far from one.
-const UNIT: f64 = 1e-6;
 
 /// The forms of a program's targets.
 pub struct Forms {
@@ -77,24 +75,11 @@ impl Forms {
     /// The rotation matrix by rows of the quaternion `x, y, z, w` that begins at `start`.
     fn rotation(&self, numbers: &[f64], start: usize) -> Result<[f64; 9]> {
         let given = [numbers[start], numbers[start + 1], numbers[start + 2], numbers[start + 3]];
-        let length = given.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if length.is_nan() || (length - 1.0).abs() > UNIT {
+        rows_of_quaternion(given).map_err(|length| {
             let (first, last) = (&self.short[start], &self.short[start + 3]);
             let text =
                 format!("the quaternion `{first}` to `{last}` has length {length}; 1 within {UNIT:e} is allowed");
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        let [x, y, z, w] = given.map(|value| value / length);
-        Ok([
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ])
+            Error::new(ErrorKind::BadValue, text)
+        })
     }
 }

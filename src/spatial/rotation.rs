@@ -6,6 +6,8 @@ use crate::{Error, ErrorKind, Result};
 
 /// How far `R' R` of a given rotation matrix may be from the identity (Frobenius norm).
 pub const ORTHONORMAL: f64 = 1e-9;
+/// How far from one the length of a given quaternion may be.
+pub const UNIT: f64 = 1e-6;
 
 /// The rotation by `angle` \[rad\] about `direction`, right-handed, by Rodrigues' formula RH0 (2-9).
 pub fn rodrigues(direction: &Unit<Vector3<f64>>, angle: f64) -> Rotation3<f64> {
@@ -75,6 +77,29 @@ pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
          give orthonormal columns (to {ORTHONORMAL:e}) and determinant 1"
     );
     Err(Error::new(ErrorKind::BadValue, text))
+}
+
+/// The matrix by rows of the rotation that a quaternion x, y, z, w of length one describes.
+///
+/// # Errors
+/// The length, when it is not one to [`UNIT`].
+pub fn rows_of_quaternion(quaternion: [f64; 4]) -> std::result::Result<[f64; 9], f64> {
+    let length = quaternion.iter().map(|value| value * value).sum::<f64>().sqrt();
+    if length.is_nan() || (length - 1.0).abs() > UNIT {
+        return Err(length);
+    }
+    let [x, y, z, w] = quaternion.map(|value| value / length);
+    Ok([
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - z * w),
+        2.0 * (x * z + y * w),
+        2.0 * (x * y + z * w),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - x * w),
+        2.0 * (x * z - y * w),
+        2.0 * (y * z + x * w),
+        1.0 - 2.0 * (x * x + y * y),
+    ])
 }
 
 /// Cosine and vector part of the quaternion of `rotation` that turns by at most pi; at pi the one that [`log`] tells.

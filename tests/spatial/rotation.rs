@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use groebot::ErrorKind;
-use groebot::spatial::rotation::{angle, axis, exp, from_matrix, log, rodrigues};
+use groebot::spatial::rotation::{angle, axis, exp, from_matrix, log, rodrigues, rows_of_quaternion};
 use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
@@ -31,6 +31,23 @@ fn quaternion(scalar: f64, vector: Vector3<f64>) -> UnitQuaternion<f64> {
 fn is_log(found: &Vector3<f64>, w: &Vector3<f64>) -> bool {
     let opposite = -w * ((2.0 * PI - w.norm()) / w.norm());
     relative(found, w) <= ULPS || (PI - w.norm() < 1e-15 && relative(found, &opposite) <= ULPS)
+}
+
+proptest! {
+    #[test]
+    fn the_rows_of_a_quaternion_are_those_of_its_rotation(w in vector(PI), stretch in -9e-7..9e-7_f64) {
+        let rotation = exp(&w);
+        let found = rows_of_quaternion((rotation.coords * (1.0 + stretch)).into()).unwrap();
+        let wanted = rotation.to_rotation_matrix().into_inner();
+        prop_assert!((Matrix3::from_row_slice(&found) - wanted).amax() < ULPS);
+    }
+}
+
+#[test]
+fn a_quaternion_of_another_length_has_no_rotation() {
+    assert_eq!(rows_of_quaternion([0.0, 3.0, 0.0, 4.0]), Err(5.0));
+    assert_eq!(rows_of_quaternion([0.0; 4]), Err(0.0));
+    assert!(rows_of_quaternion([f64::NAN, 0.0, 0.0, 1.0]).is_err());
 }
 
 #[test]
