@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -92,13 +93,26 @@ def asked(
     if limits is not None and not isinstance(limits, bool):
         limits = np.asarray(limits, np.float64).tolist()
     numbers = [] if given is None else np.atleast_1d(np.asarray(given, np.float64)).tolist()
-    return Ask((x, y, z), int(orientations), measure, limits, numbers, seed)
+    count, own = _whole("orientations", orientations), None if seed is None else _whole("seed", seed)
+    return Ask((x, y, z), count, measure, limits, numbers, own)
+
+
+def _whole(name: str, number: Any) -> int:
+    try:
+        whole = operator.index(number)
+    except TypeError:
+        whole = -1
+    if not 0 <= whole < 1 << 64:
+        raise BadValueError(f"{name}: {number!r} is no whole number from 0 to 2^64 - 1", "bad_value")
+    return whole
 
 
 def _axis(name: str, axis: AxisLike) -> Axis:
     if isinstance(axis, tuple) and len(axis) == 3 and isinstance(axis[2], (int, np.integer)):
-        return Axis(float(axis[0]), float(axis[1]), int(axis[2]))
+        return Axis(float(axis[0]), float(axis[1]), _whole(f"the places of {name}", axis[2]))
     places = np.atleast_1d(np.asarray(axis, np.float64))
+    if not np.isfinite(places).all():
+        raise BadValueError(f"{name}: give finite places", "bad_value")
     if places.ndim != 1 or not len(places):
         raise BadValueError(f"{name}: an axis of shape {places.shape} has no places in a row; give (from, to, count), a number, or places", "bad_value")
     made = Axis(float(places[0]), float(places[-1]), len(places))
@@ -174,7 +188,7 @@ class ReachMap:
         numbers = {name: column.ravel().tolist() for name in _COLUMNS if (column := getattr(self, name)) is not None}
         if not self.open.any():
             del numbers["open"]
-        return json.dumps({**told, **axes, **seed, **counted, **numbers})
+        return _reach_as(json.dumps({**told, **axes, **seed, **counted, **numbers}), "json")
 
     @staticmethod
     def from_json(text: str) -> ReachMap:
@@ -256,7 +270,7 @@ def reach_map(
     `grid` tells x, y and z in the solver's unit of length, each as (from, to, count), as a number, or as evenly spaced places; an axis that the task does not ask for is left out of a mapping. At each place are `orientations`, spread
     evenly over all that the task tells apart; with `seed` those of each place are turned by a rotation of its own. `measure` is count, limits (answers within the described limits alone) or manipulability; `limits` as
     in `Solver.solve_batch` restrict the answers of each. `given` are the values of given joints, `threads` all processors by default, `progress(stage, done, open)` is called now and then. Poses are made where they are counted: the
-    map takes 20 bytes a place.
+    map takes 20 bytes a place, and its columns as much.
     """
     ask = asked(grid, orientations, measure, limits, given, seed)
     return ReachMap.of(solver, ask, ask.columns(solver, threads=threads, progress=progress))

@@ -152,12 +152,12 @@ def planned(work: Work, out: str | os.PathLike[str], block: int = BLOCK) -> list
     return blocks
 
 
-def finished(out: str | os.PathLike[str]) -> Iterator[tuple[int, Path]]:
+def finished(out: str | os.PathLike[str], work: Work | None = None) -> Iterator[tuple[int, Path]]:
     """The files of finished work in order, each with its first row.
 
-    `BadValueError` where a block is missing, or is of other work than the first.
+    `BadValueError` where a block is missing, or is of other work than `work`, or than the first.
     """
-    folder, at, rows, key = Path(out), 0, None, None
+    folder, at, rows, key = Path(out), 0, None, None if work is None else work.key.encode()
     for path in sorted(folder.glob("block-*.parquet")):
         marks = _marks(path) or {}
         start, stop, total, own = (marks.get(f"groebot.{name}".encode(), b"-1") for name in ("start", "stop", "rows", "key"))

@@ -53,7 +53,7 @@ def reach_map(
     `groebot.blocks.run` and `groebot.reach_map`.
     """
     work = reach.Reach.of(solver, grid, orientations, measure, threads=threads, **options)
-    run(client, work, out, reach.block(work.ask) if block is None else block)
+    run(client, work, out, reach.block(work) if block is None else block)
     return reach.read(out, work)
 
 

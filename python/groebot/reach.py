@@ -48,7 +48,7 @@ class Reach(blocks.Work):
         """The work on a grid, looked at before any of it is sent away. Arguments as those of `groebot.reach_map`; `threads` are those of one block."""
         ask = asked(grid, orientations, measure, limits, given, seed)
         # What is wrong is told here, not by a machine far away.
-        ask.columns(solver, 0, min(ask.places, 1), 1)
+        ask.columns(solver, 0, 0, 1)
         return Reach(solver.to_json(), ask, threads)
 
     @property
@@ -71,14 +71,15 @@ class Reach(blocks.Work):
             yield arrow.table(columns)
 
 
-def block(ask: Ask, poses: int = blocks.BLOCK) -> int:
+def block(work: Reach, poses: int = blocks.BLOCK) -> int:
     """So many places have about so many poses."""
-    return max(1, poses // ask.orientations)
+    orientations: int = work.ask.columns(_solver(work.solver), 0, 0, 1)["orientations"]
+    return max(1, poses // orientations)
 
 
 def read(out: str | os.PathLike[str], work: Reach) -> ReachMap:
     """The map that a finished work wrote. `BadValueError` as `groebot.blocks.finished`."""
-    files = [path for _, path in blocks.finished(out)]
+    files = [path for _, path in blocks.finished(out, work)]
     table = arrow.concat_tables(parquet.read_table(path, use_threads=False) for path in files)
     columns: dict[str, Any] = {name: table[name].to_numpy() for name in _COLUMNS if name in table.column_names}
     solver = _solver(work.solver)

@@ -43,10 +43,14 @@ pub fn reach<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let stored = &solver.0;
-    let limits = solver.bounds(limits)?;
+    let is_described = limits.is_some_and(|limits| limits.extract::<bool>().is_ok_and(|is_asked| is_asked));
+    let limits = if is_described {
+        Some(Ask::described(&stored.program).map_err(|error| raised(&error))?)
+    } else {
+        solver.bounds(limits)?
+    };
     let measure = Measure::of(measure).map_err(|error| raised(&error))?;
-    let [x, y, z] = axes.map(|(from, to, count)| Axis::new(from, to, count));
-    let grid = x.and_then(|x| Grid::new([x, y?, z?])).map_err(|error| raised(&error))?;
+    let grid = Grid::new(axes.map(|(from, to, count)| Axis { from, to, count })).map_err(|error| raised(&error))?;
     let stop = stop.unwrap_or(grid.places());
     if start > stop || stop > grid.places() {
         return Err(bad_value(format!("places from {start} to {stop}; the grid has {}", grid.places())));

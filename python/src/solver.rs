@@ -103,7 +103,7 @@ impl Solver {
     /// The least and the greatest value of each joint as described, infinite where there is none: shape (joints, 2).
     #[getter]
     fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let limits = self.0.limits();
+        let limits = self.0.program.limits();
         arrays::shaped(py, limits.concat(), &[limits.len(), 2])
     }
 
@@ -319,7 +319,7 @@ impl Solver {
     pub fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
         let Some(limits) = limits else { return Ok(None) };
         match limits.extract::<bool>() {
-            Ok(true) => Ok(Some(self.0.limits())),
+            Ok(true) => Ok(Some(self.0.program.limits())),
             Ok(false) => Ok(None),
             Err(_) => arrays::limits(&Numbers::of(limits)?, self.0.program.joints.len()).map(Some),
         }

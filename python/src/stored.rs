@@ -163,15 +163,6 @@ impl Stored {
         let is_joint = |name: &str| self.program.joints.iter().any(|joint| joint.name == name);
         self.program.inputs.iter().map(|input| input.name.as_str()).filter(|name| is_joint(name)).collect()
     }
-
-    /// By joint, its least and its greatest value; infinite where the description has none.
-    pub fn limits(&self) -> Vec<[f64; 2]> {
-        let told = self.program.about.as_ref().map_or(&[][..], |about| &about.limits);
-        let of = |joint: usize| {
-            told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
-        };
-        (0..self.program.joints.len()).map(of).collect()
-    }
 }
 
 /// The shape of a program's targets.

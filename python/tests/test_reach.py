@@ -74,10 +74,12 @@ def test_manipulability_is_that_of_jacobians(ur5):
 
 def test_described_limits_are_asked_for_by_either_name():
     arm = Solver.named("nao_left_arm")
-    grid = [(0, 200, 5), (0, 250, 5), (0, 250, 5)]
+    grid = [(0, 0.2, 5), (0, 0.25, 5), (0, 0.25, 5)]
     by_measure, by_limits, free = reach_map(arm, grid, 40, "limits"), reach_map(arm, grid, 40, limits=True), reach_map(arm, grid, 40)
     np.testing.assert_array_equal(by_measure.answers, by_limits.answers)
-    assert by_measure.limited and 0 < by_measure.answers.sum() < free.answers.sum() and free.unit == "mm"
+    assert by_measure.limited and 0 < by_measure.answers.sum() < free.answers.sum() and free.unit == "m"
+    with pytest.raises(BadValueError, match="no limits are described"):
+        reach_map(Solver.named("puma"), GRID, 5, limits=True)
 
 
 def test_given_joints_and_threads_and_seeds():
@@ -87,7 +89,8 @@ def test_given_joints_and_threads_and_seeds():
     np.testing.assert_array_equal(one.answers, two.answers)
     assert not np.array_equal(one.answers, reach_map(arm, grid, 50, given=0.4, seed=4).answers)
     told = []
-    reach_map(arm, grid, 50, given=[0.4], progress=lambda *line: told.append(line))
+    reach_map(arm, {"x": (-1, 1, 30), "y": (-1, 1, 30), "z": (-1, 1, 30)}, 200, given=[0.4], progress=lambda *line: told.append(line))
+    assert told and all(stage == "reach: places" for stage, _, _ in told)
     with pytest.raises(BadValueError, match="A3"):
         reach_map(arm, grid, 50)
 
@@ -103,6 +106,8 @@ def test_given_joints_and_threads_and_seeds():
         ({"x": np.zeros((2, 2))}, "shape"),
         ({"x": np.nan}, "finite"),
         ({"x": (0, 1, 10**5), "y": (0, 1, 10**5)}, "at most"),
+        ({"x": (0, 1, 10**30)}, "whole number"),
+        ({"x": (0, 1, -2)}, "whole number"),
     ],
 )
 def test_what_is_no_grid_is_refused(ur5, grid, message):
@@ -113,22 +118,30 @@ def test_what_is_no_grid_is_refused(ur5, grid, message):
 def test_wrong_questions_are_refused(ur5):
     with pytest.raises(groebot.GroebotError, match="no measure"):
         reach_map(ur5, GRID, 10, "weight")
-    with pytest.raises(BadValueError, match="orientations"):
-        reach_map(ur5, GRID, 0)
+    for orientations in (0, -1, 10**30, 2.5):
+        with pytest.raises(BadValueError, match="orientations"):
+            reach_map(ur5, GRID, orientations)
+    for seed in (-1, 1 << 64, 0.5):
+        with pytest.raises(BadValueError, match="seed"):
+            reach_map(ur5, GRID, 5, seed=seed)
+    with pytest.raises(BadValueError, match="lesser one|limits"):
+        reach_map(ur5, GRID, 5, limits=[[1, 0]] * 6)
+    with pytest.raises(groebot.GroebotError, match="none is known here"):
+        reach_map(Solver.from_json(json.dumps(json.loads(ur5.to_json())["program"])), GRID, 5, "manipulability")
     with pytest.raises(groebot.GroebotError, match="positions of one tip"):
         reach_map(Solver.named("nao_head"), GRID)
 
 
 @pytest.mark.parametrize("measure", ["count", "manipulability"])
 def test_maps_are_stored_and_read(tmp_path, ur5, measure):
-    made = reach_map(ur5, GRID, 10, measure, seed=2)
+    made = reach_map(ur5, GRID, 10, measure, seed=np.int64(2))
     again = ReachMap.from_json(made.to_json())
     assert repr(again) == repr(made) and again.axes == made.axes and again.seed == 2
     for name in ("reached", "answers", "open", "best", "mean"):
         own = getattr(made, name)
         assert own is None or (np.array_equal(own, getattr(again, name)) and own.dtype == getattr(again, name).dtype)
     made.save(tmp_path / "map.json")
-    assert (tmp_path / "map.json").read_text() == made.to_json() or json.loads((tmp_path / "map.json").read_text()) == json.loads(made.to_json())
+    assert (tmp_path / "map.json").read_text() == made.to_json() == again.to_json()
     made.save(tmp_path / "map.csv")
     rows = np.genfromtxt(tmp_path / "map.csv", delimiter=",", names=True)
     np.testing.assert_array_equal(rows["answers"], made.answers.ravel())
@@ -174,5 +187,8 @@ def test_blocks_are_the_map(tmp_path, ur5):
     made.save(tmp_path / "map.parquet")
     whole = parquet.read_table(tmp_path / "map.parquet")
     np.testing.assert_array_equal(np.concatenate([parquet.read_table(path)["x"] for path in done.files]), whole["x"])
+    other = Reach.of(ur5, GRID, 31)
     with pytest.raises(BadValueError, match="other work"):
-        blocks.planned(Reach.of(ur5, GRID, 31), tmp_path / "out", 7)
+        blocks.planned(other, tmp_path / "out", 7)
+    with pytest.raises(BadValueError, match="the same work"):
+        read(tmp_path / "out", other)

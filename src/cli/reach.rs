@@ -7,10 +7,12 @@ use super::moving::ends;
 use super::progress::{Limits, Session, mebibytes, seconds};
 use super::solve::read_program;
 use super::{Outcome, console};
+use nalgebra::Point3;
+
 use crate::derive::{Ends, InputFile};
 use crate::document::shown;
 use crate::files::write_atomically;
-use crate::kinematics::Chain;
+use crate::kinematics::{Chain, Joint, JointKind};
 use crate::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
@@ -25,7 +27,7 @@ const EXAMPLES: &str = "Examples:
   groebot reach derivations/iiwa14 --given 0.5 --measure limits --plot within.svg
   groebot view derivations/ur5 --reach ur5.json -o ur5.html
 
-An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, from minus to plus the chain's reach. At each place are orientations, spread evenly over all that the task tells apart: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
+An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, as far as the chain is long about its first joint. At each place are orientations, spread evenly over all that the task tells apart: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
 manipulability (of each orientation that of the best answer).";
 
 /// Counts what a derived solver reaches, place by place
@@ -108,13 +110,17 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn ask(&self, program: &Program, chain: Option<&Chain>) -> Result<Ask> {
         let asked = |name: &str| program.inputs.iter().any(|input| input.name == name);
-        let axis = |told: Option<Axis>, name: &str, input: &str| match (told, chain) {
+        let around = chain.and_then(around);
+        let axis = |told: Option<Axis>, place: usize| match (told, &around) {
             (Some(axis), _) => Ok(axis),
-            _ if !asked(input) => Axis::new(0.0, 0.0, 1),
-            (None, Some(chain)) if chain.reach() > 0.0 => Axis::new(-chain.reach(), chain.reach(), USUAL),
-            _ => Err(Error::new(ErrorKind::MissingKey, format!("no places by {name}; give --{name} FROM:TO:COUNT"))),
+            _ if !asked(["px", "py", "pz"][place]) => Axis::new(0.0, 0.0, 1),
+            (None, Some((middle, reach))) => Axis::new(middle[place] - reach, middle[place] + reach, USUAL),
+            _ => {
+                let name = ["x", "y", "z"][place];
+                Err(Error::new(ErrorKind::MissingKey, format!("no places by {name}; give --{name} FROM:TO:COUNT")))
+            }
         };
-        let grid = Grid::new([axis(self.x, "x", "px")?, axis(self.y, "y", "py")?, axis(self.z, "z", "pz")?])?;
+        let grid = Grid::new([axis(self.x, 0)?, axis(self.y, 1)?, axis(self.z, 2)?])?;
         let limits = self.limits || self.measure == Measure::Limits;
         Ok(Ask {
             orientations: self.orientations,
@@ -130,6 +136,17 @@ impl Arguments {
 /// The chain that was derived in a folder, where there is one.
 fn chain(file: &Path) -> Result<Option<Chain>> {
     if file.is_dir() { InputFile::read(file)?.chain(&Ends::default()) } else { Ok(None) }
+}
+
+/// A cube in which the tip of a chain stays: its middle and half of its side. `None` where a slide has no limits, or the chain no length.
+fn around(chain: &Chain) -> Option<(Point3<f64>, f64)> {
+    let travel = |joint: &Joint| match (joint.kind, joint.limits) {
+        (JointKind::Revolute, _) => Some(0.0),
+        (JointKind::Prismatic, limits) => limits.map(|(low, high)| low.abs().max(high.abs())),
+    };
+    let travels = chain.joints().iter().map(travel).sum::<Option<f64>>()?;
+    let first = chain.joints().first()?;
+    Some((first.location(), chain.reach() + travels)).filter(|(_, reach)| *reach > 0.0)
 }
 
 fn summary(map: &ReachMap, time: Duration) -> String {

@@ -115,6 +115,13 @@ impl Arguments {
             return Err(Error::new(ErrorKind::BadValue, text).in_file(&self.shown));
         }
         let map = ReachMap::from_json(&read_text(file, TABLE_LIMIT)?).map_err(|error| error.in_file(file))?;
+        if self.shown.is_dir() {
+            let own = read_program(&self.shown)?.name;
+            if map.solver != own {
+                let text = format!("this is a map of {}; the derivation is that of {own}", shown(&map.solver));
+                return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+            }
+        }
         Ok(page.with_reach(&map))
     }
 

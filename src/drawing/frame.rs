@@ -74,6 +74,9 @@ fn ticks(low: f64, high: f64, most: f64) -> Vec<(f64, String)> {
     let step = |(factor, power): (f64, i32)| factor * 10f64.powi(power);
     let (factor, power) = steps.into_iter().find(|choice| step(*choice) >= wanted).unwrap_or((1.0, power + 1));
     let (step, decimals) = (step((factor, power)), (-power).max(0) as usize);
+    if step < f64::MIN_POSITIVE {
+        return Vec::new();
+    }
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
     // Whole numbers have no negative zero.
     (first..=last).map(|count| (count as f64 * step, format!("{:.decimals$}", count as f64 * step))).collect()

@@ -95,22 +95,36 @@ impl Chain {
 }
 
 impl Chain {
-    /// How well the tip moves at the joint values `q`, in what the task determines: Yoshikawa's measure `sqrt(det(J J'))` (Manipulability of robotic mechanisms, IJRR 4, 1985), by metres and radians. Of fewer joints than
-    /// the task determines numbers, `sqrt(det(J' J))`.
+    /// How well the tip moves at the joint values `q`, in what the task determines: Yoshikawa's measure `sqrt(det(J J'))` (Manipulability of robotic mechanisms, IJRR 4, 1985), by metres and radians, whatever the chain's unit. Of fewer joints than
+    /// the task determines numbers, `sqrt(det(J' J))`. Joints that follow others move with them.
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
     pub fn manipulability(&self, q: &[f64]) -> f64 {
         let mut jacobian = self.task_jacobian(q, &[]);
-        let reach = if self.reach() > 0.0 { self.reach() } else { 1.0 };
+        let unit = self.length_unit().metres();
+        let reach = if self.reach() > 0.0 { unit * self.reach() } else { 1.0 };
         jacobian.rows_mut(0, self.task().lengths()).scale_mut(reach);
-        for (mut column, screw) in jacobian.column_iter_mut().zip(self.screws()) {
+        let slides = |joint: usize| matches!(self.screws()[joint], Screw::Prismatic(_));
+        for joint in (0..jacobian.ncols()).filter(|joint| slides(*joint)) {
             // A slide is in reaches, too.
-            if let Screw::Prismatic(_) = screw {
-                column.unscale_mut(reach);
-            }
+            jacobian.column_mut(joint).unscale_mut(reach);
         }
-        let gram = match jacobian.nrows() <= jacobian.ncols() {
+        // What follows moves with its leader, and is no joint of its own.
+        let followers: Vec<usize> = (0..jacobian.ncols()).filter(|joint| self.leader(*joint).is_some()).collect();
+        for &joint in followers.iter().rev() {
+            let Some((leader, mimic)) = self.leader(joint) else { continue };
+            let metres = |joint: usize| if slides(joint) { unit } else { 1.0 };
+            let factor = mimic.law()[0] * metres(joint) / metres(leader);
+            let moved = jacobian.column(joint) * factor;
+            let mut column = jacobian.column_mut(leader);
+            column += moved;
+        }
+        let jacobian = jacobian.remove_columns_at(&followers);
+        if jacobian.is_square() {
+            return jacobian.determinant().abs();
+        }
+        let gram = match jacobian.nrows() < jacobian.ncols() {
             true => &jacobian * jacobian.transpose(),
             false => jacobian.transpose() * &jacobian,
         };

@@ -68,13 +68,11 @@ impl Ask {
     /// # Errors
     /// [`ErrorKind::BadValue`] where it tells none at all.
     pub fn described(program: &Program) -> Result<Vec<[f64; 2]>> {
-        let limits = program.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
-        if limits.iter().all(Option::is_none) {
+        let limits = program.limits();
+        if limits.iter().flatten().all(|limit| limit.is_infinite()) {
             let text = format!("of {} no limits are described; give some", program.name);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let own =
-            |limits: &Option<(f64, f64)>| limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high]);
-        Ok(limits.iter().map(own).collect())
+        Ok(limits)
     }
 }

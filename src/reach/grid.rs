@@ -55,8 +55,11 @@ pub struct Grid {
 
 impl Grid {
     /// # Errors
-    /// [`ErrorKind::BadValue`] for more places than 10^8.
+    /// As [`Axis::new`], with the axis; [`ErrorKind::BadValue`] for more places than 10^8.
     pub fn new(axes: [Axis; 3]) -> Result<Self> {
+        for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
+            Axis::new(axis.from, axis.to, axis.count).map_err(|error| error.with_context(format!("`{name}`")))?;
+        }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.count));
         match count {
             Some(count) if count <= MOST => Ok(Grid { axes }),

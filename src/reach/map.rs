@@ -2,6 +2,7 @@
 
 use super::ask::{Ask, Measure};
 use super::grid::Grid;
+use super::poses::POSITION;
 use crate::solver::{Program, Unit};
 
 /// What was found at a place.
@@ -49,7 +50,7 @@ impl ReachMap {
     /// For another number of entries than places.
     pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>) -> Self {
         assert_eq!(entries.len(), ask.grid.places(), "an entry for each place");
-        let unit = program.inputs.iter().find(|input| input.name.starts_with('p')).map(|input| input.unit);
+        let unit = program.inputs.iter().find(|input| POSITION.contains(&input.name.as_str())).map(|input| input.unit);
         ReachMap {
             solver: program.name.clone(),
             task: program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone()),

@@ -12,9 +12,9 @@ use crate::solver::{Condition, Program};
 use crate::{Error, ErrorKind, Result};
 
 /// The most orientations at a place.
-const MOST: usize = 1_000_000;
+pub(super) const MOST: usize = 1_000_000;
 /// How the inputs of a position are called.
-const POSITION: [&str; 3] = ["px", "py", "pz"];
+pub(super) const POSITION: [&str; 3] = ["px", "py", "pz"];
 
 /// What is asked of a solver's tip at each place of a grid: the place, and orientations that are spread evenly over all that the task tells apart.
 #[derive(Clone, Debug)]
@@ -55,12 +55,11 @@ impl Poses {
             let text = format!("{orientations} orientations at a place; 1 to {MOST} are allowed");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let input = |name: &str| program.inputs.iter().position(|input| input.name == name);
-        let position = POSITION.map(input);
+        let position = POSITION.map(|name| input(program, name));
         let spread = Spread::of(program, orientations);
         let known: Vec<usize> = position.iter().flatten().copied().chain(spread.inputs()).collect();
         let others: Vec<usize> = (0..program.inputs.len()).filter(|input| !known.contains(input)).collect();
-        let is_joint = |input: &usize| program.joints.iter().any(|joint| joint.name == program.inputs[*input].name);
+        let is_joint = |input: &usize| is_joint(program, &program.inputs[*input].name);
         if position.iter().all(Option::is_none) || !others.iter().all(is_joint) {
             let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
             let text = format!(
@@ -129,9 +128,18 @@ impl Poses {
     }
 }
 
+fn is_joint(program: &Program, name: &str) -> bool {
+    program.joints.iter().any(|joint| joint.name == name)
+}
+
+/// The input of that name which is no given joint.
+fn input(program: &Program, name: &str) -> Option<usize> {
+    program.inputs.iter().position(|input| input.name == name).filter(|_| !is_joint(program, name))
+}
+
 impl Spread {
     fn of(program: &Program, count: usize) -> Self {
-        let input = |name: &str| program.inputs.iter().position(|input| input.name == name);
+        let input = |name: &str| input(program, name);
         let directions = || (0..count).map(|number| direction(number, count)).collect();
         match (program.conditions.as_slice(), input("phi"), [input("pitch"), input("roll")]) {
             ([Condition::Rotation(first)], None, [None, None]) => {

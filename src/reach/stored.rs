@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::ask::Measure;
 use super::grid::{Axis, Grid};
 use super::map::{Entry, ReachMap};
+use super::poses::MOST;
 use crate::document::JsonFormat;
 use crate::{Error, ErrorKind, Result};
 
@@ -129,6 +130,10 @@ impl ReachMap {
             mean: number(&mean, place),
         };
         let entries: Vec<Entry> = (0..places).map(entry).collect();
+        if !(1..=MOST).contains(&orientations) {
+            let text = format!("`orientations` is {orientations}; 1 to {MOST} are allowed");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
         let is_whole = |entry: &Entry| {
             u64::from(entry.reached) + u64::from(entry.open) <= orientations as u64
                 && entry.reached <= entry.answers
@@ -141,15 +146,15 @@ impl ReachMap {
         Ok(ReachMap { solver, task, unit, grid, orientations, seed, measure, limited, entries })
     }
 
-    /// The map as CSV with a line of names: `x`, `y`, `z`, `reached`, `answers`, and where manipulability was measured `best` and `mean`; a line a place, of which z changes first.
+    /// The map as CSV with a line of names: `x`, `y`, `z`, `reached`, `answers`, `open`, and where manipulability was measured `best` and `mean`; a line a place, of which z changes first.
     pub fn to_csv(&self) -> String {
         let is_measured = self.measure == Measure::Manipulability;
-        let mut text = String::from("x,y,z,reached,answers");
+        let mut text = String::from("x,y,z,reached,answers,open");
         text += if is_measured { ",best,mean\n" } else { "\n" };
         for (place, entry) in self.entries.iter().enumerate() {
-            let ([x, y, z], Entry { reached, answers, best, mean, .. }) = (self.grid.at(place), entry);
+            let ([x, y, z], Entry { reached, answers, open, best, mean }) = (self.grid.at(place), entry);
             // Writing to a string cannot fail.
-            let _ = write!(text, "{x},{y},{z},{reached},{answers}");
+            let _ = write!(text, "{x},{y},{z},{reached},{answers},{open}");
             let _ = if is_measured { writeln!(text, ",{best},{mean}") } else { writeln!(text) };
         }
         text

@@ -10,9 +10,8 @@ use rayon::prelude::*;
 use super::ask::{Ask, Measure};
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
-use crate::kinematics::{Chain, Solution};
+use crate::kinematics::{Chain, JointKind, Solution};
 use crate::solver::{JointValue, Program, Solved, Solver};
-use crate::spatial::Screw;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// So many targets are solved at once.
@@ -82,21 +81,22 @@ impl<'a> Survey<'a> {
         let poses = Poses::new(program, ask)?;
         let turns: Vec<bool> =
             program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
+        if let Some(chain) = chain.filter(|chain| chain.joints().len() != turns.len()) {
+            let text = format!("{} has {} joints, its chain {}", program.name, turns.len(), chain.joints().len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
         let sphere = chain.filter(|_| poses.are_in_space()).and_then(sphere);
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
-            let text = "a manipulability is that of a chain; this solver was derived from equations alone";
+            let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let limits = match (&ask.limits, ask.measure) {
             (None, Measure::Limits) => Some(Ask::described(program)?),
             (limits, _) => limits.clone(),
         };
-        if let Some(limits) = &limits
-            && (limits.len() != turns.len() || limits.iter().flatten().any(|limit| limit.is_nan()))
-        {
-            let text = format!("{limits:?} are no limits of {} joints", turns.len());
-            return Err(Error::new(ErrorKind::BadValue, text));
+        if let Some(limits) = &limits {
+            check(limits, program)?;
         }
         Ok(Survey { solver, program, chain, sphere, ask, poses, turns, limits })
     }
@@ -187,7 +187,10 @@ impl<'a> Survey<'a> {
                         Err(error) => failed = Some(error),
                     }
                 }
-                target.is_open = refused.is_some();
+                match refused {
+                    Some(error) if error.kind() != ErrorKind::Unsupported => failed = Some(error),
+                    refused => target.is_open = refused.is_some(),
+                }
                 take(number, &target);
                 (number, target) = (number + 1, Target::default());
             }
@@ -196,10 +199,14 @@ impl<'a> Survey<'a> {
     }
 
     fn answer(&self, q: &[f64], free: u32, target: &mut Target) {
-        if self.limits.as_ref().is_some_and(|limits| !has_turn_within(&self.turns, q, limits)) {
+        if self.limits.as_ref().is_none_or(|limits| has_turn_within(&self.turns, q, limits)) {
+            self.count(q, target);
+        } else {
             target.strides |= free != 0;
-            return;
         }
+    }
+
+    fn count(&self, q: &[f64], target: &mut Target) {
         target.answers += 1;
         if let Some(chain) = self.chain {
             target.best = target.best.max(chain.manipulability(q));
@@ -210,7 +217,7 @@ impl<'a> Survey<'a> {
     fn stride(&self, numbers: &[f64]) -> Result<Target> {
         let mut target = Target::default();
         for solution in self.solver.within(numbers, self.limits.as_deref().unwrap_or_default())? {
-            self.answer(&solution.q, 0, &mut target);
+            self.count(&solution.q, &mut target);
         }
         Ok(target)
     }
@@ -218,9 +225,24 @@ impl<'a> Survey<'a> {
 
 /// What the tip of a chain never gets out of, where no joint slides.
 fn sphere(chain: &Chain) -> Option<(Point3<f64>, f64)> {
-    let Screw::Revolute(first) = chain.screws().first()? else { return None };
-    let turns = chain.screws().iter().all(|screw| matches!(screw, Screw::Revolute(_)));
-    turns.then(|| (first.point(), chain.reach() * BEYOND))
+    let turns = chain.joints().iter().all(|joint| joint.kind == JointKind::Revolute);
+    chain.joints().first().filter(|_| turns).map(|first| (first.location(), chain.reach() * BEYOND))
+}
+
+/// Whether there is a pair of limits for each joint, the lesser one first.
+fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
+    let joints = &program.joints;
+    let text = match limits.iter().position(|[low, high]| low.is_nan() || high.is_nan() || low > high) {
+        _ if limits.len() != joints.len() => {
+            format!("{} pairs of limits; {} has {} joints", limits.len(), program.name, joints.len())
+        }
+        Some(joint) => {
+            let [low, high] = limits[joint];
+            format!("limits of `{}`: from {low} to {high}; the lesser one comes first", joints[joint].name)
+        }
+        None => return Ok(()),
+    };
+    Err(Error::new(ErrorKind::BadValue, text))
 }
 
 /// Whether each joint is within its limits, an angle with some of its turns.
@@ -229,8 +251,7 @@ fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
         let (low, high) = (low - SLACK, high + SLACK);
         match turns {
             false => (low..=high).contains(value),
-            true if low.is_infinite() || high.is_infinite() => true,
-            true => value + TAU * ((low - value) / TAU).ceil() <= high,
+            true => ((low - value) / TAU).ceil() <= ((high - value) / TAU).floor(),
         }
     })
 }

@@ -212,6 +212,15 @@ const FORMAT: JsonFormat =
     JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
 
 impl Program {
+    /// By joint, the least and the greatest value that its source describes in the joint's unit; infinite where it tells none.
+    pub fn limits(&self) -> Vec<[f64; 2]> {
+        let told = self.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
+        let of = |joint: usize| {
+            told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
+        };
+        (0..self.joints.len()).map(of).collect()
+    }
+
     /// Reads a program from JSON and validates it.
     ///
     /// # Errors

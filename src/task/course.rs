@@ -87,7 +87,7 @@ impl Course {
         }
         let places = |is_wide: bool| match is_wide {
             true => floor.of_disc(pilot.radius() + floor.map().half_diagonal() + ROUNDED * floor.apart()),
-            false => Stances::new(pilot, floor)?.places(),
+            false => Stances::new(pilot, floor)?.places(watch),
         };
         for is_wide in [true, false] {
             match way(&places(is_wide)?, &start.point(), &goal.place, method, watch) {

@@ -258,43 +258,63 @@ impl<'p> Journey<'p> {
         self.searches += 1;
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
         let last = course.way.points.len().saturating_sub(1);
-        if self.lattice.is_none() && self.searches <= MOST_NEAR {
-            let map = floor.of_core(&self.pilot)?;
-            // A way along a border of cells is beside obstacles: what is near may be none of the places.
-            if let Some((corner, target)) = self.near(floor, course)
-                && map.free_cell_at(&target).is_ok()
-            {
-                let field = Field::new(&map, &[target], nav::Method::FastMarching(1), watch)?;
-                let steps = self.found(floor, target, Guide::Field(&map, &field), &sides, watch)?;
-                if !steps.is_empty() {
-                    (self.searched, self.corner) = (steps, corner);
-                    return Ok(());
-                }
+        let stances = Stances::new(&self.pilot, floor)?;
+        if self.lattice.is_none()
+            && self.searches <= MOST_NEAR
+            && let Some((corner, target)) = self.near(floor, course)
+        {
+            let steps = self.found_by_field(&stances, target, &sides, watch)?;
+            if !steps.is_empty() {
+                (self.searched, self.corner) = (steps, corner);
+                return Ok(());
             }
         }
-        let lattice = match self.lattice.take() {
-            Some(lattice) => lattice,
-            None => Lattice::new(&Stances::new(&self.pilot, floor)?, &course.goal.place, &self.middle(), watch)?,
-        };
-        let steps = self.found(floor, course.goal.place, Guide::Lattice(&lattice), &sides, watch)?;
+        let goal = course.goal.place;
+        // One that was made farther back knows little of what is far from there.
+        for known in self.lattice.take().map(Some).into_iter().chain([None]) {
+            let lattice = known.map_or_else(|| Lattice::new(&stances, &goal, &self.middle(), watch), Ok)?;
+            let steps = self.found(&stances, goal, Guide::Lattice(&lattice), &sides, watch)?;
+            if !steps.is_empty() {
+                (self.searched, self.corner, self.lattice) = (steps, last, Some(lattice));
+                return Ok(());
+            }
+        }
+        // Beside the goal a stance may fit elsewhere than at the middles of cells.
+        let steps = self.found_by_field(&stances, goal, &sides, watch)?;
         if steps.is_empty() {
             return self.stuck("no steps of this robot lead on");
         }
-        (self.searched, self.corner, self.lattice) = (steps, last, Some(lattice));
+        (self.searched, self.corner) = (steps, last);
         Ok(())
+    }
+
+    /// The steps to a place that a search by the times of arrival there finds.
+    fn found_by_field(
+        &self,
+        stances: &Stances<'_>,
+        target: Point2<f64>,
+        sides: &[Side],
+        watch: &Watch,
+    ) -> Result<Vec<Footstep>> {
+        let map = stances.floor.of_core(&self.pilot)?;
+        // A way along a border of cells is beside obstacles: what is near may be none of the places.
+        if map.free_cell_at(&target).is_err() {
+            return Ok(Vec::new());
+        }
+        let field = Field::new(&map, &[target], nav::Method::FastMarching(1), watch)?;
+        self.found(stances, target, Guide::Field(&map, &field), sides, watch)
     }
 
     /// The steps that a search finds, with one foot or the other one first.
     fn found(
         &self,
-        floor: &Floor,
+        stances: &Stances<'_>,
         goal: Point2<f64>,
         guide: Guide<'_>,
         sides: &[Side],
         watch: &Watch,
     ) -> Result<Vec<Footstep>> {
-        let stances = Stances::new(&self.pilot, floor)?;
-        let search = Search::new(&stances, goal, guide, &self.refused);
+        let search = Search::new(stances, goal, guide, &self.refused);
         for first in sides {
             if let Some(steps) = search.steps(self.feet(), *first, watch)?.filter(|steps| !steps.is_empty()) {
                 return Ok(steps);

@@ -33,8 +33,10 @@ impl Lattice {
         let map = floor.map();
         let (columns, rows) = (map.columns() as i64, map.rows() as i64);
         let costs = Costs::new(pilot.reach(), map.resolution(), map.yaw());
-        let mut lattice = Lattice { steps: vec![f32::INFINITY; map.cells().len() * HEADINGS] };
-        let mut stands = Stands { stances, known: vec![None; lattice.steps.len()] };
+        let count = map.cells().len() * HEADINGS;
+        watch.check_memory(count * (size_of::<f32>() + size_of::<Option<bool>>()))?;
+        let mut lattice = Lattice { steps: vec![f32::INFINITY; count] };
+        let mut stands = Stands { stances, known: vec![None; count] };
         let mut waiting = BinaryHeap::new();
         let near = |cell: &usize| (map.centre(*cell) - goal).norm() < pilot.reach().ahead / 2.0;
         for state in (0..map.cells().len()).filter(near).flat_map(|cell| states(cell, 0..HEADINGS)) {

@@ -65,7 +65,7 @@ impl Pilot {
         let outline = pilot.body.outline(&pilot.walker.biped, posture)?;
         pilot.core = outline.signed_distance(&Point2::origin()).max(0.0);
         let Reach { ahead, turn, .. } = *pilot.reach();
-        pilot.outline = pilot.covered(&Footprint::default(), watch)?;
+        pilot.outline = hull(&[&outline, &pilot.covered(&Footprint::default(), watch)?]);
         let turned = pilot.covered(&Footprint { yaw: turn, ..Footprint::default() }, watch)?;
         let strode = pilot.covered(&Footprint { x: ahead, ..Footprint::default() }, watch)?;
         pilot.stride = hull(&[&pilot.outline, &turned, &strode]);

@@ -6,9 +6,9 @@ use nalgebra::Point2;
 
 use super::floor::Floor;
 use super::pilot::Pilot;
-use crate::Result;
 use crate::gait::{Footprint, Polygon, Side};
 use crate::nav::{Map, Shape};
+use crate::{Result, Watch};
 
 /// At so many headings a stance is tried.
 pub(super) const HEADINGS: usize = 16;
@@ -90,15 +90,21 @@ impl<'a> Stances<'a> {
     /// Where the middle of the feet may be when they are side by side, at one heading at least, at the middle of a cell: narrower than what the core gets through, and no proof.
     ///
     /// # Errors
-    /// As [`Map::grown`].
-    pub(super) fn places(&self) -> Result<Map> {
+    /// As [`Map::grown`]; [`Watch::check`].
+    pub(super) fn places(&self, watch: &Watch) -> Result<Map> {
         // What fits in a cell mostly fits in the next one.
-        let mut last = 0;
-        Ok(self.floor.of_core(self.pilot)?.keeping_where(|cell| {
-            let found = (0..HEADINGS).map(|turn| (last + turn) % HEADINGS).find(|heading| self.stands(cell, *heading));
+        let (mut last, mut looked, mut ended) = (0, 0u32, Ok(()));
+        let map = self.floor.of_core(self.pilot)?.keeping_where(|cell| {
+            looked += 1;
+            if looked.is_multiple_of(1024) && ended.is_ok() {
+                ended = watch.check();
+            }
+            let mut turns = (0..HEADINGS).map(|turn| (last + turn) % HEADINGS);
+            let found = turns.find(|heading| ended.is_ok() && self.stands(cell, *heading));
             last = found.unwrap_or(last);
             found.is_some()
-        }))
+        });
+        ended.map(|()| map)
     }
 }
 

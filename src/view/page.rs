@@ -107,9 +107,8 @@ impl Page {
     /// The same page with what its last limb reaches, or a chain from the robot's root.
     #[must_use]
     pub fn with_reach(mut self, map: &ReachMap) -> Self {
-        let (base, metres) =
-            self.data.limbs.last().map_or((self.data.robot.base, 1.0), |limb| (limb.base, limb.metres));
-        self.data.reach = Some(reach::described(map, base, metres));
+        let base = self.data.limbs.last().map_or(self.data.robot.base, |limb| limb.base);
+        self.data.reach = Some(reach::described(map, base));
         self
     }
 

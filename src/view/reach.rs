@@ -3,9 +3,11 @@
 use super::bytes::column;
 use super::data::Reach;
 use crate::reach::{Entry, Measure, ReachMap};
+use crate::solver::Unit;
 
-/// The map in the frame of the link `base`, whose unit of length is so many metres.
-pub fn described(map: &ReachMap, base: usize, metres: f64) -> Reach {
+/// The map in the frame of the link `base`.
+pub fn described(map: &ReachMap, base: usize) -> Reach {
+    let metres = if map.unit == Unit::Millimetre.symbol() { 1e-3 } else { 1.0 };
     let numbers = |number: fn(&Entry) -> f64| column(map.entries.iter().map(number));
     Reach {
         base,

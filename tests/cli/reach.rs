@@ -23,7 +23,7 @@ fn a_map_is_made_written_and_shown() {
     );
     assert!(fs::read_to_string(&svg).unwrap().starts_with("<svg"));
     succeed(&[&asked[..], &["-o", text(&csv), "--quiet", "--measure", "manipulability"]].concat());
-    assert!(fs::read_to_string(&csv).unwrap().starts_with("x,y,z,reached,answers,best,mean\n-0.9,0.1,0.3,"));
+    assert!(fs::read_to_string(&csv).unwrap().starts_with("x,y,z,reached,answers,open,best,mean\n-0.9,0.1,0.3,"));
     succeed(&["view", "derivations/ur5", "--reach", text(&json), "-o", text(&page)]);
     let shown = fs::read_to_string(&page).unwrap();
     assert!(shown.contains(r#""reach":{"base":0,"of":"ur5, pose""#) && shown.len() < 2_000_000);
@@ -56,6 +56,12 @@ fn bad_questions_are_refused() {
         let ran = run(&["reach", "derivations/ur5", &format!("--x={axis}")]);
         assert!(ran.code == 2 && ran.err.contains("--x"), "{axis}: {}", ran.err);
     }
+    let other = folder.path().join("puma.json");
+    succeed(&["reach", "derivations/puma", "--x", "0.3", "--y", "0.1", "--z", "0.2", "-o", text(&other), "--quiet"]);
+    let told = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
+    assert!(told.contains("this is a map of puma"), "{told}");
+    // Slides have limits: what they travel is within the grid.
+    assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 places"));
     let broken = folder.path().join("broken.json");
     fs::write(&broken, "{}").unwrap();
     let page = folder.path().join("page.html");

@@ -24,6 +24,8 @@ fn what_is_no_grid_is_refused() {
     }
     let long = Axis::new(0.0, 1.0, 1000).unwrap();
     assert_eq!(Grid::new([long; 3]).unwrap_err().kind(), ErrorKind::BadValue);
+    let none = Axis { from: 0.0, to: 1.0, count: 0 };
+    assert!(Grid::new([none, long, long]).unwrap_err().message().contains("`x`"));
     let vast = Axis::new(0.0, 1.0, usize::MAX).unwrap();
     assert_eq!(Grid::new([vast; 3]).unwrap_err().kind(), ErrorKind::BadValue);
 }
@@ -46,7 +48,7 @@ fn questions_that_no_map_answers_are_refused() {
     }
     // Nothing is said of its limits, or the wrong thing.
     assert_eq!(refused("planar_2r", &Ask { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
-    for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2]] {
+    for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2], vec![[0.0, 1.0], [1.0, 0.0]]] {
         assert_eq!(refused("planar_2r", &Ask { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
     }
     let (_, program) = derivation("planar_2r");

@@ -24,16 +24,16 @@ fn csv_has_a_line_a_place() {
     let own = small(Measure::Manipulability);
     let text = own.to_csv();
     let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("x,y,z,reached,answers,best,mean"));
+    assert_eq!(lines.next(), Some("x,y,z,reached,answers,open,best,mean"));
     for (place, line) in lines.by_ref().enumerate() {
         let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
         let entry = own.entries[place];
         let [x, y, z] = own.grid.at(place);
         assert_eq!(numbers[..5], [x, y, z, entry.reached.into(), entry.answers.into()]);
-        assert_eq!([numbers[5] as f32, numbers[6] as f32], [entry.best, entry.mean]);
+        assert_eq!([numbers[6] as f32, numbers[7] as f32], [entry.best, entry.mean]);
     }
     assert_eq!(text.lines().count(), 1 + 60);
-    assert_eq!(small(Measure::Count).to_csv().lines().next(), Some("x,y,z,reached,answers"));
+    assert_eq!(small(Measure::Count).to_csv().lines().next(), Some("x,y,z,reached,answers,open"));
 }
 
 #[test]
@@ -46,6 +46,7 @@ fn json_that_is_no_map_is_refused() {
         ("z", json!({"from": 0.2, "to": 0.6, "count": 4}), ErrorKind::BadValue),
         ("x", json!({"from": 0, "to": 1, "count": 18446744073709551615u64}), ErrorKind::BadValue),
         ("orientations", json!(1), ErrorKind::BadValue),
+        ("orientations", json!(0), ErrorKind::BadValue),
         ("reached", json!([1, 2]), ErrorKind::BadValue),
         ("reached", json!([-1]), ErrorKind::Syntax),
         ("answers", json!(vec![0; 60]), ErrorKind::BadValue),
@@ -80,6 +81,9 @@ fn slices_show_what_is_reached() {
     let cell = 300.0 / 21.0;
     assert!((widths.sum::<f64>() / cell - ring.reached() as f64).abs() < 1.0, "{}", ring.reached());
     assert_eq!(svg.matches("<path").count(), 1);
+    // An axis too small for numbers beside it.
+    let tiny = grid([(0.0, 1e-310, 3), (0.0, 1e-310, 2), (0.0, 0.0, 1)]);
+    assert!(map("planar_2r", &Ask::new(tiny)).unwrap().to_svg(None).starts_with("<svg"));
     let many = small(Measure::Manipulability);
     assert!(many.to_svg(None).matches(">z = ").count() == 3 && many.to_svg(Some(0)).matches(">x = ").count() == 5);
     assert!(many.to_svg(Some(1)).contains("mean manipulability"));
