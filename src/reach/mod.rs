@@ -1,6 +1,6 @@
 //! What a solver reaches: over a grid of places and orientations spread evenly over all, how many answers there are, how many within limits, and how well the arm moves there. Main type: [`ReachMap`].
 //!
-//! A pose is made from its number and forgotten when its answers are counted: a map takes room for its places alone (F. Zacharias, C. Borst and G. Hirzinger, Capturing robot workspace
+//! A pose is made from its number and forgotten when its answers are counted (F. Zacharias, C. Borst and G. Hirzinger, Capturing robot workspace
 //! structure: representing robot capabilities, IROS 2007).
 
 mod ask;
