@@ -160,15 +160,13 @@ impl Stored {
 
     /// The names of the joints whose values are given.
     pub fn given(&self) -> Vec<&str> {
-        let is_joint = |name: &str| self.program.joints.iter().any(|joint| joint.name == name);
-        self.program.inputs.iter().map(|input| input.name.as_str()).filter(|name| is_joint(name)).collect()
+        self.program.inputs[self.program.given()].iter().map(|input| input.name.as_str()).collect()
     }
 }
 
 /// The shape of a program's targets.
 fn asked(program: &Program) -> Asked {
-    let is_joint = |name: &str| program.joints.iter().any(|joint| joint.name == name);
-    let given = program.inputs.iter().rev().take_while(|input| is_joint(&input.name)).count();
+    let given = program.given().len();
     let own = program.inputs.len() - given;
     let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
         Condition::Rotation(first) => Some(*first),

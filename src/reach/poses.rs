@@ -58,9 +58,8 @@ impl Poses {
         let position = POSITION.map(|name| input(program, name));
         let spread = Spread::of(program, orientations);
         let known: Vec<usize> = position.iter().flatten().copied().chain(spread.inputs()).collect();
-        let others: Vec<usize> = (0..program.inputs.len()).filter(|input| !known.contains(input)).collect();
-        let is_joint = |input: &usize| is_joint(program, &program.inputs[*input].name);
-        if position.iter().all(Option::is_none) || !others.iter().all(is_joint) {
+        let others = program.given();
+        if position.iter().all(Option::is_none) || !(0..others.start).all(|input| known.contains(&input)) {
             let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
             let text = format!(
                 "a map is of the positions of one tip; targets of {} are {}: derive the pose, the position or the ray of a chain",
@@ -70,7 +69,7 @@ impl Poses {
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
-            let names: Vec<&str> = others.iter().map(|input| program.inputs[*input].name.as_str()).collect();
+            let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
             let asked = if names.is_empty() { "none are".to_owned() } else { names.join(", ") };
             let text =
                 format!("{} finite values of given joints are needed ({asked}); {given:?} are told", others.len());
@@ -81,7 +80,7 @@ impl Poses {
             let text = format!("the task asks for no {name}; leave one of the {} places on that axis", axis.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let given = others.into_iter().zip(given.iter().copied()).collect();
+        let given = others.zip(given.iter().copied()).collect();
         Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed })
     }
 
@@ -128,13 +127,9 @@ impl Poses {
     }
 }
 
-fn is_joint(program: &Program, name: &str) -> bool {
-    program.joints.iter().any(|joint| joint.name == name)
-}
-
 /// The input of that name which is no given joint.
 fn input(program: &Program, name: &str) -> Option<usize> {
-    program.inputs.iter().position(|input| input.name == name).filter(|_| !is_joint(program, name))
+    program.inputs[..program.given().start].iter().position(|input| input.name == name)
 }
 
 impl Spread {

@@ -1,5 +1,7 @@
 //! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the other.
 
+use std::ops::Range;
+
 use groebot_runtime::six_axes::ROOM;
 use serde::{Deserialize, Serialize};
 
@@ -219,6 +221,19 @@ impl Program {
             told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
         };
         (0..self.joints.len()).map(of).collect()
+    }
+
+    /// The places of the inputs that are values of given joints: they come last. What the source says decides, as a task may have a number of a joint's name; without that, the names do.
+    pub fn given(&self) -> Range<usize> {
+        let is_joint = |input: &&Input| self.joints.iter().any(|joint| joint.name == input.name);
+        let count = match self.about.as_ref().map(|about| about.task.as_str()).filter(|task| !task.contains(';')) {
+            // `pose, A3 given`, `ray of [1, 0, 0], A3 given`.
+            Some(task) => task
+                .strip_suffix(" given")
+                .map_or(0, |task| task.rsplit(']').next().unwrap_or_default().matches(", ").count()),
+            None => self.inputs.iter().rev().take_while(is_joint).count(),
+        };
+        self.inputs.len().saturating_sub(count)..self.inputs.len()
     }
 
     /// Reads a program from JSON and validates it.

@@ -1,6 +1,11 @@
 //! Places, orientations and refusals.
 
+use std::f64::consts::FRAC_PI_2;
+
+use groebot::derive::Proved;
+use groebot::kinematics::Chain;
 use groebot::reach::{Ask, Axis, Grid, Measure, Survey};
+use groebot::solver::Program;
 use groebot::{ErrorKind, Watch};
 
 use super::{derivation, grid, map};
@@ -35,9 +40,11 @@ fn questions_that_no_map_answers_are_refused() {
     let here = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
     let refused = |name: &str, ask: &Ask| map(name, ask).unwrap_err();
     // No place is asked for, or two tips.
-    for name in ["wrist_rotation", "nao_head", "nao_legs"] {
+    for name in ["wrist_rotation", "nao_head"] {
         assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
     }
+    let legs = Program::from_json(&std::fs::read_to_string("derivations/nao_legs/5_program.json").unwrap()).unwrap();
+    assert_eq!(Survey::new(&legs.solver(), &legs, None, &here).err().unwrap().kind(), ErrorKind::Unsupported);
     let line = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
     assert!(refused("planar_2r", &line).message().contains("asks for no z"));
     for orientations in [0, 1_000_001] {
@@ -59,19 +66,28 @@ fn questions_that_no_map_answers_are_refused() {
 
 #[test]
 fn orientations_are_spread_evenly_over_all() {
-    // A wrist of three axes, each across the next one, whose tip is where they meet: for each way of the arm, of rotations that are spread evenly the cosine of the middle joint is, and one of two answers has it above
-    // nought. So up to an angle a it has the share (1 - cos a) / 2.
-    let free = [f64::NEG_INFINITY, f64::INFINITY];
-    let places = grid([(0.3, 0.3, 1), (0.2, 0.2, 1), (0.6, 0.6, 1)]);
+    // An arm whose tip is where the three axes of its wrist meet. For each way of the arm, where rotations are spread evenly the sine of the wrist's pitch is, too, and one of two answers has the pitch between -90 and 90
+    // degrees: up to an angle a it has the share (1 + sin a) / 2 of all.
+    let text = std::fs::read_to_string("derivations/puma/0_chain.toml").unwrap();
+    let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
+    assert_ne!(at_wrist, text);
+    let chain = Chain::from_toml(&at_wrist).unwrap();
+    let proved = Proved::of_chain(&chain, &Watch::none()).unwrap();
+    let (program, free) = (proved.program(), [f64::NEG_INFINITY, f64::INFINITY]);
+    let places = grid([(0.3, 0.3, 1), (0.8, 0.8, 1), (0.4, 0.4, 1)]);
     let orientations = 2000;
-    for (most, seed) in [(0.5, None), (1.0, None), (1.6, None), (2.5, Some(3)), (1.0, Some(4))] {
+    let answers = |seed: Option<u64>, limits: Option<Vec<[f64; 2]>>| {
+        let ask = Ask { orientations, seed, limits, ..Ask::new(places) };
+        let found = Survey::new(&program.solver(), program, Some(&chain), &ask).unwrap().map(&Watch::none()).unwrap();
+        found.entries[0].answers
+    };
+    for (most, seed) in [(-1.0, None), (-0.3, None), (0.6, None), (1.2, Some(3)), (0.6, Some(4))] {
         let mut limits = vec![free; 6];
-        limits[4] = [0.0, most];
-        let found = map("puma", &Ask { orientations, seed, limits: Some(limits), ..Ask::new(places) }).unwrap();
-        let all = map("puma", &Ask { orientations, seed, ..Ask::new(places) }).unwrap();
-        assert_eq!((all.index(0), all.entries[0].answers as usize % (2 * orientations)), (1.0, 0));
-        let share = 2.0 * f64::from(found.entries[0].answers) / f64::from(all.entries[0].answers);
-        let wanted = (1.0 - f64::cos(most)) / 2.0;
+        limits[4] = [-FRAC_PI_2, most];
+        let (all, within) = (answers(seed, None), answers(seed, Some(limits)));
+        assert_eq!(all as usize, 8 * orientations);
+        let share = 2.0 * f64::from(within) / f64::from(all);
+        let wanted = (1.0 + f64::sin(most)) / 2.0;
         assert!((share - wanted).abs() < 0.01, "{most}: {share} {wanted}");
     }
 }
@@ -101,7 +117,7 @@ fn a_seed_turns_each_place_otherwise() {
     let places = grid([(0.3, 0.6, 4), (0.3, 0.3, 1), (0.4, 0.4, 1)]);
     let reached = |seed: Option<u64>| -> Vec<u32> {
         let map = map("ur5", &Ask { orientations: 300, seed, ..Ask::new(places) }).unwrap();
-        map.entries.iter().map(|entry| entry.reached).collect()
+        map.entries.iter().map(|entry| entry.answers).collect()
     };
     let (own, one, two) = (reached(None), reached(Some(1)), reached(Some(2)));
     assert!(own != one && one != two && one == reached(Some(1)));

@@ -76,8 +76,14 @@ fn slices_show_what_is_reached() {
     // One slice; what is reached has the last colour, so that the area of its paths is that of the places.
     assert!(svg.contains(">z = 0.000 m<") && !svg.contains(">x = "));
     let path = svg.lines().find(|line| line.starts_with("<path class=\"s32\"")).unwrap();
-    let widths =
-        path.split('h').skip(1).step_by(2).map(|piece| piece.split('v').next().unwrap().parse::<f64>().unwrap());
+    let widths = path
+        .split(" d=")
+        .nth(1)
+        .unwrap()
+        .split('h')
+        .skip(1)
+        .step_by(2)
+        .map(|piece| piece.split('v').next().unwrap().parse::<f64>().unwrap());
     let cell = 300.0 / 21.0;
     assert!((widths.sum::<f64>() / cell - ring.reached() as f64).abs() < 1.0, "{}", ring.reached());
     assert_eq!(svg.matches("<path").count(), 1);
