@@ -134,3 +134,23 @@ fn long_maps_can_be_stopped() {
     let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
     assert_eq!(survey.map(&Watch::none().with_cancel(flag)).unwrap_err().kind(), ErrorKind::Cancelled);
 }
+
+#[test]
+fn given_joints_are_told_from_numbers_of_the_same_name() {
+    // The upright arm has a joint `roll`, and its task a number of that name.
+    let told = [
+        ("upright_arm", 0),
+        ("iiwa14", 1),
+        ("nao_left_arm_position", 1),
+        ("nao_left_arm", 0),
+        ("planar_4r", 1),
+        ("ur5", 0),
+    ];
+    for (name, count) in told {
+        let mut program = derivation(name).1;
+        assert_eq!(program.given(), program.inputs.len() - count..program.inputs.len(), "{name}");
+        // Without what is known of the source, by the names.
+        program.about = None;
+        assert_eq!(program.given().len(), if name == "upright_arm" { 1 } else { count }, "{name}");
+    }
+}
