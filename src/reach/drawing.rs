@@ -56,7 +56,9 @@ impl ReachMap {
             let corner = (LEFT + (slot % ABREAST) as f64 * wide, TOP + ABOVE + (slot / ABREAST) as f64 * high);
             let [along, above] = spans;
             let frame = Frame { corner, size: (size[0], size[1]), low: (along.0, above.0), high: (along.1, above.1) };
-            let label = format!("{} = {:.3} {}", AXES[normal], axes[normal].at(*slice), self.unit);
+            // No negative zero.
+            let at = (1e3 * axes[normal].at(*slice)).round() / 1e3 + 0.0;
+            let label = format!("{} = {at:.3} {}", AXES[normal], self.unit);
             svg.text("", (corner.0, corner.1 - 6.0), label.trim_end());
             self.draw_slice([normal, right, up], *slice, greatest, &frame, &mut svg);
             let units = [right, up].map(|axis| format!("{} {}", self.unit, AXES[axis]).trim().to_owned());
