@@ -20,7 +20,8 @@ after(() => browser?.close());
 const QUANTITIES = {
   share: (place) => map.reached[place] / map.orientations,
   answers: (place) => map.answers[place] / map.orientations,
-  manipulability: (place) => map.mean[place],
+  // Singles.
+  manipulability: (place) => Math.fround(map.mean[place]),
 };
 const axes = () => [map.x, map.y, map.z];
 const places = () => map.reached.length;
@@ -80,7 +81,7 @@ test("places tell what the map says of them", async () => {
   const points = asked.map((place, turn) => at(place).map((value, axis) => value + ((turn + axis) % 2 ? 0.3 : -0.3) * ((axes()[axis].to - axes()[axis].from) / (axes()[axis].count - 1))));
   const found = await shown.evaluate((points) => points.map((point) => groebot.reach.at(...point)), points);
   asked.forEach((place, turn) => {
-    const own = { reached: map.reached[place], answers: map.answers[place], share: map.reached[place] / map.orientations, manipulability: map.mean[place] };
+    const own = { reached: map.reached[place], answers: map.answers[place], share: map.reached[place] / map.orientations, manipulability: Math.fround(map.mean[place]) };
     assert.deepEqual(found[turn], own);
   });
   await assert.rejects(shown.evaluate(() => groebot.reach.at(0, NaN, 0)), /three finite numbers/);
