@@ -34,12 +34,13 @@ class Axis(NamedTuple):
     """The first one, in the solver's unit of length."""
     stop: float
     """The last one."""
-    count: int
+    num: int
+    """How many there are."""
 
     @property
     def places(self) -> npt.NDArray[np.float64]:
         """Where they are: (count,)."""
-        share = np.arange(self.count) / max(self.count - 1, 1)
+        share = np.arange(self.num) / max(self.num - 1, 1)
         return self.start * (1 - share) + self.stop * share
 
 
@@ -57,7 +58,7 @@ class Ask:
     @property
     def places(self) -> int:
         """How many places there are."""
-        x, y, z = (axis.count for axis in self.axes)
+        x, y, z = (axis.num for axis in self.axes)
         return x * y * z
 
     def columns(
@@ -90,11 +91,11 @@ def asked(
     if len(grid) != 3:
         raise BadValueError(f"a grid has three axes, x, y and z; {len(grid)} are given", "bad_value")
     x, y, z = (_axis(name, axis) for name, axis in zip("xyz", grid))
-    if limits is not None and not isinstance(limits, bool):
-        limits = np.asarray(limits, np.float64).tolist()
+    plain: list[list[float]] | bool | None
+    plain = limits if isinstance(limits, (bool, type(None))) else np.asarray(limits, np.float64).tolist()
     numbers = [] if given is None else np.atleast_1d(np.asarray(given, np.float64)).tolist()
     count, own = _whole("orientations", orientations), None if seed is None else _whole("seed", seed)
-    return Ask((x, y, z), count, measure, limits, numbers, own)
+    return Ask((x, y, z), count, measure, plain, numbers, own)
 
 
 def _whole(name: str, number: Any) -> int:
@@ -151,7 +152,7 @@ class ReachMap:
     @staticmethod
     def of(solver: Solver, ask: Ask, columns: Mapping[str, Any]) -> ReachMap:
         """The map of the columns of all places."""
-        shape = tuple(axis.count for axis in ask.axes)
+        shape = tuple(axis.num for axis in ask.axes)
         own = {name: columns[name].reshape(shape) for name in _COLUMNS if name in columns}
         limited = bool(ask.limits) or ask.measure == "limits"
         unit = solver.length_unit
@@ -182,7 +183,7 @@ class ReachMap:
     def to_json(self) -> str:
         """The map as `groebot reach` writes it; `groebot view` shows it."""
         told = {"format": 1, "solver": self.solver, "task": self.task, "unit": self.unit}
-        axes = {name: {"from": axis.start, "to": axis.stop, "count": axis.count} for name, axis in zip("xyz", self.axes)}
+        axes = {name: {"from": axis.start, "to": axis.stop, "count": axis.num} for name, axis in zip("xyz", self.axes)}
         seed = {} if self.seed is None else {"seed": self.seed}
         counted = {"orientations": self.orientations, "measure": self.measure, "limited": self.limited}
         numbers = {name: column.ravel().tolist() for name in _COLUMNS if (column := getattr(self, name)) is not None}
@@ -195,7 +196,7 @@ class ReachMap:
         """Reads what `to_json` and `groebot reach` write. `BadValueError` for what is no map."""
         told = json.loads(_reach_as(text, "json"))
         axes = tuple(Axis(told[name]["from"], told[name]["to"], told[name]["count"]) for name in "xyz")
-        shape = tuple(axis.count for axis in axes)
+        shape = tuple(axis.num for axis in axes)
         kinds = {"best": np.float32, "mean": np.float32}
         own = {name: np.array(told[name], kinds.get(name, np.uint32)).reshape(shape) for name in _COLUMNS if name in told}
         own.setdefault("open", np.zeros(shape, np.uint32))

@@ -61,7 +61,7 @@ class Reach(blocks.Work):
         return {**told, "limits": ask.limits, "given": ask.given, "seed": ask.seed}
 
     def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
-        solver, shape = _solver(self.solver), tuple(axis.count for axis in self.ask.axes)
+        solver, shape = _solver(self.solver), tuple(axis.num for axis in self.ask.axes)
         for first in range(start, stop, PIECE):
             last = min(first + PIECE, stop)
             numbers = np.unravel_index(np.arange(first, last), shape)
