@@ -96,7 +96,15 @@ def test_a_budget_of_time():
     assert raised.value.kind == "budget"
 
 
-def test_an_interrupt_from_the_keyboard():
+@pytest.fixture
+def heard():
+    """Interrupts are heard also where these tests run in the background of a script, whose shell has them ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupt_from_the_keyboard(heard):
     timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
