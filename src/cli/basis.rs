@@ -3,14 +3,14 @@
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::basis_answer::Answer;
 use super::basis_question::Question;
 use super::console;
-use super::progress::{Limits, Session, mebibytes, seconds};
+use super::progress::{Budget, Session};
 use super::{Outcome, basis_cover};
 use crate::files::write_atomically;
 use crate::poly::Order;
@@ -64,15 +64,8 @@ pub struct Arguments {
     /// Write the basis to this file
     #[arg(short, long, value_name = "OUT")]
     out: Option<PathBuf>,
-    /// The time budget
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    time: Option<Duration>,
-    /// The memory budget
-    #[arg(long, value_name = "MiB", value_parser = mebibytes)]
-    memory: Option<usize>,
-    /// Neither progress nor summary
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    budget: Budget,
 }
 
 /// A format, or none: the content shows it.
@@ -92,8 +85,7 @@ fn order(text: &str) -> std::result::Result<Order, String> {
 
 /// Reads, computes, writes, and tells about it.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let limits = Limits { time: arguments.time, memory: arguments.memory, quiet: arguments.quiet, terms: None };
-    let session = Session::start(limits)?;
+    let session = Session::start(arguments.budget.limits())?;
     let start = Instant::now();
     if arguments.cover {
         return tell_cover(arguments, &session, start);
@@ -107,7 +99,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.out.is_none() {
         console::print(&text)?;
     }
-    if !arguments.quiet {
+    if !arguments.budget.quiet {
         // There is no one left to tell about a closed standard error.
         let _ = writeln!(io::stderr(), "{}; {:.2} s", answer.summary(), start.elapsed().as_secs_f64());
     }
@@ -127,7 +119,7 @@ fn tell_cover(arguments: &Arguments, session: &Session, start: Instant) -> Outco
         Some(path) => write_files(&[(path.clone(), text)], &session.watch)?,
         None => console::print(&text)?,
     }
-    if !arguments.quiet {
+    if !arguments.budget.quiet {
         // There is no one left to tell about a closed standard error.
         let _ = writeln!(io::stderr(), "{summary}; {:.2} s", start.elapsed().as_secs_f64());
     }

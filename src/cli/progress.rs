@@ -25,6 +25,27 @@ pub struct Limits {
     pub quiet: bool,
 }
 
+/// How much a command may spend, and whether it tells of it.
+#[derive(clap::Args)]
+pub struct Budget {
+    /// The time budget
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time: Option<Duration>,
+    /// The memory budget
+    #[arg(long, value_name = "MiB", value_parser = mebibytes)]
+    memory: Option<usize>,
+    /// Neither progress nor summary
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl Budget {
+    /// The same as limits of a session.
+    pub fn limits(&self) -> Limits {
+        Limits { time: self.time, memory: self.memory, terms: None, quiet: self.quiet }
+    }
+}
+
 /// A watch with its spinner, which goes when the session ends.
 pub struct Session {
     /// What the work asks.

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::moving::ends;
-use super::progress::{Limits, Session, mebibytes, seconds};
-use super::solve::read_program;
-use super::{Outcome, console};
 use nalgebra::Point3;
 
+use super::moving::ends;
+use super::progress::{Budget, Session};
+use super::solve::read_program;
+use super::{Outcome, console};
 use crate::derive::{Ends, InputFile};
 use crate::document::shown;
 use crate::files::write_atomically;
@@ -69,15 +69,8 @@ pub struct Arguments {
     /// Slice across this axis (default: one with a single place, else z)
     #[arg(long, value_parser = ["x", "y", "z"], requires = "plot")]
     across: Option<String>,
-    /// The time budget
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    time: Option<Duration>,
-    /// The memory budget
-    #[arg(long, value_name = "MiB", value_parser = mebibytes)]
-    memory: Option<usize>,
-    /// Neither progress nor summary
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    budget: Budget,
 }
 
 /// Makes the map.
@@ -89,8 +82,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let (program, chain) = (read_program(file)?, chain(file)?);
     let ask = arguments.ask(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;
-    let Arguments { time, memory, quiet, .. } = *arguments;
-    let session = Session::start(Limits { time, memory, terms: None, quiet })?;
+    let session = Session::start(arguments.budget.limits())?;
     let (start, solver) = (Instant::now(), program.solver());
     let map = Survey::new(&solver, &program, chain.as_ref(), &ask)
         .map_err(|error| error.in_file(file))?
@@ -104,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let across = arguments.across.as_deref().and_then(|name| ["x", "y", "z"].iter().position(|own| *own == name));
         write_atomically(plot, map.to_svg(across).as_bytes())?;
     }
-    if quiet { Ok(()) } else { console::print(&summary(&map, start.elapsed())) }
+    if arguments.budget.quiet { Ok(()) } else { console::print(&summary(&map, start.elapsed())) }
 }
 
 impl Arguments {
@@ -121,13 +113,12 @@ impl Arguments {
             }
         };
         let grid = Grid::new([axis(self.x, 0)?, axis(self.y, 1)?, axis(self.z, 2)?])?;
-        let limits = self.limits || self.measure == Measure::Limits;
         Ok(Ask {
             orientations: self.orientations,
             seed: self.seed,
             given: self.given.clone(),
             measure: self.measure,
-            limits: limits.then(|| Ask::described(program)).transpose()?,
+            limits: self.limits.then(|| Ask::described(program)).transpose()?,
             ..Ask::new(grid)
         })
     }

@@ -1,12 +1,14 @@
 //! The places of a map. Main type: [`Grid`].
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Error, ErrorKind, Result};
 
 /// The most places of a grid: what is counted at each takes up to 28 bytes.
 const MOST: usize = 100_000_000;
 
 /// Places on an axis, evenly spaced.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// The first one, in the solver's unit of length.
     pub from: f64,

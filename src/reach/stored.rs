@@ -19,9 +19,9 @@ struct Written {
     solver: String,
     task: String,
     unit: String,
-    x: WrittenAxis,
-    y: WrittenAxis,
-    z: WrittenAxis,
+    x: Axis,
+    y: Axis,
+    z: Axis,
     orientations: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     seed: Option<u64>,
@@ -37,18 +37,11 @@ struct Written {
     mean: Vec<f32>,
 }
 
-#[derive(Serialize, Deserialize)]
-struct WrittenAxis {
-    from: f64,
-    to: f64,
-    count: usize,
-}
-
 impl ReachMap {
     /// The map as JSON: `format` (1), `solver`, `task`, `unit`, the axes `x`, `y` and `z` (from, to, count), `orientations`, `seed`, `measure`, `limited`, and by place, of which z changes
     /// first, `reached`, `answers`, where some are `open`, and where manipulability was measured `best` and `mean`.
     pub fn to_json(&self) -> String {
-        let [x, y, z] = self.grid.axes().map(|Axis { from, to, count }| WrittenAxis { from, to, count });
+        let [x, y, z] = *self.grid.axes();
         let numbers = |number: fn(&Entry) -> f32| match self.measure {
             Measure::Manipulability => self.entries.iter().map(number).collect(),
             _ => Vec::new(),
@@ -99,10 +92,7 @@ impl ReachMap {
             mean,
             ..
         } = FORMAT.read(text)?;
-        let axis = |name: &str, WrittenAxis { from, to, count }: WrittenAxis| {
-            Axis::new(from, to, count).map_err(|error| error.with_context(format!("`{name}`")))
-        };
-        let grid = Grid::new([axis("x", x)?, axis("y", y)?, axis("z", z)?])?;
+        let grid = Grid::new([x, y, z])?;
         let (places, measure) = (grid.places(), Measure::of(&measure)?);
         let is_measured = measure == Measure::Manipulability;
         let lengths = [
