@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = 100)]
     orientations: usize,
     /// What is counted: all answers, those within the described limits, or all and how well the arm moves
-    #[arg(long, default_value = "count", value_parser = measure)]
+    #[arg(long, value_name = "count|limits|manipulability", default_value = "count", value_parser = measure)]
     measure: Measure,
     /// Count only answers within the described limits, whatever is measured
     #[arg(long)]
