@@ -2,6 +2,7 @@
 //! ([`chain_toml`], [`dh_toml`], [URDF](crate::model::urdf)), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`ideal`]), the
 //! screw solver ([`screw`]) and a numeric inverse ([`oracle`], [`numeric`]).
 
+mod ball;
 pub mod chain;
 pub mod chain_toml;
 pub mod dh;

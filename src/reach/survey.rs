@@ -10,13 +10,13 @@ use rayon::prelude::*;
 use super::ask::{Ask, Measure};
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
-use crate::kinematics::{Chain, JointKind, Solution};
+use crate::kinematics::{Chain, Solution};
 use crate::solver::{JointValue, Program, Solved, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// So many targets are solved at once.
 const PIECE: usize = 2048;
-/// So many times its reach, a chain surely ends.
+/// So many times its radius, a ball surely ends.
 const BEYOND: f64 = 1.0 + 1e-6;
 /// How far beyond a limit rounding may bring a joint that is at it.
 const SLACK: f64 = 1e-9;
@@ -52,8 +52,8 @@ pub struct Survey<'a> {
     program: &'a Program,
     /// Whose manipulability is measured.
     chain: Option<&'a Chain>,
-    /// Beyond it the tip never gets: its middle and radius.
-    sphere: Option<(Point3<f64>, f64)>,
+    /// What the tip never leaves: its middle and radius.
+    ball: Option<(Point3<f64>, f64)>,
     ask: &'a Ask,
     poses: Poses,
     /// By joint, whether it turns.
@@ -85,7 +85,10 @@ impl<'a> Survey<'a> {
             let text = format!("{} has {} joints, its chain {}", program.name, turns.len(), chain.joints().len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let sphere = chain.filter(|_| poses.are_in_space()).and_then(sphere);
+        let ball = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns)).map(|chain| {
+            let (middle, radius) = chain.ball();
+            (middle, radius * BEYOND)
+        });
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
             let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
@@ -98,7 +101,7 @@ impl<'a> Survey<'a> {
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, sphere, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
     }
 
     /// How many orientations there are at each place.
@@ -167,11 +170,11 @@ impl<'a> Survey<'a> {
         Ok(())
     }
 
-    /// Whether a place is farther away than the chain is long.
+    /// Whether a place is farther away than the chain gets.
     fn is_beyond(&self, place: usize) -> bool {
         let beyond =
-            |(from, reach): &(Point3<f64>, f64)| (Point3::from(self.ask.grid.at(place)) - from).norm() > *reach;
-        self.sphere.as_ref().is_some_and(beyond)
+            |(middle, radius): &(Point3<f64>, f64)| (Point3::from(self.ask.grid.at(place)) - middle).norm() > *radius;
+        self.ball.as_ref().is_some_and(beyond)
     }
 
     /// Solves targets; each is handed over with its number.
@@ -221,12 +224,6 @@ impl<'a> Survey<'a> {
         }
         Ok(target)
     }
-}
-
-/// What the tip of a chain never gets out of, where no joint slides.
-fn sphere(chain: &Chain) -> Option<(Point3<f64>, f64)> {
-    let turns = chain.joints().iter().all(|joint| joint.kind == JointKind::Revolute);
-    chain.joints().first().filter(|_| turns).map(|first| (first.location(), chain.reach() * BEYOND))
 }
 
 /// Whether there is a pair of limits for each joint, the lesser one first.

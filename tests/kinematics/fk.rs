@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use groebot::ErrorKind;
 use groebot::kinematics::Chain;
+use groebot::model::Robot;
 use groebot::spatial::Pose;
 use nalgebra::{Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -32,6 +33,29 @@ fn axes_of_any_length_have_a_direction() {
         let leg = Chain::from_toml(&text).unwrap();
         assert_eq!(leg.joints()[0].direction(), Vector3::y_axis());
     }
+}
+
+#[test]
+fn the_ball_of_an_arm_is_hardly_larger_than_what_it_reaches() {
+    let urdf = include_str!("../corpus/urdf/ur5.urdf");
+    let ur5 = Robot::from_urdf(urdf).unwrap().chain(None, None).unwrap();
+    let (middle, radius) = ur5.ball();
+    let away = |q: &[f64]| (ur5.forward(q).unwrap().translation.vector - middle.coords).norm();
+    // One joint after the other to where the tip is the farthest away.
+    let mut q = [0.0, -0.4, 0.3, 0.5, 0.9, 0.0];
+    for step in (0..24).map(|halved| 0.5f64.powi(halved)) {
+        for joint in (0..q.len()).cycle().take(60) {
+            let moved = |by: f64| {
+                let mut q = q;
+                q[joint] += by;
+                q
+            };
+            let tried = [q, moved(step), moved(-step)];
+            q = tried.into_iter().max_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
+        }
+    }
+    assert!(away(&q) <= radius && away(&q) > 0.999 * radius, "{} of {radius}", away(&q));
+    assert!(radius < 0.85 * ur5.reach());
 }
 
 /// One joint of a random chain in form B.
@@ -153,5 +177,7 @@ proptest! {
         let q: Vec<f64> = links.iter().map(|link| if link.revolute { link.q } else { 0.0 }).collect();
         let position = chain.forward(&q).unwrap().translation.vector;
         prop_assert!((position - chain.joints()[0].location().coords).norm() <= chain.reach() + 1e-11);
+        let (middle, radius) = chain.ball();
+        prop_assert!((position - middle.coords).norm() <= radius + 1e-11 && radius <= chain.reach() + 1e-11);
     }
 }
