@@ -3,6 +3,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
+import { afterEach, beforeEach } from "node:test";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
@@ -40,9 +41,15 @@ export function changed(file, name, change) {
 export const browse = ({ webgl = true } = {}) =>
   chromium.launch({ executablePath: "/usr/bin/chromium", args: webgl ? ARGUMENTS : WITHOUT_WEBGL });
 
-/** Opens a file; what it asked for and complained about stands in `requests` and `complaints`. */
+// A page that stays open goes on playing, and takes the next test's time. What `before` opens is for all tests of a file.
+let contexts = [];
+beforeEach(() => void (contexts = []));
+afterEach(() => Promise.all(contexts.map((context) => context.close())));
+
+/** Opens a file, until the test ends; what it asked for and complained about stands in `requests` and `complaints`. */
 export async function open(browser, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  contexts.push(context);
   const opened = await context.newPage();
   const [requests, complaints] = [[], []];
   await context.route(/.*/, (route) => {
