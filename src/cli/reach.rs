@@ -136,8 +136,8 @@ fn around(chain: &Chain) -> Option<(Point3<f64>, f64)> {
         (JointKind::Prismatic, limits) => limits.map(|(low, high)| low.abs().max(high.abs())),
     };
     let travels = chain.joints().iter().map(travel).sum::<Option<f64>>()?;
-    let (middle, radius) = chain.ball();
-    Some((middle, radius + travels)).filter(|(_, radius)| *radius > 0.0)
+    let ball = chain.ball();
+    Some((ball.middle, ball.radius + travels)).filter(|(_, radius)| *radius > 0.0)
 }
 
 fn summary(map: &ReachMap, time: Duration) -> String {

@@ -27,6 +27,7 @@ mod telescope;
 pub mod upright;
 mod validate;
 
+pub use ball::Ball;
 pub use chain::Chain;
 pub use dh::{DhConvention, DhRow, DhTable};
 pub use geometry::Geometry;

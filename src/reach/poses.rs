@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::ask::Ask;
 use super::grid::Grid;
@@ -102,6 +102,15 @@ impl Poses {
     /// How many numbers a target has.
     pub(super) fn inputs(&self) -> usize {
         self.inputs
+    }
+
+    /// Where a point of the tip is at a target that tells the tip's whole pose.
+    pub(super) fn place_of(&self, point: &Point3<f64>, target: &[f64]) -> Option<Point3<f64>> {
+        let (&Spread::Rotations(first, _), [Some(x), Some(y), Some(z)]) = (&self.spread, self.position) else {
+            return None;
+        };
+        let rotation = Matrix3::from_row_slice(&target[first..first + 9]);
+        Some(rotation * point + Vector3::new(target[x], target[y], target[z]))
     }
 
     /// Writes the targets with these numbers: the orientations of the first place, then those of the next one.

@@ -10,14 +10,14 @@ use rayon::prelude::*;
 use super::ask::{Ask, Measure};
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
-use crate::kinematics::{Chain, Solution};
+use crate::kinematics::{Ball, Chain, Solution};
 use crate::solver::{JointValue, Program, Solved, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// So many targets are solved at once.
 const PIECE: usize = 2048;
-/// So many times its radius, a ball surely ends.
-const BEYOND: f64 = 1.0 + 1e-6;
+/// Such a share of its chain's reach beyond its radius, a ball surely ends.
+const BEYOND: f64 = 1e-6;
 /// How far beyond a limit rounding may bring a joint that is at it.
 const SLACK: f64 = 1e-9;
 
@@ -52,8 +52,8 @@ pub struct Survey<'a> {
     program: &'a Program,
     /// Whose manipulability is measured.
     chain: Option<&'a Chain>,
-    /// What the tip never leaves: its middle and radius.
-    ball: Option<(Point3<f64>, f64)>,
+    /// What the tip never leaves, and what a point of the last joint's axis does not.
+    balls: [Option<Ball>; 2],
     ask: &'a Ask,
     poses: Poses,
     /// By joint, whether it turns.
@@ -85,9 +85,10 @@ impl<'a> Survey<'a> {
             let text = format!("{} has {} joints, its chain {}", program.name, turns.len(), chain.joints().len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let ball = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns)).map(|chain| {
-            let (middle, radius) = chain.ball();
-            (middle, radius * BEYOND)
+        let turning = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns));
+        let balls = turning.map_or([None; 2], |chain| {
+            let wider = |ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
+            [Some(chain.ball()), chain.wrist_ball()].map(|ball| ball.map(wider))
         });
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
@@ -101,7 +102,7 @@ impl<'a> Survey<'a> {
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, balls, ask, poses, turns, limits })
     }
 
     /// How many orientations there are at each place.
@@ -143,7 +144,7 @@ impl<'a> Survey<'a> {
     /// Counts at the places from `first` on.
     fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
         let mut sums = vec![0.0; entries.len()];
-        let mut targets = Vec::new();
+        let (mut targets, mut kept) = (Vec::new(), Vec::new());
         let mut place = 0;
         while place < entries.len() {
             // Places one after the other that may be reached.
@@ -152,8 +153,9 @@ impl<'a> Survey<'a> {
             for start in numbers.clone().step_by(PIECE) {
                 watch.check()?;
                 self.poses.write(start..numbers.end.min(start + PIECE), &mut targets);
+                self.keep_near(&mut targets, &mut kept);
                 self.piece(&targets, |number, target| {
-                    let place = (start + number) / self.orientations() - first;
+                    let place = (start + kept[number]) / self.orientations() - first;
                     let entry = &mut entries[place];
                     entry.reached += u32::from(target.answers > 0);
                     entry.answers = entry.answers.saturating_add(target.answers);
@@ -172,9 +174,24 @@ impl<'a> Survey<'a> {
 
     /// Whether a place is farther away than the chain gets.
     fn is_beyond(&self, place: usize) -> bool {
-        let beyond =
-            |(middle, radius): &(Point3<f64>, f64)| (Point3::from(self.ask.grid.at(place)) - middle).norm() > *radius;
-        self.ball.as_ref().is_some_and(beyond)
+        let at = Point3::from(self.ask.grid.at(place));
+        self.balls[0].is_some_and(|ball| !ball.holds(&at))
+    }
+
+    /// Leaves of targets those whose orientation is not beyond the chain either, and writes which they were.
+    fn keep_near(&self, targets: &mut Vec<f64>, kept: &mut Vec<usize>) {
+        let inputs = self.poses.inputs();
+        kept.clear();
+        for number in 0..targets.len() / inputs {
+            let own = number * inputs..(number + 1) * inputs;
+            let holds =
+                |ball: Ball| self.poses.place_of(&ball.point, &targets[own.clone()]).is_none_or(|at| ball.holds(&at));
+            if self.balls[1].is_none_or(holds) {
+                targets.copy_within(own, kept.len() * inputs);
+                kept.push(number);
+            }
+        }
+        targets.truncate(kept.len() * inputs);
     }
 
     /// Solves targets; each is handed over with its number.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use groebot::ErrorKind;
-use groebot::kinematics::Chain;
+use groebot::kinematics::{Ball, Chain, JointKind};
 use groebot::model::Robot;
 use groebot::spatial::Pose;
 use nalgebra::{Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
@@ -39,9 +39,16 @@ fn axes_of_any_length_have_a_direction() {
 fn the_ball_of_an_arm_is_what_it_reaches() {
     let urdf = include_str!("../corpus/urdf/ur5.urdf");
     let ur5 = Robot::from_urdf(urdf).unwrap().chain(None, None).unwrap();
-    let (middle, radius) = ur5.ball();
-    let away = |q: &[f64]| (ur5.forward(q).unwrap().translation.vector - middle.coords).norm();
-    // One joint after the other to where the tip is the farthest away.
+    assert!(ur5.ball().radius < 0.85 * ur5.reach() && ur5.wrist_ball().unwrap().radius < ur5.ball().radius);
+    for ball in [ur5.ball(), ur5.wrist_ball().unwrap()] {
+        let farthest = farthest(&ur5, &ball);
+        assert!((1.0 - farthest / ball.radius).abs() < 1e-9, "{farthest} of {}", ball.radius);
+    }
+}
+
+/// How far a point of the tip gets, one joint after the other moved to where it is the farthest away.
+fn farthest(chain: &Chain, ball: &Ball) -> f64 {
+    let away = |q: &[f64]| (chain.forward(q).unwrap() * ball.point - ball.middle).norm();
     let mut q = [0.0, -0.4, 0.3, 0.5, 0.9, 0.0];
     for step in (0..24).map(|halved| 0.5f64.powi(halved)) {
         for joint in (0..q.len()).cycle().take(60) {
@@ -54,8 +61,7 @@ fn the_ball_of_an_arm_is_what_it_reaches() {
             q = tried.into_iter().max_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
         }
     }
-    assert!((1.0 - away(&q) / radius).abs() < 1e-9, "{} of {radius}", away(&q));
-    assert!(radius < 0.85 * ur5.reach());
+    away(&q)
 }
 
 /// One joint of a random chain in form B.
@@ -177,7 +183,14 @@ proptest! {
         let q: Vec<f64> = links.iter().map(|link| if link.revolute { link.q } else { 0.0 }).collect();
         let position = chain.forward(&q).unwrap().translation.vector;
         prop_assert!((position - chain.joints()[0].location().coords).norm() <= chain.reach() + 1e-11);
-        let (middle, radius) = chain.ball();
-        prop_assert!((position - middle.coords).norm() <= radius + 1e-11 && radius <= chain.reach() + 1e-11);
+        let ball = chain.ball();
+        prop_assert!((position - ball.middle.coords).norm() <= ball.radius + 1e-11 && ball.radius <= chain.reach() + 1e-11);
+        if let Some(wrist) = chain.wrist_ball() {
+            let place = chain.forward(&q).unwrap() * wrist.point;
+            prop_assert!((place - wrist.middle).norm() <= wrist.radius + 1e-11);
+            let before = chain.base_from_tip() * wrist.point;
+            let last = chain.joints().iter().rfind(|joint| joint.kind == JointKind::Revolute).unwrap();
+            prop_assert!((before - last.location()).cross(&last.direction()).norm() < 1e-11);
+        }
     }
 }
