@@ -48,6 +48,11 @@ impl Turn {
         self.0.map_or(*direction, |(turn, _)| turn * direction)
     }
 
+    /// A direction before it is turned.
+    pub(super) fn back(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.0.map_or(*direction, |(turn, _)| turn.tr_mul(direction))
+    }
+
     pub(super) fn angle(&self, own: f64) -> f64 {
         self.0.map_or(own, |(_, turn)| angle::wrap(own + turn))
     }

@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use super::ask::Ask;
 use super::grid::Grid;
 use super::orientations::{Turn, direction, rotation};
+use crate::kinematics::Ball;
 use crate::solver::{Condition, Program};
 use crate::{Error, ErrorKind, Result};
 
@@ -28,6 +29,8 @@ pub(super) struct Poses {
     /// Inputs that are the same in all targets.
     given: Vec<(usize, f64)>,
     seed: Option<u64>,
+    /// A ball that a point of the tip does not leave, and by orientation where that point is from the tip.
+    wrist: Option<(Ball, Vec<Vector3<f64>>)>,
 }
 
 /// What a task asks of the orientation, with the inputs that tell it.
@@ -81,7 +84,7 @@ impl Poses {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let given = others.zip(given.iter().copied()).collect();
-        Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed })
+        Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed, wrist: None })
     }
 
     /// How many orientations there are at each place.
@@ -104,27 +107,38 @@ impl Poses {
         self.inputs
     }
 
-    /// Where a point of the tip is at a target that tells the tip's whole pose.
-    pub(super) fn place_of(&self, point: &Point3<f64>, target: &[f64]) -> Option<Point3<f64>> {
-        let (&Spread::Rotations(first, _), [Some(x), Some(y), Some(z)]) = (&self.spread, self.position) else {
-            return None;
-        };
-        let rotation = Matrix3::from_row_slice(&target[first..first + 9]);
-        Some(rotation * point + Vector3::new(target[x], target[y], target[z]))
+    /// Leaves out what would bring a point of the tip out of its ball, where targets tell the tip's whole pose.
+    pub(super) fn within(mut self, ball: Ball) -> Self {
+        if let (Spread::Rotations(_, all), true) = (&self.spread, self.are_in_space()) {
+            self.wrist = Some((ball, all.iter().map(|rotation| rotation * ball.point.coords).collect()));
+        }
+        self
     }
 
-    /// Writes the targets with these numbers: the orientations of the first place, then those of the next one.
-    pub(super) fn write(&self, numbers: Range<usize>, targets: &mut Vec<f64>) {
+    /// Writes the targets with these numbers, the orientations of the first place, then those of the next one, and the numbers of those that are not left out.
+    pub(super) fn write(&self, numbers: Range<usize>, targets: &mut Vec<f64>, kept: &mut Vec<usize>) {
         targets.clear();
         targets.resize(numbers.len() * self.inputs, 0.0);
+        kept.clear();
         let orientations = self.orientations();
         let (mut here, mut at, mut turn) = (None, [0.0; 3], Turn::none());
-        for (number, target) in numbers.zip(targets.chunks_exact_mut(self.inputs)) {
+        let (mut way, mut room) = (Vector3::zeros(), f64::INFINITY);
+        for number in numbers {
             let (place, orientation) = (number / orientations, number % orientations);
             if here != Some(place) {
                 (here, at) = (Some(place), self.grid.at(place));
                 turn = self.seed.map_or(Turn::none(), |seed| Turn::by_chance(seed, place));
+                if let Some((ball, _)) = &self.wrist {
+                    // |w + o|^2 <= r^2, with w from the ball's middle to the tip, and o from there to the point.
+                    way = turn.back(&(Vector3::from(at) - ball.middle.coords));
+                    room = (ball.radius.powi(2) - way.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
+                }
             }
+            if self.wrist.as_ref().is_some_and(|(_, offsets)| way.dot(&offsets[orientation]) > room) {
+                continue;
+            }
+            let target = &mut targets[kept.len() * self.inputs..][..self.inputs];
+            kept.push(number);
             self.position.iter().zip(at).for_each(|(input, value)| {
                 if let Some(input) = input {
                     target[*input] = value;
@@ -133,6 +147,7 @@ impl Poses {
             self.given.iter().for_each(|(input, value)| target[*input] = *value);
             self.spread.write(orientation, &turn, target);
         }
+        targets.truncate(kept.len() * self.inputs);
     }
 }
 

@@ -52,8 +52,8 @@ pub struct Survey<'a> {
     program: &'a Program,
     /// Whose manipulability is measured.
     chain: Option<&'a Chain>,
-    /// What the tip never leaves, and what a point of the last joint's axis does not.
-    balls: [Option<Ball>; 2],
+    /// What the tip never leaves.
+    ball: Option<Ball>,
     ask: &'a Ask,
     poses: Poses,
     /// By joint, whether it turns.
@@ -86,10 +86,13 @@ impl<'a> Survey<'a> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let turning = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns));
-        let balls = turning.map_or([None; 2], |chain| {
-            let wider = |ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
-            [Some(chain.ball()), chain.wrist_ball()].map(|ball| ball.map(wider))
-        });
+        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
+        let ball = turning.map(|chain| wider(chain, chain.ball()));
+        let wrist = turning.and_then(|chain| Some(wider(chain, chain.wrist_ball()?)));
+        let poses = match wrist {
+            Some(wrist) => poses.within(wrist),
+            None => poses,
+        };
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
             let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
@@ -102,7 +105,7 @@ impl<'a> Survey<'a> {
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, balls, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
     }
 
     /// How many orientations there are at each place.
@@ -152,10 +155,9 @@ impl<'a> Survey<'a> {
             let numbers = (first + place) * self.orientations()..(first + place + run) * self.orientations();
             for start in numbers.clone().step_by(PIECE) {
                 watch.check()?;
-                self.poses.write(start..numbers.end.min(start + PIECE), &mut targets);
-                self.keep_near(&mut targets, &mut kept);
+                self.poses.write(start..numbers.end.min(start + PIECE), &mut targets, &mut kept);
                 self.piece(&targets, |number, target| {
-                    let place = (start + kept[number]) / self.orientations() - first;
+                    let place = kept[number] / self.orientations() - first;
                     let entry = &mut entries[place];
                     entry.reached += u32::from(target.answers > 0);
                     entry.answers = entry.answers.saturating_add(target.answers);
@@ -175,23 +177,7 @@ impl<'a> Survey<'a> {
     /// Whether a place is farther away than the chain gets.
     fn is_beyond(&self, place: usize) -> bool {
         let at = Point3::from(self.ask.grid.at(place));
-        self.balls[0].is_some_and(|ball| !ball.holds(&at))
-    }
-
-    /// Leaves of targets those whose orientation is not beyond the chain either, and writes which they were.
-    fn keep_near(&self, targets: &mut Vec<f64>, kept: &mut Vec<usize>) {
-        let inputs = self.poses.inputs();
-        kept.clear();
-        for number in 0..targets.len() / inputs {
-            let own = number * inputs..(number + 1) * inputs;
-            let holds =
-                |ball: Ball| self.poses.place_of(&ball.point, &targets[own.clone()]).is_none_or(|at| ball.holds(&at));
-            if self.balls[1].is_none_or(holds) {
-                targets.copy_within(own, kept.len() * inputs);
-                kept.push(number);
-            }
-        }
-        targets.truncate(kept.len() * inputs);
+        self.ball.is_some_and(|ball| !ball.holds(&at))
     }
 
     /// Solves targets; each is handed over with its number.

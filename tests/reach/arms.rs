@@ -203,10 +203,12 @@ fn units_and_joints_that_follow_leave_the_manipulability_as_it_is() {
 
 #[test]
 fn what_lies_beyond_the_chain_is_told_as_if_it_was_asked() {
-    for (name, reach) in [("ur5", 1.6), ("nao_left_arm", 0.35)] {
+    for (name, reach, seed) in
+        [("ur5", 1.6, None), ("ur5", 1.0, Some(3)), ("puma", 1.2, None), ("nao_left_arm", 0.35, None)]
+    {
         let (chain, program) = derivation(name);
         let axis = (-reach, reach, 11);
-        let (ask, solver) = (Ask { orientations: 30, ..Ask::new(grid([axis; 3])) }, program.solver());
+        let (ask, solver) = (Ask { orientations: 30, seed, ..Ask::new(grid([axis; 3])) }, program.solver());
         let by =
             |chain: Option<&Chain>| Survey::new(&solver, &program, chain, &ask).unwrap().map(&Watch::none()).unwrap();
         let whole = by(None);
