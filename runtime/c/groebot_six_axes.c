@@ -43,8 +43,18 @@
 static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 /* The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once. */
 #define GB_SIX_SOUND_ORIGIN GB_EITHER(1e-9, 1e-3)
-/* Two real eigenvalues closer than this share of 1 + |x|^2 have eigenvectors that rounding mixes. */
-#define GB_SIX_CROWDED GB_EITHER(1e-8, 1e-3)
+/* The square, times the share of the pivot, of the distance of eigenvalues that coincide: closer than its root, as a share of 1 + |x|^2, rounding may have
+ * parted a multiple one, into a complex pair as well. */
+#define GB_SIX_COINCIDING GB_EITHER(1e-14, 1e-6)
+/* Rounds of simultaneous iteration, and the distance of its shift from the eigenvalue, as a share of 1 + |x|, so that the matrix is regular. */
+#define GB_SIX_CLUSTER_ROUNDS 2
+#define GB_SIX_SHIFT GB_EITHER(1e-9, 1e-4)
+/* Half the doubled angle is counted from here. */
+#define GB_SIX_CLUSTER_ORIGIN R(0.7)
+/* The smallest share of a pivot at which the monomials determine the matrix of tangents. */
+#define GB_SIX_DETERMINED GB_EITHER(1e-10, 1e-4)
+/* Tangents closer than this share of 1 + |t|^2 do not separate solutions. */
+#define GB_SIX_SEPARATE GB_EITHER(1e-4, 1e-2)
 /* QR steps for one deflation; every tenth has an exceptional shift. */
 #define GB_SIX_QR_STEPS 60
 /* The square of a column that is taken for zero. */
@@ -63,6 +73,8 @@ static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 #define GB_SIX_SHORTENED 12
 /* A step that moves a joint by more than this is shortened. */
 #define GB_SIX_LONGEST R(0.5)
+/* The sine of a turn next to half a one, whose axis rounding hides. */
+#define GB_SIX_NO_AXIS GB_EITHER(1e-6, 1e-3)
 /* A column of the Jacobian of which no more than this share is across the columns behind it depends on them. */
 #define GB_SIX_SINGULAR GB_EITHER(1e-6, 2e-3)
 
@@ -99,6 +111,8 @@ static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 #define GB_SIX_APART GB_EITHER(1e-4, 2e-2)
 /* The share of a pivot below which another formulation is asked too. */
 #define GB_SIX_SOUND GB_EITHER(1e-11, 1e-4)
+/* The share of a pivot below which the pencil is singular: every number is an eigenvalue, and those that are found say nothing. */
+#define GB_SIX_SINGULAR_PENCIL GB_EITHER(1e-13, 1e-6)
 /* The share of a pivot at which a target without real eigenvalues is out of reach. */
 #define GB_SIX_CLEAR GB_EITHER(1e-6, 1e-3)
 /* A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate. */
@@ -142,6 +156,7 @@ static const gb_real gb_six_direction[3] = {R(0.48), R(0.6), R(0.64)};
 #include "groebot/six_axes/hessenberg.c"
 #include "groebot/six_axes/shifted_qr.c"
 #include "groebot/six_axes/inverse_iteration.c"
+#include "groebot/six_axes/cluster.c"
 #include "groebot/six_axes/candidates.c"
 #include "groebot/six_axes/polish.c"
 #include "groebot/six_axes/answers.c"

@@ -94,6 +94,7 @@ pub const C_PARTS: [(&str, &str); 41] = [
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
     ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),
     ("groebot/six_axes/chain.c", include_str!("../c/groebot/six_axes/chain.c")),
+    ("groebot/six_axes/cluster.c", include_str!("../c/groebot/six_axes/cluster.c")),
     ("groebot/six_axes/curve.c", include_str!("../c/groebot/six_axes/curve.c")),
     ("groebot/six_axes/hessenberg.c", include_str!("../c/groebot/six_axes/hessenberg.c")),
     ("groebot/six_axes/inverse_iteration.c", include_str!("../c/groebot/six_axes/inverse_iteration.c")),

@@ -124,6 +124,18 @@ impl Distinct {
             self.count += 1;
         }
     }
+
+    /// Takes an isolated answer in place of a member of a self-motion.
+    #[cold]
+    fn displace(&mut self, q: [f64; 6], residual: f64, chain: &Chain) {
+        let is_member = |q: &[f64; 6]| chain.free(q).contains(&true);
+        if is_member(&q) || self.iter().any(|known| is_within(known, &q, &chain.slides, MERGE)) {
+            return;
+        }
+        if let Some(member) = self.list.iter_mut().find(|(known, _)| is_member(known)) {
+            *member = (q, residual);
+        }
+    }
 }
 
 /// What has been found at a target.
@@ -138,6 +150,15 @@ pub(super) struct Search {
 impl Search {
     pub const NONE: Self = Search { answers: Distinct::NONE, lost: List::EMPTY, far: List::EMPTY };
 
+    /// Adds an answer; members of self-motions, of which there may be any number, give way to isolated answers.
+    pub fn keep(&mut self, chain: &Chain, q: [f64; 6], residual: f64) {
+        if self.answers.count < ROOM {
+            self.answers.keep(q, residual, &chain.slides);
+        } else {
+            self.answers.displace(q, residual, chain);
+        }
+    }
+
     /// Remembers a candidate that polishing led nowhere.
     pub fn lose(&mut self, q: [f64; 6]) {
         if q.iter().all(|value| value.is_finite()) {
@@ -151,7 +172,7 @@ impl Search {
         let q = wrapped(&q, &chain.slides);
         let is_known = self.answers.iter().any(|known| is_within(known, &q, &chain.slides, APART));
         if residual <= ACCEPT && !is_known {
-            self.answers.keep(q, residual, &chain.slides);
+            self.keep(chain, q, residual);
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use core::array::from_fn;
 
-use super::chain::{Chain, Formulation};
+use super::chain::{Chain, Formulation, is_infinite};
+use super::cluster::Cluster;
 use super::hessenberg::Hessenberg;
 use super::linear::solve;
 use super::pencil::{Doubled, Matrix, NEAR, Pencil, SIZE, Wide};
@@ -14,14 +15,16 @@ use super::screw::{Axis, Figure};
 use super::shifted_qr::Eigenvalue;
 use super::vector::{Vector, cosines_and_sines, product, turn};
 use crate::angles::angle;
+use crate::arithmetic::Arithmetic;
 use crate::trigonometry::{cosine, sine};
 
 /// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
 const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 /// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
 const SOUND: f64 = 1e-9;
-/// Two real eigenvalues closer than this share of `1 + |x|^2` have eigenvectors that rounding mixes.
-const CROWDED: f64 = 1e-8;
+/// The square, times the share of the pivot, of the distance of eigenvalues that coincide: closer than its root, as a share of `1 + |x|^2`, rounding may
+/// have parted a multiple one, into a complex pair as well.
+const COINCIDING: f64 = 1e-14;
 
 /// A candidate for a solution.
 #[derive(Clone, Copy)]
@@ -34,10 +37,10 @@ pub(super) struct Candidate {
 
 /// Candidates for solutions of one formulation.
 pub(super) struct Candidates {
-    /// Those of real eigenvalues first.
+    /// Those of single eigenvalues first, and of these the real ones.
     list: [Candidate; SIZE],
     count: usize,
-    /// Whether two real eigenvalues are so close that their eigenvectors are not known.
+    /// Whether some solutions were not separated, for they share the hidden joint's value and the doubled one's.
     pub is_crowded: bool,
     /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
     pub conditioning: f64,
@@ -49,6 +52,15 @@ struct Reader<'a> {
     formulation: Formulation,
     reduced: &'a Reduced,
     pencil: &'a Pencil,
+}
+
+/// The eigenvalue problem of one formulation at a target.
+struct Problem<'a> {
+    reader: Reader<'a>,
+    form: Hessenberg,
+    origin: f64,
+    /// Eigenvalues closer than this share of `1 + |x|^2` coincide.
+    coinciding: f64,
 }
 
 impl Candidates {
@@ -64,14 +76,8 @@ impl Candidates {
         let form = Hessenberg::reduce(matrix);
         let values = form.eigenvalues()?;
         let reader = Reader { slides: &chain.slides, formulation, reduced: &reduced, pencil: &pencil };
-        let (near, count) = near_real(&values, deepest);
-        let vectors = form.eigenvectors(&near.map(|value| value.re)[..count]);
-        let mut list = [Candidate { q: [0.0; 6], depth: 0.0 }; SIZE];
-        for (candidate, (value, vector)) in list.iter_mut().zip(near[..count].iter().zip(&vectors)) {
-            let half = origin + angle(1.0, value.re + value.im);
-            *candidate = Candidate { q: reader.values(half, vector), depth: value.depth() };
-        }
-        Some(Candidates { list, count, is_crowded: is_crowded(&values), conditioning })
+        let problem = Problem { reader, form, origin, coinciding: Arithmetic::sqrt(COINCIDING / conditioning) };
+        Some(problem.candidates(&problem.near_real(&values, deepest), conditioning))
     }
 
     pub fn as_slice(&self) -> &[Candidate] {
@@ -93,23 +99,96 @@ fn equations(chain: &Chain, formulation: Formulation, displacement: &Rigid) -> R
     Rows::new(&near, &far, [frame.axis.slides, chain.slides[formulation.joint(3)]])
 }
 
-/// The eigenvalues no farther off the real line than `deepest`, real ones first; how many they are.
-fn near_real(values: &[Eigenvalue; SIZE], deepest: f64) -> ([Eigenvalue; SIZE], usize) {
-    let (mut near, mut count) = ([Eigenvalue { re: 0.0, im: 0.0 }; SIZE], 0);
-    for is_real in [true, false] {
-        for value in values.iter().filter(|value| (value.im == 0.0) == is_real && value.depth() <= deepest) {
-            near[count] = *value;
-            count += 1;
-        }
-    }
-    (near, count)
+/// Eigenvalues near the real line, those that stand alone first.
+struct NearReal {
+    list: [Eigenvalue; SIZE],
+    count: usize,
+    /// By eigenvalue, the first one that it coincides with: itself, when it is that one.
+    first: [usize; SIZE],
 }
 
-fn is_crowded(values: &[Eigenvalue; SIZE]) -> bool {
-    let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
-        a.im == 0.0 && b.im == 0.0 && (a.re - b.re).abs() <= CROWDED * (1.0 + a.re * a.re + b.re * b.re)
-    };
-    (1..SIZE).any(|k| values[..k].iter().any(|other| is_close(other, &values[k])))
+impl NearReal {
+    /// How many eigenvalues coincide with the one at an index and with none before it.
+    fn size(&self, index: usize) -> usize {
+        self.first[..self.count].iter().filter(|first| **first == index).count()
+    }
+
+    /// Those that stand alone.
+    fn alone(&self) -> ([Eigenvalue; SIZE], usize) {
+        let (mut alone, mut count) = ([Eigenvalue { re: 0.0, im: 0.0 }; SIZE], 0);
+        for index in (0..self.count).filter(|index| self.size(*index) == 1) {
+            alone[count] = self.list[index];
+            count += 1;
+        }
+        (alone, count)
+    }
+}
+
+impl Problem<'_> {
+    /// The eigenvalues no farther off the real line than `deepest`, real ones first.
+    fn near_real(&self, values: &[Eigenvalue; SIZE], deepest: f64) -> NearReal {
+        let mut near = NearReal { list: [Eigenvalue { re: 0.0, im: 0.0 }; SIZE], count: 0, first: from_fn(|k| k) };
+        for is_real in [true, false] {
+            for value in values.iter().filter(|value| (value.im == 0.0) == is_real && value.depth() <= deepest) {
+                if !(self.reader.slides(0) && is_infinite(self.reader.doubled(self.half(value)))) {
+                    near.list[near.count] = *value;
+                    near.count += 1;
+                }
+            }
+        }
+        for index in 1..near.count {
+            let coincides = |other: &usize| self.coincide(&near.list[*other], &near.list[index]);
+            near.first[index] = (0..index).find(coincides).map_or(index, |other| near.first[other]);
+        }
+        near
+    }
+
+    /// Whether rounding may have parted two eigenvalues.
+    #[inline(always)]
+    fn coincide(&self, a: &Eigenvalue, b: &Eigenvalue) -> bool {
+        let is_close = (a.re - b.re).abs() <= self.coinciding * (1.0 + a.re * a.re + b.re * b.re);
+        is_close && a.depth() <= self.coinciding && b.depth() <= self.coinciding
+    }
+
+    /// Half the hidden angle, or the arc tangent of half the way.
+    #[inline(always)]
+    fn half(&self, value: &Eigenvalue) -> f64 {
+        self.origin + angle(1.0, value.re + value.im)
+    }
+
+    #[inline(always)]
+    fn candidates(&self, near: &NearReal, conditioning: f64) -> Candidates {
+        let (alone, count) = near.alone();
+        let vectors = self.form.eigenvectors(&alone.map(|value| value.re)[..count]);
+        let list = [Candidate { q: [0.0; 6], depth: 0.0 }; SIZE];
+        let mut candidates = Candidates { list, count, is_crowded: false, conditioning };
+        for (candidate, (value, vector)) in candidates.list.iter_mut().zip(alone[..count].iter().zip(&vectors)) {
+            *candidate = Candidate { q: self.reader.values(self.half(value), vector), depth: value.depth() };
+        }
+        if count < near.count {
+            self.add_coinciding(near, &mut candidates);
+        }
+        candidates
+    }
+
+    /// Adds the candidates of eigenvalues that coincide; where these are not separated, a single one.
+    #[cold]
+    fn add_coinciding(&self, near: &NearReal, candidates: &mut Candidates) {
+        for index in (0..near.count).filter(|index| near.size(*index) > 1) {
+            let (value, size) = (near.list[index], near.size(index));
+            let cluster = Cluster::new(&self.form, self.reader.pencil, value.re, size);
+            let (vectors, depths, size) = cluster.map_or_else(
+                || (self.form.eigenvectors(&[value.re]), [value.depth(); SIZE], 1),
+                |cluster| (cluster.vectors, cluster.depths, size),
+            );
+            candidates.is_crowded |= size == 1;
+            for (vector, depth) in vectors[..size].iter().zip(depths) {
+                let q = self.reader.values(self.half(&value), vector);
+                candidates.list[candidates.count] = Candidate { q, depth };
+                candidates.count += 1;
+            }
+        }
+    }
 }
 
 /// `B^-1 A` for an origin of the half angle.
@@ -157,8 +236,9 @@ impl Reader<'_> {
     /// The values, given half the hidden angle and its eigenvector.
     fn values(&self, hidden: f64, vector: &[f64; SIZE]) -> [f64; 6] {
         let wide = self.pencil.widened(vector);
-        let (half, head) = half_angle(&wide);
+        let Halved { half, head, is_first } = Halved::of(&wide);
         let [[c], [s]] = cosines_and_sines(&[half]);
+        let unit = if is_first { c } else { s };
         let [near, far] = if self.formulation.second { [2, 1] } else { [1, 2] };
         let sign = 1.0_f64.copysign(head[0]);
         let other = if self.slides(far) { head[2] / head[0] } else { turn(head[1] * sign, head[2] * sign) };
@@ -166,7 +246,7 @@ impl Reader<'_> {
         let (first, second) = if self.formulation.second { (other, doubled) } else { (doubled, other) };
         let [a, b] = self.factors([first, second]);
         let products = from_fn(|product| a[product / 3] * b[product % 3]);
-        let far = self.far(&wide, [c, s], head[0], &products);
+        let far = self.far(&wide, [c, s], head[0] / (unit * unit * unit), &products);
         let fourth = if self.slides(4) { -far[1] } else { -turn(far[0], far[1]) };
         let fifth = if self.slides(5) { -far[5] } else { -turn(far[2], far[5]) };
         let mut ordered = [0.0; 6];
@@ -198,10 +278,9 @@ impl Reader<'_> {
         from_fn(|k| if self.slides(k + 1) { [1.0, values[k] * values[k], values[k]] } else { [1.0, c[k], s[k]] })
     }
 
-    /// The products of the far joints.
+    /// The products of the far joints; `scale` is what the eigenvector is a multiple by.
     #[inline(always)]
-    fn far(&self, wide: &Wide, [c, s]: [f64; 2], head: f64, near: &Products) -> [f64; FAR] {
-        let scale = if c.abs() >= s.abs() { head / (c * c * c) } else { head / (s * s * s) };
+    fn far(&self, wide: &Wide, [c, s]: [f64; 2], scale: f64, near: &Products) -> [f64; FAR] {
         let scale = if self.slides[self.formulation.doubled()] { scale * (c * c) } else { scale };
         let (solved, order, left) = (self.reduced.solved, &self.reduced.order, self.reduced.left());
         let mut values = [0.0; COLUMNS];
@@ -217,14 +296,25 @@ impl Reader<'_> {
     }
 }
 
-/// Half of the doubled angle, and the products of the other near joint at the greatest monomial: multiples of 1, c, s.
-#[inline(always)]
-fn half_angle(wide: &Wide) -> (f64, Vector) {
-    let powers = [0, 3, 6, 9].map(|first| [wide[first], wide[first + 1], wide[first + 2]]);
-    let [first, last] = [0, 3].map(|power: usize| product(&powers[power], &powers[power]));
-    if first >= last {
-        (turn(first, product(&powers[1], &powers[0])), powers[0])
-    } else {
-        (turn(product(&powers[2], &powers[3]), last), powers[3])
+/// What the near monomials say of the doubled joint.
+struct Halved {
+    /// Half of its angle, or the arc tangent of its way.
+    half: f64,
+    /// The products of the other near joint at the greatest monomial: multiples of 1, c, s.
+    head: Vector,
+    /// Whether the greatest monomial is the cube of the half angle's cosine, and not that of its sine.
+    is_first: bool,
+}
+
+impl Halved {
+    #[inline(always)]
+    fn of(wide: &Wide) -> Self {
+        let powers = [0, 3, 6, 9].map(|first| [wide[first], wide[first + 1], wide[first + 2]]);
+        let [first, last] = [0, 3].map(|power: usize| product(&powers[power], &powers[power]));
+        if first >= last {
+            Halved { half: turn(first, product(&powers[1], &powers[0])), head: powers[0], is_first: true }
+        } else {
+            Halved { half: turn(product(&powers[2], &powers[3]), last), head: powers[3], is_first: false }
+        }
     }
 }

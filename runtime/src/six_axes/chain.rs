@@ -7,6 +7,14 @@ use super::rigid::Rigid;
 use super::screw::{Axis, Figure};
 use super::vector::{Vector, scale};
 
+/// A way of so many length scales stands for an infinite one, which chains with two sliding joints have among their eigenvalues.
+const LONG: f64 = 1e4;
+
+/// Whether a way stands for an infinite one.
+pub(super) fn is_infinite(way: f64) -> bool {
+    way.is_nan() || way.abs() > LONG
+}
+
 /// Which angle is hidden in the pencil, and which is doubled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formulation {
@@ -117,6 +125,11 @@ impl Chain {
     /// The joints with ways times a factor.
     pub(super) fn scaled(&self, q: &[f64; 6], factor: f64) -> [f64; 6] {
         from_fn(|joint| if self.slides[joint] { q[joint] * factor } else { q[joint] })
+    }
+
+    /// Whether a way among joint values stands for an infinite one.
+    pub(super) fn has_infinite(&self, q: &[f64; 6]) -> bool {
+        q.iter().zip(&self.slides).any(|(way, slides)| *slides && is_infinite(*way))
     }
 
     /// What takes the tip from its place at zero to a target.

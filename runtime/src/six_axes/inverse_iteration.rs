@@ -4,7 +4,7 @@ use core::array::from_fn;
 
 use super::hessenberg::Hessenberg;
 use super::pencil::SIZE;
-use super::vector::largest;
+use super::vector::{largest, product};
 use crate::lanes::{Lanes, Mask};
 use crate::number::Number;
 
@@ -49,7 +49,15 @@ impl Hessenberg {
         vectors
     }
 
-    /// `Q y`.
+    /// Makes `Q y` of `y`.
+    pub(super) fn turn_back(&self, y: &mut [f64; SIZE]) {
+        for v in self.reflectors[..SIZE - 2].iter().rev() {
+            let share = product(v, y);
+            y.iter_mut().zip(v).for_each(|(entry, over)| *entry -= share * over);
+        }
+    }
+
+    /// `Q y` of several.
     #[inline(always)]
     fn turned_back(&self, mut y: Vectors) -> Vectors {
         for (column, v) in self.reflectors[..SIZE - 2].iter().enumerate().rev() {

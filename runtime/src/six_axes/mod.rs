@@ -9,6 +9,7 @@
 mod answers;
 mod candidates;
 mod chain;
+mod cluster;
 mod curve;
 mod hessenberg;
 mod inverse_iteration;

@@ -5,7 +5,8 @@ use core::array::from_fn;
 use super::chain::Chain;
 use super::linear::solve;
 use super::rigid::Rigid;
-use super::vector::{Vector, add, cosines_and_sines, cross, norm, product, scale, size, sub, turn};
+use super::vector::{Vector, add, cosines_and_sines, cross, dot, norm, product, scale, size, sub, turn};
+use crate::arithmetic::Arithmetic;
 
 /// Newton steps at most: at a singular pose each only halves the miss.
 const STEPS: usize = 40;
@@ -17,6 +18,8 @@ const ROUNDING: f64 = 1e-13;
 const SHORTENED: usize = 12;
 /// A step that moves a joint by more than this is shortened.
 pub(super) const LONGEST: f64 = 0.5;
+/// The sine of a turn next to half a one, whose axis rounding hides.
+const NO_AXIS: f64 = 1e-6;
 /// A column of the Jacobian of which no more than this share is across the columns behind it depends on them.
 const SINGULAR: f64 = 1e-6;
 
@@ -34,8 +37,17 @@ impl Reach {
         let way = sub(&target.translation, &self.end.translation);
         let turn = |index: usize| cross(&self.end.column(index), &target.column(index));
         let turn = scale(&add(&add(&turn(0), &turn(1)), &turn(2)), 0.5);
+        let cosine = |index: usize| dot(&self.end.column(index), &target.column(index));
+        let turn = if cosine(0) + cosine(1) + cosine(2) < 1.0 { obtuse(&turn) } else { turn };
         [way[0], way[1], way[2], turn[0], turn[1], turn[2]]
     }
+}
+
+/// A turn by more than a right angle, given its sine along its axis: two less the sine, which is nought at half a turn, too.
+#[cold]
+fn obtuse(turn: &Vector) -> Vector {
+    let sine = Arithmetic::sqrt(dot(turn, turn));
+    if sine > NO_AXIS { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
 }
 
 /// A joint vector and what it misses a target by.

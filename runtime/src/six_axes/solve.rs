@@ -8,6 +8,8 @@ use super::rigid::{Rigid, aside};
 
 /// The share of a pivot below which another formulation is asked too.
 const SOUND: f64 = 1e-11;
+/// The share of a pivot below which the pencil is singular: every number is an eigenvalue, and those that are found say nothing.
+const SINGULAR: f64 = 1e-13;
 /// The share of a pivot at which a target without real eigenvalues is out of reach.
 const CLEAR: f64 = 1e-6;
 /// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
@@ -25,8 +27,6 @@ const DEEPEST: f64 = 1.0;
 /// By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of
 /// isolated ones are only found next to it.
 const DISTURBANCES: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
-/// A way of so many length scales stands for an infinite one.
-const LONG: f64 = 1e4;
 /// Stages in which a candidate next to the target is led to it.
 const STAGES: usize = 20;
 
@@ -84,7 +84,9 @@ impl Chain {
 
     /// Runs formulations until one can be trusted: their number, and its [`Answers::accuracy`]. What was lost is forgotten then.
     fn search(&self, goal: &Rigid, target: &Rigid, disturbances: &[f64], search: &mut Search) -> (usize, Option<f64>) {
-        for (number, &size) in disturbances.iter().enumerate() {
+        // Each formulation once at the target: again it would only confirm itself.
+        let is_new = |(number, size): &(usize, &f64)| **size > 0.0 || *number < self.formulations.as_slice().len();
+        for (number, &size) in disturbances.iter().enumerate().filter(is_new) {
             // One run aside shows too little of what may be beside it.
             let is_first_aside = size > 0.0 && DISTURBANCES[number - 1] == 0.0;
             if is_first_aside {
@@ -129,11 +131,6 @@ impl Chain {
         }
         answers
     }
-
-    /// Whether a way is so long that it stands for an infinite one, which chains with two sliding joints have among their eigenvalues.
-    fn is_infinite(&self, q: &[f64; 6]) -> bool {
-        q.iter().zip(&self.slides).any(|(way, slides)| *slides && (way.is_nan() || way.abs() > LONG))
-    }
 }
 
 impl Attempt<'_> {
@@ -142,6 +139,9 @@ impl Attempt<'_> {
         let known = search.answers.count;
         let deepest = if self.size > 0.0 { DEEPEST } else { BLURRED };
         let candidates = Candidates::new(self.chain, displacement, self.number, deepest)?;
+        if candidates.conditioning < SINGULAR {
+            return None;
+        }
         let mut tally = Tally { own: Distinct::NONE, lost: 0, worst: 0.0 };
         for candidate in candidates.as_slice() {
             self.follow(candidate, search, &mut tally);
@@ -161,7 +161,7 @@ impl Attempt<'_> {
     fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
         let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
         let is_far = deep > FAR_OFF * accuracy;
-        if (is_far && self.size <= 0.0) || self.chain.is_infinite(&candidate.q) {
+        if (is_far && self.size <= 0.0) || self.chain.has_infinite(&candidate.q) {
             return;
         }
         let mut q = candidate.q;
@@ -182,7 +182,7 @@ impl Attempt<'_> {
         if residual <= ACCEPT {
             tally.worst = if candidate.depth == 0.0 { f64::max(tally.worst, start) } else { tally.worst };
             let q = wrapped(&q, &self.chain.slides);
-            search.answers.keep(q, residual, &self.chain.slides);
+            search.keep(self.chain, q, residual);
             if self.number > 0 {
                 tally.own.keep(q, residual, &self.chain.slides);
             }

@@ -91,6 +91,43 @@ static void gb_six_keep(gb_six_distinct *answers, const gb_real *q, gb_real resi
     answers->count += at == answers->count ? 1 : 0;
 }
 
+/* Whether joint values are a member of a self-motion, to first order. */
+static bool gb_six_is_member(const gb_chain *chain, const gb_real *q)
+{
+    bool free[6], is_member = false;
+    gb_six_find_free(chain, q, free);
+    for (int joint = 0; joint < 6; joint++) {
+        is_member = is_member || free[joint];
+    }
+    return is_member;
+}
+
+/* Takes an isolated answer in place of a member of a self-motion. */
+static GB_COLD void gb_six_displace(const gb_chain *chain, const gb_real *q, gb_real residual, gb_six_distinct *answers)
+{
+    bool is_new = !gb_six_is_member(chain, q);
+    for (size_t k = 0; k < answers->count && is_new; k++) {
+        is_new = !gb_six_is_within(answers->list[k], q, chain->slides, GB_SIX_MERGE);
+    }
+    for (size_t k = 0; k < answers->count && is_new; k++) {
+        if (gb_six_is_member(chain, answers->list[k])) {
+            memcpy(answers->list[k], q, sizeof answers->list[k]);
+            answers->residual[k] = residual;
+            return;
+        }
+    }
+}
+
+/* Adds an answer; members of self-motions, of which there may be any number, give way to isolated answers. */
+static void gb_six_keep_answer(const gb_chain *chain, const gb_real *q, gb_real residual, gb_six_search *search)
+{
+    if (search->answers.count < GB_SIX_KEPT) {
+        gb_six_keep(&search->answers, q, residual, chain->slides);
+    } else {
+        gb_six_displace(chain, q, residual, &search->answers);
+    }
+}
+
 /* Moves angles into (-pi, pi]. */
 static void gb_six_wrap(gb_real *q, const bool *slides)
 {
@@ -114,5 +151,5 @@ static void gb_six_find(const gb_chain *chain, const gb_rigid *target, const gb_
             return;
         }
     }
-    gb_six_keep(&search->answers, q, residual, chain->slides);
+    gb_six_keep_answer(chain, q, residual, search);
 }

@@ -43,3 +43,20 @@ static gb_six_figure gb_six_place(const gb_chain *chain, gb_formulation formulat
     moved.slides = figure.slides;
     return moved;
 }
+
+/* Whether a way stands for an infinite one, which chains with two sliding joints have among their eigenvalues. */
+static bool gb_six_is_infinite(gb_real way)
+{
+    return !(gb_magnitude(way) <= GB_SIX_LONG);
+}
+
+/* Whether a way among joint values stands for an infinite one. */
+static bool gb_six_has_infinite(const gb_chain *chain, const gb_real *q)
+{
+    for (int joint = 0; joint < 6; joint++) {
+        if (chain->slides[joint] && gb_six_is_infinite(q[joint])) {
+            return true;
+        }
+    }
+    return false;
+}

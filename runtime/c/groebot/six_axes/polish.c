@@ -57,10 +57,19 @@ static void gb_six_find_reach(const gb_chain *chain, const gb_real *q, gb_six_re
     reach->end = frame;
 }
 
+/* For a turn by more than a right angle, given its sine along its axis, which is nought at half a turn, too: two less the sine. */
+static GB_COLD void gb_six_make_obtuse(gb_real *turn)
+{
+    const gb_real sine = gb_square_root(gb_six_dot(turn, turn));
+    for (int k = 0; k < 3; k++) {
+        turn[k] = sine > GB_SIX_NO_AXIS ? turn[k] * ((R(2.0) - sine) / sine) : (k == 0 ? R(2.0) : R(0.0));
+    }
+}
+
 /* How far the end is from a target: the way, a share of the length scale, and the turn (rad). */
 GB_INLINE void gb_six_find_miss(const gb_six_reach *reach, const gb_rigid *target, gb_real *miss)
 {
-    gb_real turns[3][3];
+    gb_real turns[3][3], cosines[3];
     GB_UNROLL
     for (int index = 0; index < 3; index++) {
         gb_real is[3], wanted[3];
@@ -70,11 +79,15 @@ GB_INLINE void gb_six_find_miss(const gb_six_reach *reach, const gb_rigid *targe
             wanted[i] = target->rotation[i][index];
         }
         gb_six_cross(is, wanted, turns[index]);
+        cosines[index] = gb_six_dot(is, wanted);
     }
     GB_UNROLL
     for (int k = 0; k < 3; k++) {
         miss[k] = target->translation[k] - reach->end.translation[k];
         miss[3 + k] = (turns[0][k] + turns[1][k] + turns[2][k]) * R(0.5);
+    }
+    if (cosines[0] + cosines[1] + cosines[2] < R(1.0)) {
+        gb_six_make_obtuse(miss + 3);
     }
 }
 

@@ -157,18 +157,3 @@ static bool gb_six_eigenvalues(const gb_six_hessenberg *form, gb_six_eigenvalue 
     }
     return is_finite;
 }
-
-/* Whether two real eigenvalues are so close that their eigenvectors are not known. */
-static bool gb_six_are_crowded(const gb_six_eigenvalue *values)
-{
-    for (int k = 1; k < GB_SIX_SIZE; k++) {
-        const gb_six_eigenvalue a = values[k];
-        for (int i = 0; i < k && a.im == R(0.0); i++) {
-            const gb_six_eigenvalue b = values[i];
-            if (b.im == R(0.0) && gb_magnitude(b.re - a.re) <= GB_SIX_CROWDED * (R(1.0) + b.re * b.re + a.re * a.re)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}

@@ -25,17 +25,6 @@ typedef struct {
     gb_real worst;
 } gb_six_tally;
 
-/* Whether a way is so long that it stands for an infinite one, which chains with two sliding joints have among their eigenvalues. */
-static bool gb_six_is_infinite(const gb_chain *chain, const gb_real *q)
-{
-    for (int joint = 0; joint < 6; joint++) {
-        if (chain->slides[joint] && !(gb_magnitude(q[joint]) <= GB_SIX_LONG)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Leads joints that reach the target aside to the target in stages, each a quarter of the way from it that the one before was: next to a self-motion it is as
  * flat as the target is near, and a step must be no longer. The residual at the target, and in `last` the joints of the last stage that succeeded. */
 static gb_real gb_six_lead(const gb_six_attempt *attempt, gb_real *q, gb_real *last)
@@ -74,7 +63,7 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_SIX_UNKNOWN);
     const bool is_far = deep > GB_SIX_FAR_OFF * accuracy, is_aside = attempt->size > R(0.0);
     gb_real q[6], first[6], last[6], start;
-    if ((is_far && !is_aside) || gb_six_is_infinite(chain, candidate->q)) {
+    if ((is_far && !is_aside) || gb_six_has_infinite(chain, candidate->q)) {
         return;
     }
     memcpy(q, candidate->q, sizeof q);
@@ -95,7 +84,7 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     if (residual <= GB_SIX_ACCEPT) {
         tally->worst = candidate->depth == R(0.0) ? gb_larger(tally->worst, start) : tally->worst;
         gb_six_wrap(q, chain->slides);
-        gb_six_keep(&search->answers, q, residual, chain->slides);
+        gb_six_keep_answer(chain, q, residual, search);
         gb_six_keep(&tally->own, q, residual, chain->slides);
     } else if (deep <= GB_SIX_OFF * accuracy) {
         tally->lost++;
@@ -110,7 +99,8 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
     const bool is_aside = attempt->size > R(0.0);
     gb_six_candidates candidates;
     gb_six_tally tally;
-    if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : GB_SIX_BLURRED, &candidates)) {
+    if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : GB_SIX_BLURRED, &candidates)
+        || candidates.conditioning < GB_SIX_SINGULAR_PENCIL) {
         return false;
     }
     tally.own.count = tally.lost = 0;
@@ -131,6 +121,10 @@ static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, con
 {
     for (size_t number = 0; number < GB_SIX_ATTEMPTS; number++) {
         gb_six_attempt attempt;
+        /* Each formulation once at the target: again it would only confirm itself. */
+        if (!(gb_six_disturbances[number] > R(0.0)) && number >= chain->formulation_count) {
+            continue;
+        }
         attempt.chain = chain;
         attempt.number = number;
         attempt.size = gb_six_disturbances[number];

@@ -1,0 +1,121 @@
+//! Eigenvalues that coincide ([`Cluster`]): solutions that share the hidden joint's value, separated by the doubled joint.
+//!
+//! Inverse iteration finds one vector of the space that their eigenvectors span. Simultaneous iteration finds a basis of this space. In it, the tangent of
+//! half the doubled angle multiplies the monomials by a matrix with as many rows as solutions, whose eigenvectors are the shares of the basis (R. M. Corless,
+//! P. M. Gianni and B. M. Trager, ISSAC 1997, 133-140).
+
+use core::array::from_fn;
+
+use super::hessenberg::Hessenberg;
+use super::linear::solve;
+use super::pencil::{Matrix, NEAR, Pencil, SIZE, Wide};
+use super::shifted_qr::Eigenvalue;
+use super::vector::product;
+use crate::arithmetic::Arithmetic;
+use crate::trigonometry::{cosine, sine};
+
+/// Rounds of simultaneous iteration.
+const ROUNDS: usize = 2;
+/// Distance of the iteration's shift from the eigenvalue, as a share of `1 + |x|`, so that the matrix is regular.
+const SHIFT: f64 = 1e-9;
+/// Half the doubled angle is counted from here.
+const ORIGIN: f64 = 0.7;
+/// The smallest share of a pivot at which the monomials determine the matrix of tangents.
+const DETERMINED: f64 = 1e-10;
+/// Tangents closer than this share of `1 + |t|^2` do not separate solutions.
+const SEPARATE: f64 = 1e-4;
+
+/// The solutions of eigenvalues that coincide.
+pub(super) struct Cluster {
+    /// Their eigenvectors, in the first rows.
+    pub vectors: Matrix,
+    /// [`Eigenvalue::depth`] of their tangents.
+    pub depths: [f64; SIZE],
+}
+
+impl Cluster {
+    /// The solutions of `count` eigenvalues at `x`; `None` where the doubled joint does not separate them.
+    #[cold]
+    pub fn new(form: &Hessenberg, pencil: &Pencil, x: f64, count: usize) -> Option<Self> {
+        let basis = basis(form, x, count)?;
+        let wide = basis.map(|vector| pencil.widened(&vector));
+        let small = Hessenberg::reduce(tangents(&wide, count)?);
+        let values = small.eigenvalues()?;
+        if !are_separate(&values[..count]) {
+            return None;
+        }
+        let shares = small.eigenvectors(&values.map(|value| value.re)[..count]);
+        let mixed = |shares: [f64; SIZE], k: usize| (0..count).fold(0.0, |sum, j| sum + shares[j] * basis[j][k]);
+        let vectors = shares.map(|shares| from_fn(|k| mixed(shares, k)));
+        Some(Cluster { vectors, depths: values.map(|value| value.depth()) })
+    }
+}
+
+/// An orthonormal basis of the space of `count` eigenvectors for eigenvalues at `x`.
+fn basis(form: &Hessenberg, x: f64, count: usize) -> Option<Matrix> {
+    let shifted = x + SHIFT * (1.0 + x.abs());
+    // Walsh functions: orthogonal, and no entry is zero.
+    let mut basis: Matrix = from_fn(|j| from_fn(|k| if (j & k).count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }));
+    for _ in 0..ROUNDS {
+        let mut rows = [[0.0; 2 * SIZE]; SIZE];
+        for (k, row) in rows.iter_mut().enumerate() {
+            row[..SIZE].copy_from_slice(&form.matrix[k]);
+            row[k] -= shifted;
+            (0..count).for_each(|j| row[SIZE + j] = basis[j][k]);
+        }
+        if solve(&mut rows) <= 0.0 {
+            return None;
+        }
+        basis = from_fn(|j| from_fn(|k| rows[k][SIZE + j]));
+        orthonormalise(&mut basis[..count])?;
+    }
+    basis[..count].iter_mut().for_each(|vector| form.turn_back(vector));
+    Some(basis)
+}
+
+/// Gram-Schmidt, twice; `None` where vectors depend on one another.
+fn orthonormalise(basis: &mut [[f64; SIZE]]) -> Option<()> {
+    for j in 0..basis.len() {
+        let (known, rest) = basis.split_at_mut(j);
+        for _ in 0..2 {
+            for other in &*known {
+                let share = product(other, &rest[0]);
+                rest[0].iter_mut().zip(other).for_each(|(entry, over)| *entry -= share * over);
+            }
+        }
+        let inverse = 1.0 / Arithmetic::sqrt(product(&rest[0], &rest[0]));
+        rest[0].iter_mut().for_each(|entry| *entry *= inverse);
+        if !inverse.is_finite() {
+            return None;
+        }
+    }
+    Some(())
+}
+
+/// The matrix by which the tangent multiplies the monomials, in a basis, by least squares; rows and columns from `count` on are those of zero.
+fn tangents(basis: &[Wide; SIZE], count: usize) -> Option<Matrix> {
+    let (c, s) = (cosine(ORIGIN), sine(ORIGIN));
+    let cosines = |vector: &Wide, k: usize| c * vector[k] + s * vector[k + 3];
+    let sines = |vector: &Wide, k: usize| c * vector[k + 3] - s * vector[k];
+    let mut rows = [[0.0; 2 * SIZE]; SIZE];
+    for (i, row) in rows.iter_mut().enumerate() {
+        row[i] = if i < count { 0.0 } else { 1.0 };
+        for j in (0..count).filter(|_| i < count) {
+            for k in 0..NEAR - 3 {
+                let across = cosines(&basis[i], k);
+                row[j] += across * cosines(&basis[j], k);
+                row[SIZE + j] += across * sines(&basis[j], k);
+            }
+        }
+    }
+    let is_determined = solve(&mut rows) >= DETERMINED;
+    is_determined.then(|| rows.map(|row| from_fn(|k| row[SIZE + k])))
+}
+
+/// Whether no two tangents are close to one another.
+fn are_separate(values: &[Eigenvalue]) -> bool {
+    let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
+        (a.re - b.re).abs() + (a.im - b.im).abs() <= SEPARATE * (1.0 + a.re * a.re + b.re * b.re)
+    };
+    !values.iter().enumerate().any(|(k, value)| values[..k].iter().any(|other| is_close(value, other)))
+}
