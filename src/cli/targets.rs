@@ -86,7 +86,14 @@ impl<'a, R: BufRead> Reader<'a, R> {
 
     /// Reads values of any of these lists of names from `input`, which is `file`.
     pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R, file: &'a Path) -> Self {
-        Reader { forms, lines: Lines { input, count: 0, follows_return: false }, passed: Some(Vec::new()), columns: None, is_first: true, file }
+        Reader {
+            forms,
+            lines: Lines { input, count: 0, follows_return: false },
+            passed: Some(Vec::new()),
+            columns: None,
+            is_first: true,
+            file,
+        }
     }
 
     /// Passes over columns of these names, too.
@@ -145,7 +152,8 @@ impl<'a, R: BufRead> Reader<'a, R> {
     fn named(&self, record: &StringRecord) -> Result<Named> {
         let has = |name: &&&str| record.iter().any(|cell| cell == **name);
         let missing = |form: &usize| self.forms[*form].len() - self.forms[*form].iter().filter(has).count();
-        let nearest = (0..self.forms.len()).min_by_key(|form| (missing(form), std::cmp::Reverse(self.forms[*form].len())));
+        let nearest =
+            (0..self.forms.len()).min_by_key(|form| (missing(form), std::cmp::Reverse(self.forms[*form].len())));
         let form = nearest.unwrap_or(0);
         let places = self.places(&self.forms[form], record)?;
         Ok(Named { form, places, count: record.len() })
@@ -153,12 +161,15 @@ impl<'a, R: BufRead> Reader<'a, R> {
 
     /// The column of each name in a row of names, which must hold no other.
     fn places(&self, names: &[&str], record: &StringRecord) -> Result<Vec<usize>> {
-        let refused = |text: String| Error::new(ErrorKind::UnknownName, format!("{text}; {} are allowed", names.join(", ")));
+        let refused =
+            |text: String| Error::new(ErrorKind::UnknownName, format!("{text}; {} are allowed", names.join(", ")));
         let place = |name: &&str| {
             record.iter().position(|cell| cell == *name).ok_or_else(|| {
                 let found: Vec<String> = record.iter().take(NAMED).map(shown).collect();
                 let row = found.join(",");
-                refused(format!("the first row (`{row}`) is neither numbers nor names of the inputs: `{name}` is missing"))
+                refused(format!(
+                    "the first row (`{row}`) is neither numbers nor names of the inputs: `{name}` is missing"
+                ))
             })
         };
         let places: Vec<usize> = names.iter().map(place).collect::<Result<_>>()?;

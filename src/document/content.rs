@@ -54,11 +54,14 @@ fn foreign(name: &str, advice: &str) -> Error {
     Error::new(ErrorKind::Unsupported, text)
 }
 
-/// JSON, YAML or CSV, where `text` is one of them.
+/// JSON, YAML or CSV, where `text` is one of them and neither XML nor TOML with a slip.
 fn text_format(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.starts_with('{') || (text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok()) {
         return Some("JSON");
+    }
+    if text.starts_with('<') || text.lines().any(|line| line.contains(" = ") || line.starts_with("[[")) {
+        return None;
     }
     let told = text.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'));
     let lines: Vec<&str> = told.take(TABLE).collect();
@@ -66,8 +69,10 @@ fn text_format(text: &str) -> Option<&'static str> {
     if first == "---" || first.starts_with("--- ") || first.starts_with("%YAML") || is_yaml_entry(first) {
         return Some("YAML");
     }
-    let cells = |separator: char| lines.iter().all(|line| line.matches(separator).count() == first.matches(separator).count());
-    let is_table = |separator: &char| lines.len() > 1 && first.contains(*separator) && !first.contains('=') && cells(*separator);
+    let cells =
+        |separator: char| lines.iter().all(|line| line.matches(separator).count() == first.matches(separator).count());
+    let is_table =
+        |separator: &char| lines.len() > 1 && first.contains(*separator) && !first.contains('=') && cells(*separator);
     [',', ';', '\t'].iter().any(is_table).then_some("a table (CSV)")
 }
 

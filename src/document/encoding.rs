@@ -58,8 +58,12 @@ fn refuse_unmarked(bytes: &[u8]) -> Result<()> {
     let is_wide = head.starts_with(&[0xff, 0xfe, 0, 0]) || head.starts_with(&[0, 0, 0xfe, 0xff]);
     let (name, other) = match () {
         () if is_wide || all(4, &[0, 1, 2]) || all(4, &[1, 2, 3]) => ("UTF-32", ""),
-        () if all(2, &[0]) => ("UTF-16 (big-endian) without a byte-order mark", ", or as UTF-16 with a byte-order mark"),
-        () if all(2, &[1]) => ("UTF-16 (little-endian) without a byte-order mark", ", or as UTF-16 with a byte-order mark"),
+        () if all(2, &[0]) => {
+            ("UTF-16 (big-endian) without a byte-order mark", ", or as UTF-16 with a byte-order mark")
+        }
+        () if all(2, &[1]) => {
+            ("UTF-16 (little-endian) without a byte-order mark", ", or as UTF-16 with a byte-order mark")
+        }
         () => return Ok(()),
     };
     Err(Error::new(ErrorKind::Syntax, format!("the text is {name}; save the file as UTF-8{other}")))
@@ -92,7 +96,8 @@ fn encoding_value(bytes: &[u8]) -> Option<Range<usize>> {
 
 fn decode(encoding: &'static Encoding, bytes: &[u8]) -> Result<XmlText> {
     let text = encoding.decode_without_bom_handling_and_without_replacement(bytes).ok_or_else(|| {
-        let text = format!("the text is not {}, the encoding that it declares; save the file as UTF-8", encoding.name());
+        let text =
+            format!("the text is not {}, the encoding that it declares; save the file as UTF-8", encoding.name());
         Error::new(ErrorKind::Syntax, text)
     })?;
     Ok(XmlText { text: as_utf8(&text).into_owned(), notes: Vec::new() })

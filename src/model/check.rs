@@ -1,6 +1,6 @@
 //! What [`Robot::new`](super::Robot::new) demands of its parts.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::{Actuator, Fault, Joint, JointType, Link, Part, RobotParts};
 use crate::document::{did_you_mean, shown};
@@ -39,14 +39,15 @@ pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
     let links = index_links(&parts.links)?;
     let joints = index_joints(&parts.joints)?;
     let ends = parts.joints.iter().map(|joint| ends_of(joint, &parts.links, &links)).collect::<Result<_>>()?;
-    let is_known = |name: &str| parts.faults.iter().any(|fault| fault.part == Part::Joint(name.to_owned()));
+    let known: HashSet<&Part> = parts.faults.iter().map(|fault| &fault.part).collect();
     let (mut faults, mut lost) = (Vec::new(), Vec::new());
     for (place, joint) in parts.joints.iter().enumerate() {
-        let motion = if is_known(&joint.name) { Ok(()) } else { check_motion(joint) };
+        let part = Part::Joint(joint.name.clone());
+        let motion = if known.contains(&part) { Ok(()) } else { check_motion(joint) };
         let mimic = check_mimic(joint, &parts.joints, &joints);
         lost.extend(mimic.is_err().then_some(place));
         let found = [motion, mimic].into_iter().filter_map(Result::err);
-        faults.extend(found.map(|error| Fault { part: Part::Joint(joint.name.clone()), error }));
+        faults.extend(found.map(|error| Fault { part: part.clone(), error }));
     }
     lost.into_iter().for_each(|place| parts.joints[place].mimic = None);
     let mut actuators = Vec::new();

@@ -3,7 +3,7 @@
 use crate::Error;
 
 /// A part of a robot, by its name.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
     /// A link.
     Link(String),

@@ -3,7 +3,7 @@
 use num_traits::{One, Zero};
 
 use super::check;
-use super::{Actuator, Fault, Joint, JointType, Link, Mimic, RobotParts};
+use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::number::BigRational;
 use crate::spatial::Inertia;
@@ -75,6 +75,16 @@ impl Robot {
     #[must_use]
     pub fn with_notes(mut self, notes: Vec<String>) -> Self {
         self.parts.notes.extend(notes);
+        self
+    }
+
+    /// The same robot, faults without a line at the line of their part.
+    pub(super) fn with_lines(mut self, line_of: impl Fn(&Part) -> Option<usize>) -> Self {
+        for fault in &mut self.parts.faults {
+            if let Some(line) = line_of(&fault.part) {
+                fault.error = fault.error.clone().at_line(line);
+            }
+        }
         self
     }
 

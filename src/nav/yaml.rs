@@ -56,7 +56,8 @@ pub struct Entry {
 /// [`ErrorKind::Syntax`] for what is no YAML, no mapping, or nested more than 20 levels; [`ErrorKind::DuplicateName`] for a key that stands twice. With the
 /// line.
 pub fn entries(text: &str) -> Result<Vec<Entry>> {
-    let mut reader = Reader { parser: Parser::new_from_str(text.trim_start_matches('\u{feff}')), anchors: HashMap::new() };
+    let mut reader =
+        Reader { parser: Parser::new_from_str(text.trim_start_matches('\u{feff}')), anchors: HashMap::new() };
     loop {
         match reader.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
@@ -80,7 +81,8 @@ struct Reader<'t> {
 impl<'t> Reader<'t> {
     /// The next event, and its line.
     fn next(&mut self) -> Result<(Event<'t>, usize)> {
-        let (event, span): (Event<'t>, Span) = self.parser.next_event().unwrap_or_else(ended).map_err(|error| broken(&error))?;
+        let (event, span): (Event<'t>, Span) =
+            self.parser.next_event().unwrap_or_else(ended).map_err(|error| broken(&error))?;
         Ok((event, span.start.line()))
     }
 

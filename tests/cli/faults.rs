@@ -44,10 +44,14 @@ fn derive_tells_them_in_its_report_and_in_json() {
     // The folder is a derivation like any other; 0.3 m in each link reach (0.3, 0.3) with the elbow at a right angle.
     let solved = run(&["solve", text(&out), "--target", "0.3,0.3", "--json"]);
     let solved: Value = serde_json::from_str(&solved.out).unwrap();
-    let mut elbows: Vec<f64> = solved["solutions"].as_array().unwrap().iter().map(|own| own["q"][1].as_f64().unwrap()).collect();
+    let mut elbows: Vec<f64> =
+        solved["solutions"].as_array().unwrap().iter().map(|own| own["q"][1].as_f64().unwrap()).collect();
     elbows.sort_by(f64::total_cmp);
     let quarter = std::f64::consts::FRAC_PI_2;
-    assert!(elbows.len() == 2 && (elbows[0] + quarter).abs() < 1e-9 && (elbows[1] - quarter).abs() < 1e-9, "{elbows:?}");
+    assert!(
+        elbows.len() == 2 && (elbows[0] + quarter).abs() < 1e-9 && (elbows[1] - quarter).abs() < 1e-9,
+        "{elbows:?}"
+    );
     assert_eq!(run(&["check", text(&out)]).code, 0);
 }
 

@@ -52,7 +52,8 @@ fn declared_encodings_are_read() {
     // 0x80 is the euro sign in windows-1252 (its code chart); あ is 0x82 0xa0 in Shift_JIS (JIS X 0208, row 4).
     let euro: Vec<u8> = latin(&declared("windows-1252", "\u{80}"));
     let kana = urdf(" encoding='Shift_JIS'", "-", "@").into_bytes();
-    let kana: Vec<u8> = kana.iter().flat_map(|byte| if *byte == b'@' { vec![0x82, 0xa0] } else { vec![*byte] }).collect();
+    let kana: Vec<u8> =
+        kana.iter().flat_map(|byte| if *byte == b'@' { vec![0x82, 0xa0] } else { vec![*byte] }).collect();
     for (bytes, link) in [
         (latin(&declared("ISO-8859-1", "Fuß")), "Fuß"),
         (latin(&declared("iso-8859-1", "Fuß")), "Fuß"),
@@ -97,11 +98,17 @@ fn what_cannot_be_read_says_how_it_could() {
     let mut broken = wide(&plain, true, u16::to_le_bytes);
     broken.extend([0x00, 0xd8, 0x00, 0x00]);
     for (bytes, words) in [
-        (wide(&plain, false, u16::to_be_bytes), "UTF-16 (big-endian) without a byte-order mark; save the file as UTF-8, or as UTF-16 with"),
+        (
+            wide(&plain, false, u16::to_be_bytes),
+            "UTF-16 (big-endian) without a byte-order mark; save the file as UTF-8, or as UTF-16 with",
+        ),
         (wide(&plain, false, u16::to_le_bytes), "UTF-16 (little-endian) without a byte-order mark"),
         (plain.encode_utf16().flat_map(four).collect(), "the text is UTF-32; save the file as UTF-8"),
         (broken, "the text is not UTF-16LE"),
-        (urdf(" encoding=\"EBCDIC\"", "-", "base").into_bytes(), "the declared encoding `EBCDIC` is unknown; allowed are UTF-8, ISO-8859-1"),
+        (
+            urdf(" encoding=\"EBCDIC\"", "-", "base").into_bytes(),
+            "the declared encoding `EBCDIC` is unknown; allowed are UTF-8, ISO-8859-1",
+        ),
         (b" \n".to_vec(), "the file is empty"),
     ] {
         let error = read(&bytes).unwrap_err();
@@ -114,7 +121,10 @@ fn what_cannot_be_read_says_how_it_could() {
 fn other_files_are_named() {
     let scene: &[u8] = b"#usda 1.0\ndef Xform \"robot\" {}\n";
     for (bytes, words) in [
-        (&b"PK\x03\x04\x14\0\0\0"[..], "this is a ZIP archive; give the URDF in it: descriptions are URDF (XML) or TOML"),
+        (
+            &b"PK\x03\x04\x14\0\0\0"[..],
+            "this is a ZIP archive; give the URDF in it: descriptions are URDF (XML) or TOML",
+        ),
         (b"\x1f\x8b\x08\0\0", "this is a gzip archive"),
         (b"PXR-USDC\0\0", "this is a USD scene"),
         (scene, "this is a USD scene"),
@@ -144,6 +154,8 @@ fn a_slip_in_a_description_stays_a_slip() {
         ("name = 'arm'\nlink = [1, 2\n", "this is not TOML"),
         ("name = 'arm' 1, 2\nx = 1, 2\n", "this is not TOML"),
         ("[[link]]\nname 'a'\n", "this is not TOML"),
+        ("name: 'arm'\nx = 1\n", "this is not TOML"),
+        ("<!-- a, b -->\n<robot name='a, b'>", "this is not XML"),
         ("<robot name='a'><link name='b'></robot>", "this is not XML"),
     ] {
         let file = folder.path().join("arm.toml");
@@ -155,8 +167,16 @@ fn a_slip_in_a_description_stays_a_slip() {
 
 #[test]
 fn text_that_is_decoded_already_is_utf8() {
-    assert_eq!(as_utf8("<?xml version='1.0' encoding='ISO-8859-1'?><a/>"), "<?xml version='1.0' encoding='UTF-8'?><a/>");
-    for same in ["<?xml version='1.0' encoding='utf-8'?><a/>", "<a encoding='b'/>", "<?xml version='1.0'?><a encoding='b'/>", ""] {
+    assert_eq!(
+        as_utf8("<?xml version='1.0' encoding='ISO-8859-1'?><a/>"),
+        "<?xml version='1.0' encoding='UTF-8'?><a/>"
+    );
+    for same in [
+        "<?xml version='1.0' encoding='utf-8'?><a/>",
+        "<a encoding='b'/>",
+        "<?xml version='1.0'?><a encoding='b'/>",
+        "",
+    ] {
         assert_eq!(as_utf8(same), same);
     }
 }

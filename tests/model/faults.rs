@@ -24,18 +24,58 @@ const CAM: &str =
 
 /// Faults of the camera: what is replaced in its joint or link, and what is said about it.
 const FAULTS: [(&str, &str, ErrorKind, &str); 16] = [
-    ("lower=\"-1\"", "lower=\"3\"", ErrorKind::BadValue, "joint `pan`: the limits 3..1 are inverted; give the lower limit first, or the type `continuous`"),
-    ("upper=\"1\"", "upper=\"inf\"", ErrorKind::BadValue, "joint `pan`: the limits -1..inf are not finite; give finite ones, or the type `continuous`"),
-    ("upper=\"1\"", "upper=\"1e999\"", ErrorKind::BadValue, "are not finite; give finite ones, or the type `continuous`"),
+    (
+        "lower=\"-1\"",
+        "lower=\"3\"",
+        ErrorKind::BadValue,
+        "joint `pan`: the limits 3..1 are inverted; give the lower limit first, or the type `continuous`",
+    ),
+    (
+        "upper=\"1\"",
+        "upper=\"inf\"",
+        ErrorKind::BadValue,
+        "joint `pan`: the limits -1..inf are not finite; give finite ones, or the type `continuous`",
+    ),
+    (
+        "upper=\"1\"",
+        "upper=\"1e999\"",
+        ErrorKind::BadValue,
+        "are not finite; give finite ones, or the type `continuous`",
+    ),
     ("lower=\"-1\"", "lower=\"nan\"", ErrorKind::BadValue, "<limit> has `lower` = \"nan\""),
-    ("<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>", "", ErrorKind::BadValue, "joint `pan`: a revolute joint needs limits"),
+    (
+        "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>",
+        "",
+        ErrorKind::BadValue,
+        "joint `pan`: a revolute joint needs limits",
+    ),
     ("effort=\"1\"", "effort=\"inf\"", ErrorKind::BadValue, "joint `pan`: <limit> has `effort` = \"inf\""),
-    ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 0\"/>", ErrorKind::BadValue, "joint `pan`: axis [0, 0, 0] has no direction"),
+    (
+        "<axis xyz=\"0 0 1\"/>",
+        "<axis xyz=\"0 0 0\"/>",
+        ErrorKind::BadValue,
+        "joint `pan`: axis [0, 0, 0] has no direction",
+    ),
     ("<axis xyz", "<axes xyz", ErrorKind::UnknownKey, "joint `pan`: <axes> is no element of a joint"),
     ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 $(arg z)\"/>", ErrorKind::Unsupported, "is xacro"),
-    ("</joint>", "<mimic joint=\"gone\"/></joint>", ErrorKind::UnknownName, "joint `pan`: it mimics `gone`, which is no joint"),
-    ("</joint>", "<mimic joint=\"pan\"/></joint>", ErrorKind::BadValue, "joint `pan`: the joints that it mimics mimic one another"),
-    ("</joint>", "<mimic joint=\"j1\" multiplier=\"x\"/></joint>", ErrorKind::BadValue, "joint `pan`: <mimic> has `multiplier`"),
+    (
+        "</joint>",
+        "<mimic joint=\"gone\"/></joint>",
+        ErrorKind::UnknownName,
+        "joint `pan`: it mimics `gone`, which is no joint",
+    ),
+    (
+        "</joint>",
+        "<mimic joint=\"pan\"/></joint>",
+        ErrorKind::BadValue,
+        "joint `pan`: the joints that it mimics mimic one another",
+    ),
+    (
+        "</joint>",
+        "<mimic joint=\"j1\" multiplier=\"x\"/></joint>",
+        ErrorKind::BadValue,
+        "joint `pan`: <mimic> has `multiplier`",
+    ),
     ("type=\"revolute\"", "type=\"revolut\"", ErrorKind::BadValue, "did you mean `revolute`?"),
     ("ixx=\"1\"", "ixx=\"nan\"", ErrorKind::BadValue, "link `cam`: <inertia> has `ixx` = \"nan\": nan is not finite"),
     ("<mass value=\"1\"/>", "", ErrorKind::MissingKey, "link `cam`: <inertial> has no <mass"),
@@ -91,7 +131,10 @@ fn faults_survive_what_makes_a_robot_of_another_one() {
 
 #[test]
 fn each_part_has_its_fault_in_the_order_of_the_file() {
-    let pan = PAN.replace("lower=\"-1\"", "lower=\"3\"").replace("0 0 1", "0 0 0").replace("</joint>", "<mimic joint=\"gone\"/></joint>");
+    let pan = PAN
+        .replace("lower=\"-1\"", "lower=\"3\"")
+        .replace("0 0 1", "0 0 0")
+        .replace("</joint>", "<mimic joint=\"gone\"/></joint>");
     let read = Robot::from_urdf(&robot(&pan, &CAM.replace("value=\"1\"", "value=\"much\""))).unwrap();
     let told: Vec<String> = read.faults().iter().map(|fault| fault.error.to_string()).collect();
     assert_eq!(told.len(), 3, "{told:?}");
@@ -101,12 +144,14 @@ fn each_part_has_its_fault_in_the_order_of_the_file() {
 
 #[test]
 fn an_actuator_without_its_joint_moves_nothing_of_a_chain() {
-    let more = "<transmission name=\"t\"><joint name=\"pan\"/><joint name=\"tilt\"/><actuator name=\"m\"/></transmission>";
-    let read = Robot::from_urdf(&robot(&format!("{PAN}{more}"), CAM)).unwrap();
+    let more =
+        "<transmission name=\"t\"><joint name=\"pan\"/><joint name=\"tilt\"/><actuator name=\"m\"/></transmission>";
+    let read = Robot::from_urdf(&robot(&format!("{PAN}\n{more}"), CAM)).unwrap();
     assert!(read.chain(None, Some("tip")).is_ok() && read.chain(None, Some("cam")).is_ok());
     assert_eq!((read.faults()[0].part.clone(), read.actuators().len()), (Part::Actuator("m".into()), 0));
     let error = Equations::new(&read, Base::Fixed).unwrap_err();
     assert!(error.message().contains("actuator `m`: the robot has no joint `tilt`"), "{error}");
+    assert_eq!(error.place().line, Some(9));
 }
 
 #[test]
@@ -150,7 +195,11 @@ fn xacro_that_something_uses_is_to_be_expanded() {
     for (pan, cam, line) in [
         (PAN.replace("0 0 1", "0 0 ${width}"), CAM.to_owned(), 8),
         (PAN.replace("\"pan\"", "\"${prefix}pan\""), CAM.to_owned(), 8),
-        (PAN.to_owned(), CAM.replace("</link>", "<visual><geometry><sphere radius=\"${width}\"/></geometry></visual></link>"), 5),
+        (
+            PAN.to_owned(),
+            CAM.replace("</link>", "<visual><geometry><sphere radius=\"${width}\"/></geometry></visual></link>"),
+            5,
+        ),
         (PAN.replace("</joint>", "<xacro:limits/></joint>"), CAM.to_owned(), 8),
         (format!("{PAN}\n<xacro:macro name=\"m\"/>"), CAM.to_owned(), 9),
     ] {
@@ -166,5 +215,9 @@ fn xacro_that_something_uses_is_to_be_expanded() {
 fn a_colour_that_is_none_is_a_note() {
     let material = "<material name=\"red\"><color rgba=\"1 0 0\"/></material>";
     let read = Robot::from_urdf(&robot(&format!("{PAN}\n{material}"), CAM)).unwrap();
-    assert!(read.check().is_ok() && read.parts().notes[0].contains("3 found; give 4 numbers"), "{:?}", read.parts().notes);
+    assert!(
+        read.check().is_ok() && read.parts().notes[0].contains("3 found; give 4 numbers"),
+        "{:?}",
+        read.parts().notes
+    );
 }

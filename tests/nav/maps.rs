@@ -67,13 +67,16 @@ const YAML: &str = "image: a.pgm\nresolution: 0.05\norigin: [-1.5, 2.0, 0.25]\nn
 /// What PyYAML's `safe_dump` and `map_saver` write, and what people write by hand: all of it says the same.
 #[test]
 fn yaml_is_read_as_any_program_writes_it() {
-    let expected = ("a.pgm".to_owned(), Meaning {
-        resolution: 0.05,
-        origin: [-1.5, 2.0, 0.25],
-        negate: true,
-        thresholds: [0.7, 0.2],
-        mode: Mode::Scale,
-    });
+    let expected = (
+        "a.pgm".to_owned(),
+        Meaning {
+            resolution: 0.05,
+            origin: [-1.5, 2.0, 0.25],
+            negate: true,
+            thresholds: [0.7, 0.2],
+            mode: Mode::Scale,
+        },
+    );
     let flow = "[-1.5, 2.0, 0.25]";
     for text in [
         YAML.to_owned(),
@@ -111,7 +114,10 @@ fn yaml_that_is_none_has_a_line() {
     ] {
         let error = Meaning::from_yaml(&YAML.replacen(from, to, 1)).unwrap_err();
         assert!(error.kind() == kind && error.message().contains(words), "{to}: {error}");
-        assert!(line.is_none_or(|line| error.place().line == Some(line)) && error.place().line.is_some(), "{to}: {error}");
+        assert!(
+            line.is_none_or(|line| error.place().line == Some(line)) && error.place().line.is_some(),
+            "{to}: {error}"
+        );
     }
     for text in ["- image: a.pgm\n", "a map\n", "[1, 2]"] {
         let error = Meaning::from_yaml(text).unwrap_err();
@@ -124,7 +130,8 @@ fn yaml_that_is_none_has_a_line() {
 #[test]
 fn no_yaml_takes_long() {
     let most = 100_000;
-    let growing: String = (1..9).map(|n| format!("a{n}: &a{n} [{}]\n", vec![format!("*a{}", n - 1); 9].join(", "))).collect();
+    let growing: String =
+        (1..9).map(|n| format!("a{n}: &a{n} [{}]\n", vec![format!("*a{}", n - 1); 9].join(", "))).collect();
     let list = format!("x: &x [{}]\n", "1, ".repeat(most / 6));
     let again: String = (0..most / 20).map(|n| format!("k{n}: *x\n")).collect();
     let keys: String = (0..most / 9).map(|n| format!("k{n}: 1\n")).collect();

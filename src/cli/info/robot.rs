@@ -79,7 +79,11 @@ impl<'r> Body<'r> {
         page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&robot.tips()));
         page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&robot.leaves()));
         page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
-        page += &listed(paint, "faults: chains that do not pass here are sound", robot.faults().iter().map(|fault| &fault.error));
+        page += &listed(
+            paint,
+            "faults: chains that do not pass here are sound",
+            robot.faults().iter().map(|fault| &fault.error),
+        );
         page += &listed(paint, "notes", robot.parts().notes.iter());
         if let Some(tip) = robot.tips().first() {
             page +=
@@ -95,10 +99,7 @@ impl<'r> Body<'r> {
         let at = centre.coords.map(|x| format!("{x:.4}"));
         let mut text = format!(
             "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} shapes are seen, {hard} collide\n",
-            mass,
-            at.x,
-            at.y,
-            at.z
+            mass, at.x, at.y, at.z
         );
         let doubts = self.robot.doubts();
         text += &doubts.iter().take(LISTED).map(|doubt| format!("  {doubt}\n")).collect::<String>();

@@ -64,7 +64,12 @@ impl Robot {
         let name = if name.is_empty() { "robot".to_owned() } else { name.to_owned() };
         let actuators = elements("transmission").filter_map(read_transmission).collect();
         let parts = RobotParts { name, source: None, links, joints, actuators, faults, notes };
-        Robot::with_faults(parts).map_err(|error| error.at_line(root.line))
+        let line_of = |part: &Part| {
+            let Part::Actuator(name) = part else { return None };
+            let is_own = |child: &Element| child.name == "actuator" && child.attribute("name") == Some(name);
+            elements("transmission").find(|element| element.children.iter().any(is_own)).map(|element| element.line)
+        };
+        Ok(Robot::with_faults(parts).map_err(|error| error.at_line(root.line))?.with_lines(line_of))
     }
 }
 
