@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use groebot::derive::Ends;
-use groebot::document::read_text;
+use groebot::document::{XmlText, as_utf8, read_xml};
 use groebot::dynamics::{Base, Equations, State};
 use groebot::model::urdf::URDF_LIMIT;
 use groebot::{ErrorKind, model, robots};
@@ -36,6 +36,7 @@ pub struct Robot {
 #[pymethods]
 impl Robot {
     /// Reads a URDF: a path, or the text itself. `base` and `tip` are the links between which `derive` takes the chain, by default the root and the only end.
+    /// What is wrong with a part that this chain does not need is told by `notes`; dynamics refuse it.
     #[staticmethod]
     #[pyo3(signature = (path_or_text, base=None, tip=None, *, floating=false, gravity=None))]
     fn from_urdf(
@@ -46,14 +47,15 @@ impl Robot {
         gravity: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let told = path_or_text.cast::<PyString>().ok().map(|text| text.to_str()).transpose()?;
-        let text = match told.filter(|text| text.trim_start_matches('\u{feff}').trim_start().starts_with('<')) {
-            Some(text) => text.to_owned(),
-            None => {
-                let path: PathBuf = path_or_text.extract()?;
-                read_text(&path, URDF_LIMIT).map_err(|error| raised(&error))?
-            }
-        };
-        let robot = model::Robot::from_urdf(&text).map_err(|error| raised(&error))?;
+        let XmlText { text, notes } =
+            match told.filter(|text| text.trim_start_matches('\u{feff}').trim_start().starts_with('<')) {
+                Some(text) => XmlText { text: as_utf8(text).into_owned(), notes: Vec::new() },
+                None => {
+                    let path: PathBuf = path_or_text.extract()?;
+                    read_xml(&path, URDF_LIMIT).map_err(|error| raised(&error))?
+                }
+            };
+        let robot = model::Robot::from_urdf(&text).map_err(|error| raised(&error))?.with_notes(notes);
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
@@ -123,6 +125,19 @@ impl Robot {
     #[getter]
     fn joints(&self) -> PyResult<Vec<String>> {
         Ok(self.equations()?.joints().to_vec())
+    }
+
+    /// What of the description was passed over: faults of parts that the chain between `base` and `tip` does not need, and other remarks.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        match self.robot.path(self.base.as_deref(), self.tip.as_deref()) {
+            Ok(path) => self.robot.passed_over(&path),
+            // There is no chain yet: all of them.
+            Err(_) => {
+                let faults = self.robot.faults().iter().map(|fault| fault.error.to_string());
+                self.robot.parts().notes.iter().cloned().chain(faults).collect()
+            }
+        }
     }
 
     /// The mass of all links \[kg\].

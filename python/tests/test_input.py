@@ -122,6 +122,22 @@ def test_mistakes_in_a_urdf_have_their_line():
     assert raised.value.line == 3
 
 
+def test_a_fault_beside_the_chain_is_a_note(tmp_path):
+    joint = "<joint name='{0}' type='{1}'><parent link='{2}'/><child link='{3}'/><origin xyz='0.3 0 0'/><axis xyz='0 0 1'/>{4}</joint>"
+    joints = [("j1", "continuous", "a", "b", ""), ("j2", "continuous", "b", "c", ""), ("jt", "fixed", "c", "e", ""), ("pan", "revolute", "a", "d", "")]
+    text = "<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='r'><!-- J\u00f6rg -->\n"
+    text += "".join(f"<link name='{name}'/>" for name in "abcde") + "\n" + "\n".join(joint.format(*one) for one in joints) + "</robot>"
+    file = tmp_path / "r.urdf"
+    file.write_bytes(text.encode("latin-1"))
+    for robot in (Robot.from_urdf(file, tip="e"), Robot.from_urdf(text, tip="e")):
+        assert len(robot.notes) == 1 and "joint `pan`: a revolute joint needs limits" in robot.notes[0]
+        solver = groebot.derive(robot, task="planar_position", plane="xy")
+        assert len(solver.solve([0.6, 0.3])) == 2
+        with pytest.raises(BadValueError, match="pan"):
+            robot.mass_matrix(np.zeros(3))
+    assert Robot.named("nao").notes == []
+
+
 @settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 @given(arrays.arrays(np.float64, (5, 4, 4), elements=st.floats(width=64)))
 def test_any_matrices_are_answered(targets):

@@ -215,12 +215,16 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
 
 /// The names of the columns.
 pub fn csv_header(program: &Program) -> String {
-    let mut cells = vec!["target".to_owned()];
-    cells.extend(program.inputs.iter().map(|input| input.name.clone()));
-    cells.extend(["solutions".to_owned(), "branch".to_owned()]);
-    cells.extend(program.joints.iter().map(|joint| joint.name.clone()));
-    cells.extend(["residual", "chosen", "free", "outside_limits"].map(str::to_owned));
+    let mut cells = answer_columns(program);
+    cells.splice(1..1, program.inputs.iter().map(|input| input.name.clone()));
     csv_line(&cells)
+}
+
+/// The names of the columns beside those of the inputs.
+pub fn answer_columns(program: &Program) -> Vec<String> {
+    let joints = program.joints.iter().map(|joint| joint.name.as_str());
+    let names = ["target", "solutions", "branch"].into_iter().chain(joints);
+    names.chain(["residual", "chosen", "free", "outside_limits"]).map(str::to_owned).collect()
 }
 
 /// One row a solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets from 1.

@@ -49,6 +49,11 @@ pub fn print(text: &str) -> Outcome {
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))
 }
 
+/// Tells what of the input was passed over, beside the answer: on standard error.
+pub fn tell(notes: &[String]) {
+    notes.iter().for_each(|note| eprintln!("note: {note}"));
+}
+
 /// What a failed write to standard output means.
 pub fn unwritten(error: &io::Error) -> Halt {
     match error.kind() {

@@ -88,6 +88,7 @@ impl Arguments {
             return Err(refused("--robot and --meshes are for motions and scenes; leave them out for urdf and mjcf"));
         }
         let (robot, meshes) = moving::described(&self.input)?;
+        robot.check().map_err(|error| error.in_file(&self.input))?;
         Ok(if self.to == Format::Urdf { robot.to_urdf() } else { robot.to_mjcf(&meshes) })
     }
 

@@ -46,11 +46,15 @@ pub struct Arguments {
 /// Prints the pose for each joint vector that was given.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
-    let chain = input.chain(&arguments.ends.ends()?)?.ok_or_else(|| {
+    let ends = arguments.ends.ends()?;
+    let chain = input.chain(&ends)?.ok_or_else(|| {
         let text = "this is a system of equations, or coupled chains; forward kinematics needs a chain (of coupled chains, give the file of one)";
         Error::new(ErrorKind::BadValue, text).in_file(&input.path)
     })?;
-    let edge = Edge { chain: &chain, degrees: arguments.degrees };
+    let edge = Edge { chain: &chain, degrees: arguments.degrees, notes: input.passed_over(&ends)? };
+    if !arguments.json {
+        console::tell(&edge.notes);
+    }
     match arguments.q.as_slice() {
         [] if io::stdin().is_terminal() => {
             let text = "no joint values; give them by --q, or CSV on standard input";
@@ -66,6 +70,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
 struct Edge<'a> {
     chain: &'a Chain,
     degrees: bool,
+    /// What of the robot was passed over.
+    notes: Vec<String>,
 }
 
 /// Joint values, as given, and the pose of the tip.
@@ -161,7 +167,8 @@ fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
 fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let mut rows = targets::Reader::new(edge.names(), io::stdin().lock(), Path::new(targets::STDIN));
+    let rows = targets::Reader::new(edge.names(), io::stdin().lock(), Path::new(targets::STDIN));
+    let mut rows = rows.passing_over_others();
     if !as_json {
         write(&csv_header(edge))?;
     }
@@ -247,6 +254,9 @@ struct Page<'a> {
     rpy: [f64; 3],
     /// The homogeneous matrix, by rows.
     matrix: [[f64; 4]; 4],
+    /// What of the robot was passed over.
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -273,6 +283,7 @@ fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
         quaternion_xyzw: answer.quaternion(),
         rpy: answer.rpy.map(|angle| edge.angle(angle)),
         matrix: answer.matrix(),
+        notes: &edge.notes,
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
     text.expect("an answer holds nothing that JSON cannot say") + "\n"

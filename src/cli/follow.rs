@@ -67,6 +67,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let ends = arguments.ends.ends()?.or(&input.ends);
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;
+    if !arguments.quiet {
+        console::tell(&input.passed_over(&ends)?);
+    }
     let (poses, times) = read_poses(&arguments.poses)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let solver = Proved::of_chain(&chain, &session.watch)?;
@@ -93,7 +96,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Ok(());
     }
     let touches = match &input.description {
-        Description::Robot(robot) => touching(robot, &followed)?,
+        Description::Robot(robot) if robot.faults().is_empty() => touching(robot, &followed)?,
+        Description::Robot(_) => "  links that touch were not looked for: parts of the robot have faults\n".to_owned(),
         _ => String::new(),
     };
     console::print(&(summary(&chain, &followed) + &touches))

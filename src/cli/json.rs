@@ -29,7 +29,7 @@ pub struct Told<'a> {
 }
 
 impl Told<'_> {
-    /// Name, task, inputs, joints, solutions, ideal robot, checks with their weak spots, files, seconds.
+    /// Name, task, inputs, joints, solutions, ideal robot, notes, checks with their weak spots, files, seconds.
     pub fn json(&self) -> Value {
         let program = self.derivation.program();
         json!({
@@ -42,6 +42,7 @@ impl Told<'_> {
             "method": method(self.derivation),
             "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
             "given": self.choice.map(given),
+            "notes": self.source.notes,
             "checked": checked(self.checked),
             "folder": self.folder.display().to_string(),
             "files": self.files,

@@ -53,7 +53,7 @@ impl Mechanism {
         })
     }
 
-    /// The chain.
+    /// The chain; what of a robot is passed over is told on standard error.
     ///
     /// # Errors
     /// As [`InputFile::read`] and [`InputFile::chain`]; [`ErrorKind::UnknownName`] for what is neither a file nor a robot.
@@ -61,11 +61,13 @@ impl Mechanism {
         if let Some(chain) = self.known_robot()? {
             return self.ends.ask(chain);
         }
-        let input = InputFile::read(&self.input)?;
-        input.chain(&self.ends.ends()?)?.ok_or_else(|| {
+        let (input, ends) = (InputFile::read(&self.input)?, self.ends.ends()?);
+        let chain = input.chain(&ends)?.ok_or_else(|| {
             let text = "this is a system of equations, or coupled chains; screw theory needs a chain (of coupled chains, give the file of one)";
             Error::new(ErrorKind::BadValue, text).in_file(&input.path)
-        })
+        })?;
+        console::tell(&input.passed_over(&ends)?);
+        Ok(chain)
     }
 
     /// A robot of [`robots`], where no file has its name.

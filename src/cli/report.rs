@@ -49,6 +49,7 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
         Proved::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
     }
     meant(&mut page, told);
+    passed_over(&mut page, told);
     checks(&mut page, told.checked);
     written(&mut page, told);
     Ok(page.text)
@@ -86,6 +87,14 @@ fn meant(page: &mut Page, told: &Report<'_>) {
             ideal.task().freedoms(),
             fitting_task(ideal).map(|task| format!(" `{task}` asks for what they can do.")).unwrap_or_default()
         ));
+    }
+}
+
+/// What of the description was passed over.
+fn passed_over(page: &mut Page, told: &Report<'_>) {
+    if !told.source.notes.is_empty() {
+        page.heading("Notes");
+        told.source.notes.iter().for_each(|note| page.line(note));
     }
 }
 

@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use super::answers::{Angles, Answer, csv_header, csv_rows, json, text};
+use super::answers::{Angles, Answer, answer_columns, csv_header, csv_rows, json, text};
 use super::check::reprove;
 use super::files::is_derived;
 use super::forms::Forms;
@@ -26,7 +26,7 @@ const EXAMPLES: &str = "Examples:
 
 Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
 one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
-the order of its columns. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
+the order of its columns; other columns are those of the command's own answers. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV); of chains that share actuators, text and JSON of a --target say which chain fails, and how.";
 
 /// Finds all solutions for targets with a derived solver
@@ -134,7 +134,8 @@ fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
     let (solver, forms) = (program.solver(), Forms::new(program));
-    let mut rows = targets::Reader::of_forms(forms.names(), io::stdin().lock(), Path::new(targets::STDIN));
+    let rows = targets::Reader::of_forms(forms.names(), io::stdin().lock(), Path::new(targets::STDIN));
+    let mut rows = rows.passing_over(answer_columns(program));
     if !as_json {
         write(&csv_header(program))?;
     }

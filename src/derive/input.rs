@@ -6,7 +6,7 @@ use super::coupled::CoupledChains;
 use super::ends::{Ends, TASK_NAME};
 use super::planner::{Choice, joints_to_give};
 use super::{System, formulate};
-use crate::document::{Document, TEXT_LIMIT, read_text};
+use crate::document::{Document, TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
 use crate::kinematics::Chain;
 use crate::kinematics::ideal::Report;
 use crate::model::Robot;
@@ -51,17 +51,26 @@ impl InputFile {
     /// a `[[link]]`; one with `[[chain]]` holds coupled chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; as
-    /// [`Robot::from_urdf`], [`CoupledChains::from_toml`], [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file
-    /// and line.
+    /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; [`ErrorKind::Unsupported`] for archives,
+    /// JSON, YAML, tables and other files that are no description; as [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
-        let is_xml =
+        let at_file = |error: Error| error.in_file(&file);
+        let ends_in_xml =
             file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
-        let text = read_text(&file, if is_xml { URDF_LIMIT } else { TEXT_LIMIT })?;
-        let is_xml = is_xml || text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
-        let described = if is_xml { Robot::from_urdf(&text).map(Description::Robot) } else { from_toml(&text, &file) };
-        let description = described.map_err(|error| error.in_file(&file))?;
+        let bytes = read_bytes(&file, if ends_in_xml { URDF_LIMIT } else { TEXT_LIMIT })?;
+        refuse_binary(&bytes).map_err(at_file)?;
+        let is_xml = ends_in_xml || is_xml(&bytes);
+        let (text, notes) = if is_xml {
+            decode_xml(&bytes).map(|decoded| (decoded.text, decoded.notes))
+        } else {
+            text_of(bytes).map(|text| (text, Vec::new()))
+        }
+        .map_err(at_file)?;
+        let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
+        let described = if is_xml { robot() } else { from_toml(&text, &file) };
+        let description = described.map_err(|error| at_file(explained(error, &text)))?;
         let name = match description {
             Description::Chain(_) => INPUT_NAMES[0],
             Description::System(_) => INPUT_NAMES[1],
@@ -70,6 +79,17 @@ impl InputFile {
         };
         let ends = read_ends(&file)?;
         Ok(InputFile { path: file, name, text, description, ends })
+    }
+
+    /// What of a robot is [passed over](Robot::passed_over), for its chain between `ends`; nothing of other inputs.
+    ///
+    /// # Errors
+    /// As [`Robot::path`], with the file.
+    pub fn passed_over(&self, ends: &Ends) -> Result<Vec<String>> {
+        let Description::Robot(robot) = &self.description else { return Ok(Vec::new()) };
+        let ends = ends.or(&self.ends);
+        let path = robot.path(ends.base.as_deref(), ends.tip.as_deref()).map_err(|error| error.in_file(&self.path))?;
+        Ok(robot.passed_over(&path))
     }
 
     /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
@@ -145,6 +165,8 @@ pub struct Source {
     pub ends: Ends,
     /// The links where the chain starts and ends, when the source names them.
     pub links: Option<[String; 2]>,
+    /// What of the source was passed over.
+    pub notes: Vec<String>,
 }
 
 impl Source {
@@ -163,7 +185,7 @@ impl Source {
     /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
         let input = InputFile::read(path)?;
-        let chain = input.chain(ends)?;
+        let (chain, notes) = (input.chain(ends)?, input.passed_over(ends)?);
         let ends = ends.or(&input.ends);
         let InputFile { path, name, text, description, .. } = input;
         let links = match &description {
@@ -179,7 +201,7 @@ impl Source {
             (None, Description::Coupled(coupled)) => (None, Some(*coupled)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        let mut source = Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links };
+        let mut source = Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links, notes };
         chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
         Ok(source)
     }

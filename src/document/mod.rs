@@ -11,11 +11,10 @@
 //! # Ok::<(), groebot::Error>(())
 //! ```
 
+mod content;
+mod encoding;
 mod json;
-
-use std::fs::File;
-use std::io::Read;
-use std::path::Path;
+mod text;
 
 use num_traits::ToPrimitive;
 use toml::Spanned;
@@ -24,38 +23,14 @@ use toml::de::{DeInteger, DeTable, DeValue};
 use crate::number::{BigInt, BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
+pub(crate) use content::{explained, is_xml, refuse_binary};
+pub use encoding::{XmlText, as_utf8, decode_xml};
 pub(crate) use json::JsonFormat;
+pub(crate) use text::{read_bytes, text_of};
+pub use text::{read_text, read_xml, unix_lines};
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = 1_000_000;
-
-/// The text of `path`, which must be UTF-8, not empty and at most `limit` bytes long.
-///
-/// # Errors
-/// [`ErrorKind::Io`] for a missing file, a directory or a failed read; [`ErrorKind::BadValue`] for a file that is
-/// too long; [`ErrorKind::Syntax`] for an empty file or one that is not UTF-8 (with its line). All name the file.
-pub fn read_text(path: &Path, limit: u64) -> Result<String> {
-    let fail = |kind, message: String| Err(Error::new(kind, message).in_file(path));
-    let io = |error: std::io::Error| Error::io(path, &error);
-    let file = File::open(path).map_err(io)?;
-    if file.metadata().map_err(io)?.is_dir() {
-        return fail(ErrorKind::Io, "this is a directory; give a text file".into());
-    }
-    let mut bytes = Vec::new();
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
-    if bytes.len() as u64 > limit {
-        return fail(ErrorKind::BadValue, format!("the file is too long; at most {limit} bytes are read"));
-    }
-    match String::from_utf8(bytes) {
-        Ok(text) if text.trim().is_empty() => fail(ErrorKind::Syntax, "the file is empty; give a description".into()),
-        Ok(text) => Ok(text),
-        Err(error) => {
-            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
-            fail(ErrorKind::Syntax, "the text is not UTF-8; save the file as UTF-8".into()).map_err(|e| e.at_line(line))
-        }
-    }
-}
 
 /// A parsed TOML document, borrowing its text.
 #[derive(Clone, Debug)]

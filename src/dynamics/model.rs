@@ -38,8 +38,9 @@ impl Model {
     /// The mechanics of `robot`. Floating and planar joints stand still.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a frame or mass is beyond doubles.
+    /// As [`Robot::check`]; [`ErrorKind::BadValue`] when a frame or mass is beyond doubles.
     pub fn new(robot: &Robot) -> Result<Self> {
+        robot.check()?;
         let moving = robot.moving();
         let still = Screw::Prismatic(nalgebra::Vector3::x_axis());
         let joint = |place: &usize| ModelJoint { name: robot.joints()[*place].name.clone(), parent: 0, screw: still };

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Rotation2, UnitQuaternion, Vector2, Vector3};
 
+use crate::document::unix_lines;
 use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result};
 
@@ -204,6 +205,7 @@ impl Route {
     /// [`ErrorKind::Syntax`] for another header, a wrong number of fields, or what is no number; [`ErrorKind::BadValue`] for steps of one
     /// foot twice in turn, none or more than [`MAX_STEPS`], numbers that are not finite; with the line.
     pub fn from_csv(text: &str, half_width: f64) -> Result<Self> {
+        let text = unix_lines(text.trim_start_matches('\u{feff}'));
         let mut lines = text.lines().enumerate().filter(|(_, line)| {
             let line = line.trim();
             !line.is_empty() && !line.starts_with('#')

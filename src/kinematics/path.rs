@@ -7,7 +7,7 @@ use super::parts::{Meant, along_z};
 use super::telescope::{Telescope, joined};
 use super::{Chain, ChainParts, Joint, JointKind, LengthUnit, Mimic, Task, Tip};
 use crate::document::shown;
-use crate::model::{self, JointType, Robot, listing, some_among};
+use crate::model::{self, Fault, JointType, Part, Robot, listing, some_among};
 use crate::{Error, ErrorKind, Result};
 
 /// The longest path, fixed joints included.
@@ -71,13 +71,16 @@ impl Robot {
     /// moves with it. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
     ///
     /// # Errors
-    /// As [`Robot::path`]; [`ErrorKind::Unsupported`] for a floating or planar joint on the way; [`ErrorKind::BadValue`] when nothing moves on the
-    /// way, and as [`Chain::new`].
+    /// As [`Robot::path`]; that of a [fault](Robot::faults) of a joint or link on the way; [`ErrorKind::Unsupported`] for a floating or planar joint on the
+    /// way; [`ErrorKind::BadValue`] when nothing moves on the way, and as [`Chain::new`].
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
         self.chain_along(&self.path(base, tip)?)
     }
 
     fn chain_along(&self, path: &LinkPath) -> Result<Chain> {
+        if let Some(fault) = self.faults().iter().find(|fault| self.is_on(path, fault)) {
+            return Err(fault.error.clone());
+        }
         let (joints, tip) = self.walk(path, Reading::AsDescribed)?;
         let telescopes = Telescope::among(&joints);
         let joints = joined(joints, &telescopes);
@@ -108,8 +111,28 @@ impl Robot {
         })
     }
 
+    /// What is wrong with the robot beside the way, and what the reader passed over: nothing of it touches the chain along `path`.
+    pub fn passed_over(&self, path: &LinkPath) -> Vec<String> {
+        let beside = self.faults().iter().filter(|fault| !self.is_on(path, fault));
+        let beside = beside.map(|fault| format!("passed over, for it is not in the chain: {}", fault.error));
+        self.parts().notes.iter().cloned().chain(beside).collect()
+    }
+
+    /// Whether the part that has the fault is on the way.
+    fn is_on(&self, path: &LinkPath, fault: &Fault) -> bool {
+        let is_end = |joint: usize, name: &str| {
+            let (parent, child) = self.ends(joint);
+            [parent, child].iter().any(|link| self.links()[*link].name == name)
+        };
+        match &fault.part {
+            Part::Joint(name) => path.joints.iter().any(|(joint, _)| self.joints()[*joint].name == *name),
+            Part::Link(name) => *name == path.base || path.joints.iter().any(|(joint, _)| is_end(*joint, name)),
+            Part::Actuator(_) => false,
+        }
+    }
+
     /// What a user of the chain along `path` should know: numbers that were taken for others, joints that follow or lead, joints
-    /// that are passed upwards.
+    /// that are passed upwards, and what is [passed over](Robot::passed_over).
     pub fn notes(&self, path: &LinkPath) -> Vec<String> {
         let mut notes = Vec::new();
         let mimics = self.mimics(path);
@@ -134,6 +157,7 @@ impl Robot {
                 up.join(", ")
             ));
         }
+        notes.extend(self.passed_over(path));
         notes
     }
 

@@ -1,8 +1,8 @@
 //! What [`Robot::new`](super::Robot::new) demands of its parts.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::{Actuator, Joint, JointType, Link, RobotParts};
+use super::{Actuator, Fault, Joint, JointType, Link, Part, RobotParts};
 use crate::document::{did_you_mean, shown};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -32,19 +32,35 @@ pub(crate) fn is_plain(text: &str, limit: usize) -> bool {
     text.chars().count() <= limit && !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t')
 }
 
-/// Checks all but how the links hang together; the places of the parent and the child link of each joint.
-pub fn parts(parts: &RobotParts) -> Result<Vec<(usize, usize)>> {
+/// Checks all but how the links hang together; the places of the parent and the child link of each joint. What is wrong with a single joint or actuator is
+/// added to the faults: such a joint follows no other, such an actuator is left out.
+pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
     check_name(&parts.name, None, "robot")?;
     let links = index_links(&parts.links)?;
     let joints = index_joints(&parts.joints)?;
-    for joint in &parts.joints {
-        check_motion(joint)?;
-        check_mimic(joint, &parts.joints, &joints)?;
+    let ends = parts.joints.iter().map(|joint| ends_of(joint, &parts.links, &links)).collect::<Result<_>>()?;
+    let known: HashSet<&Part> = parts.faults.iter().map(|fault| &fault.part).collect();
+    let (mut faults, mut lost) = (Vec::new(), Vec::new());
+    for (place, joint) in parts.joints.iter().enumerate() {
+        let part = Part::Joint(joint.name.clone());
+        let motion = if known.contains(&part) { Ok(()) } else { check_motion(joint) };
+        let mimic = check_mimic(joint, &parts.joints, &joints);
+        lost.extend(mimic.is_err().then_some(place));
+        let found = [motion, mimic].into_iter().filter_map(Result::err);
+        faults.extend(found.map(|error| Fault { part: part.clone(), error }));
     }
-    for (place, actuator) in parts.actuators.iter().enumerate() {
-        check_actuator(actuator, &parts.actuators[..place], &parts.joints)?;
+    lost.into_iter().for_each(|place| parts.joints[place].mimic = None);
+    let mut actuators = Vec::new();
+    for actuator in std::mem::take(&mut parts.actuators) {
+        match check_actuator(&actuator, &actuators, &parts.joints) {
+            Ok(()) => actuators.push(actuator),
+            Err(error) => faults.push(Fault { part: Part::Actuator(actuator.name), error }),
+        }
     }
-    parts.joints.iter().map(|joint| ends_of(joint, &parts.links, &links)).collect()
+    parts.actuators = actuators;
+    parts.faults.extend(faults);
+    parts.faults.sort_by_key(|fault| fault.error.place().line);
+    Ok(ends)
 }
 
 /// The place of `name` among `names`.
@@ -119,29 +135,34 @@ fn check_motion(joint: &Joint) -> Result<()> {
     if joint.kind.has_axis() && joint.axis.iter().all(is_zero) {
         return bad("axis [0, 0, 0] has no direction; give a non-zero vector");
     }
+    let turns = matches!(joint.kind, JointType::Revolute | JointType::Continuous);
+    let remedy = if turns { ", or the type `continuous` for a joint that turns without limits" } else { "" };
     match joint.limits {
         None if joint.kind == JointType::Revolute => {
             bad("a revolute joint needs limits; give <limit lower upper>, or the type `continuous`")
         }
         None if joint.kind == JointType::Prismatic => bad("a prismatic joint needs limits; give <limit lower upper>"),
         Some((low, high)) if !(low.is_finite() && high.is_finite()) => {
-            bad("the limits are not finite; give finite ones")
+            bad(&format!("the limits {low}..{high} are not finite; give finite ones{remedy}"))
         }
         Some((low, high)) if low > high => {
-            bad(&format!("the limits {low}..{high} are inverted; give the lower limit first"))
+            bad(&format!("the limits {low}..{high} are inverted; give the lower limit first{remedy}"))
         }
         _ => Ok(()),
     }
 }
 
-/// The leader must exist, and following leaders must come to an end.
+/// The joint's leader must exist, and following leaders must come to an end, be it at one whose own leader does not exist.
 fn check_mimic(joint: &Joint, joints: &[Joint], index: &HashMap<&str, usize>) -> Result<()> {
     let (mut follower, mut steps) = (joint, 0);
     while let Some(mimic) = &follower.mimic {
         let Some(leader) = index.get(mimic.leader.as_str()) else {
+            if steps > 0 {
+                return Ok(());
+            }
             let names = some_among(&mimic.leader, joints.iter().map(|joint| joint.name.as_str()));
             let message = format!("it mimics `{}`, which is no joint{names}", shown(&mimic.leader));
-            return Err(follower.error(ErrorKind::UnknownName, &message));
+            return Err(joint.error(ErrorKind::UnknownName, &message));
         };
         (follower, steps) = (&joints[*leader], steps + 1);
         if steps > MAX_FOLLOWERS || follower.name == joint.name {

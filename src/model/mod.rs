@@ -7,6 +7,7 @@
 
 mod attributes;
 mod check;
+mod fault;
 mod joint;
 mod link;
 mod mesh;
@@ -19,6 +20,7 @@ mod unit;
 pub mod urdf;
 
 pub(crate) use check::{is_plain, listing, some_among};
+pub use fault::{Fault, Part};
 pub use joint::{Actuator, Joint, JointType, Mimic, Origin};
 pub use link::{Link, Mass, Shape, Solid};
 pub use mesh::{MESH_LIMIT, Meshes, Surface};

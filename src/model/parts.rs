@@ -1,6 +1,6 @@
 //! What a robot is made of. Main type: [`RobotParts`].
 
-use super::{Actuator, Joint, Link};
+use super::{Actuator, Fault, Joint, Link};
 
 /// The plain data of a [`Robot`](super::Robot), not yet checked.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,4 +15,8 @@ pub struct RobotParts {
     pub joints: Vec<Joint>,
     /// The actuators; a joint that none of them names has its own.
     pub actuators: Vec<Actuator>,
+    /// What is wrong with single parts.
+    pub faults: Vec<Fault>,
+    /// What the reader passed over that belongs to no part.
+    pub notes: Vec<String>,
 }

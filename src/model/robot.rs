@@ -3,7 +3,7 @@
 use num_traits::{One, Zero};
 
 use super::check;
-use super::{Actuator, Joint, JointType, Link, Mimic, RobotParts};
+use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::number::BigRational;
 use crate::spatial::Inertia;
@@ -26,12 +26,21 @@ impl Robot {
     /// Checks links and joints and makes them a tree.
     ///
     /// # Errors
-    /// [`ErrorKind::DuplicateName`] for two links, joints or actuators of one name; [`ErrorKind::UnknownName`] for a joint between links
-    /// that do not exist, that follows no joint, or that an actuator names and the robot does not have; [`ErrorKind::BadValue`] for no or
-    /// several roots, a loop, an axis of zero, missing, inverted or infinite limits, a joint that follows itself in the end, an empty name. All with
-    /// name and line.
+    /// As [`Robot::with_faults`] and [`Robot::check`].
     pub fn new(parts: RobotParts) -> Result<Self> {
-        let ends = check::parts(&parts)?;
+        let robot = Robot::with_faults(parts)?;
+        robot.check()?;
+        Ok(robot)
+    }
+
+    /// Makes links and joints a tree. What is wrong with a single joint or actuator is kept in [`Robot::faults`]: an axis of zero, missing, inverted or
+    /// infinite limits, a joint that follows none or itself in the end, an actuator of a joint that the robot does not have. A chain elsewhere is sound.
+    ///
+    /// # Errors
+    /// [`ErrorKind::DuplicateName`] for two links or joints of one name; [`ErrorKind::UnknownName`] for a joint between links that do not
+    /// exist; [`ErrorKind::BadValue`] for no or several roots, a loop, an empty name. All with name and line.
+    pub fn with_faults(mut parts: RobotParts) -> Result<Self> {
+        let ends = check::parts(&mut parts)?;
         let above = check::parents(&parts, &ends)?;
         let root = check::root(&parts.links, &above)?;
         let mut robot = Robot { parts, above, ends, root, order: Vec::new() };
@@ -50,7 +59,7 @@ impl Robot {
     /// The robot whose rotations are what their numbers mean: quarter turns where 1.5708 is told.
     ///
     /// # Errors
-    /// As [`Robot::new`].
+    /// As [`Robot::with_faults`].
     pub fn as_meant(&self) -> Result<Self> {
         let mut parts = self.parts.clone();
         for joint in &mut parts.joints {
@@ -59,7 +68,37 @@ impl Robot {
                 placement.rotation = meant;
             }
         }
-        Robot::new(parts)
+        Robot::with_faults(parts)
+    }
+
+    /// The same robot with more notes.
+    #[must_use]
+    pub fn with_notes(mut self, notes: Vec<String>) -> Self {
+        self.parts.notes.extend(notes);
+        self
+    }
+
+    /// The same robot, faults without a line at the line of their part.
+    pub(super) fn with_lines(mut self, line_of: impl Fn(&Part) -> Option<usize>) -> Self {
+        for fault in &mut self.parts.faults {
+            if let Some(line) = line_of(&fault.part) {
+                fault.error = fault.error.clone().at_line(line);
+            }
+        }
+        self
+    }
+
+    /// What is wrong with single parts, in the order of the file.
+    pub fn faults(&self) -> &[Fault] {
+        &self.parts.faults
+    }
+
+    /// Fails for a fault of any part: for who uses the whole robot.
+    ///
+    /// # Errors
+    /// That of the first of [`Robot::faults`].
+    pub fn check(&self) -> Result<()> {
+        self.faults().first().map_or(Ok(()), |fault| Err(fault.error.clone()))
     }
 
     /// The plain data of this robot.

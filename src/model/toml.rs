@@ -55,6 +55,7 @@ impl Robot {
             links,
             joints,
             actuators: tables("actuator")?.into_iter().map(read_actuator).collect::<Result<_>>()?,
+            ..RobotParts::default()
         })
     }
 }

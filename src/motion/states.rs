@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::document::{read_text, shown};
+use crate::document::{read_text, shown, unix_lines};
 use crate::{Error, ErrorKind, Result};
 
 /// The longest table, in bytes.
@@ -46,7 +46,7 @@ impl StateTable {
     /// # Errors
     /// [`ErrorKind::Syntax`] for other names than those of [`StateRow`], each list whole, another count of cells than names, and a cell that is no number. With the line.
     pub fn from_csv(text: &str) -> Result<Self> {
-        let text = text.trim_start_matches('\u{feff}');
+        let text = unix_lines(text.trim_start_matches('\u{feff}'));
         let full = |(_, line): &(usize, &str)| !line.trim().is_empty();
         let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line)).filter(full);
         let (first, head) = lines.next().unwrap_or((1, ""));

@@ -19,7 +19,7 @@ use std::path::Path;
 use nalgebra::{Point3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{Contact, Figure, JointTrack, Track, Trajectory};
-use crate::document::{read_text, shown};
+use crate::document::{read_text, shown, unix_lines};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
@@ -61,6 +61,7 @@ impl Trajectory {
     /// [`ErrorKind::Syntax`] for text that does not begin with `# groebot trajectory 1`, another version of the format, or a cell that is no
     /// number; [`ErrorKind::MissingKey`] for a column that others ask for; as [`Trajectory::check`]. With the line.
     pub fn from_csv(text: &str) -> Result<Self> {
+        let text = unix_lines(text);
         let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line));
         let first = lines.next().map_or("", |(_, line)| line);
         check_version(first)?;

@@ -5,15 +5,15 @@ use std::io::Cursor;
 use nalgebra::Point2;
 use png::{ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::map::{Cell, Map};
-use super::read::Meaning;
+use super::map::Map;
+use super::meaning::Meaning;
 use crate::{Error, ErrorKind, Result};
 
 /// The most bytes that an image takes in memory.
 const MEMORY: usize = 1 << 30;
 
 impl Map {
-    /// The map that a PNG image holds: the mean of red, green and blue counts, and what is transparent has not been seen.
+    /// The map that a PNG image holds: the mean of red, green and blue counts. What alpha means depends on the [mode](super::Mode).
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for what is no such image; [`ErrorKind::BadValue`] beyond a gigabyte; those of [`Map::of_cells`] and [`Map::placed`].
@@ -33,10 +33,9 @@ impl Map {
         };
         let cell = |pixel: &[u8]| {
             let (colour, alpha) = pixel.split_at(colours);
-            if has_alpha && alpha == [0] {
-                return Cell::Unknown;
-            }
-            meaning.cell(colour.iter().map(|value| u32::from(*value)).sum(), 255 * colours as u32)
+            let sum: u32 = colour.iter().map(|value| u32::from(*value)).sum();
+            let alpha = alpha.first().map(|alpha| f64::from(*alpha) / 255.0);
+            meaning.cell(f64::from(sum) / (255 * colours) as f64, alpha)
         };
         let line = |line: &[u8]| line.chunks_exact(colours + usize::from(has_alpha)).take(columns).map(cell).collect();
         // The first row of an image is the uppermost one.

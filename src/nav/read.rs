@@ -1,10 +1,11 @@
-//! Maps from files: ROS' `map_server` pairs of YAML and image, and rows of characters.
+//! Maps from files: pairs of YAML and image of ROS' `map_server`, images, and rows of characters.
 
 use std::path::Path;
 
 use nalgebra::Point2;
 
 use super::map::{Cell, Map};
+use super::meaning::{Meaning, Mode};
 use super::room::Room;
 use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::{Error, ErrorKind, Result};
@@ -13,82 +14,6 @@ use crate::{Error, ErrorKind, Result};
 const DESCRIPTION_LIMIT: u64 = 100_000;
 /// The longest image or text, in bytes.
 const IMAGE_LIMIT: u64 = 1 << 30;
-
-/// What an image's values mean, as `map_server` has it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Meaning {
-    /// The side of a pixel \[m\].
-    pub resolution: f64,
-    /// The lower left corner in the world: x, y \[m\] and yaw \[rad\].
-    pub origin: [f64; 3],
-    /// Whether white is occupied.
-    pub negate: bool,
-    /// From which share of black a pixel is occupied, and below which it is free.
-    pub thresholds: [f64; 2],
-}
-
-impl Meaning {
-    /// That of a side of a pixel \[m\], all else as `map_server` has it: black is occupied, white is free, and grey has not been seen.
-    pub fn new(resolution: f64) -> Self {
-        Meaning { resolution, origin: [0.0; 3], negate: false, thresholds: [0.65, 0.196] }
-    }
-
-    /// The image's name and what it means, of the flat YAML that `map_server` writes.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] with the line, [`ErrorKind::MissingKey`].
-    pub fn from_yaml(text: &str) -> Result<(String, Self)> {
-        let (mut image, mut meaning, mut resolution) = (None, Meaning::new(1.0), None);
-        for (place, line) in text.lines().enumerate() {
-            let line = line.split(" #").next().unwrap_or_default().trim();
-            let Some((key, value)) = line.split_once(':').filter(|_| !line.starts_with('#')) else { continue };
-            let value = value.trim().trim_matches(['"', '\'']);
-            let bad = |allowed: &str| {
-                let text = format!("`{}` is `{}`; give {allowed}", shown(key), shown(value));
-                Error::new(ErrorKind::BadValue, text).at_line(place + 1)
-            };
-            let number = || value.parse::<f64>().ok().filter(|number| number.is_finite());
-            let share = || number().filter(|share| (0.0..=1.0).contains(share));
-            match key.trim() {
-                "image" => image = Some(value.to_owned()),
-                "resolution" => {
-                    let positive = number().filter(|side| side.is_finite() && *side > 0.0);
-                    resolution = Some(positive.ok_or_else(|| bad("a positive number of metres"))?);
-                }
-                "occupied_thresh" => meaning.thresholds[0] = share().ok_or_else(|| bad("a share from 0 to 1"))?,
-                "free_thresh" => meaning.thresholds[1] = share().ok_or_else(|| bad("a share from 0 to 1"))?,
-                "negate" => {
-                    meaning.negate = match value {
-                        "0" | "false" => false,
-                        "1" | "true" => true,
-                        _ => return Err(bad("0 or 1")),
-                    }
-                }
-                "origin" => {
-                    let list = value.trim_start_matches('[').trim_end_matches(']').split(',');
-                    let numbers: Option<Vec<f64>> = list.map(|word| word.trim().parse().ok()).collect();
-                    let three = numbers.and_then(|numbers| numbers.try_into().ok());
-                    meaning.origin = three.ok_or_else(|| bad("[x, y, yaw]"))?;
-                }
-                "mode" if value == "raw" => return Err(bad("trinary or scale")),
-                _ => {}
-            }
-        }
-        let missing = |key: &str| Error::new(ErrorKind::MissingKey, format!("there is no `{key}`; it is required"));
-        meaning.resolution = resolution.ok_or_else(|| missing("resolution"))?;
-        Ok((image.ok_or_else(|| missing("image"))?, meaning))
-    }
-
-    pub(super) fn cell(&self, value: u32, most: u32) -> Cell {
-        let share = f64::from(value) / f64::from(most);
-        let black = if self.negate { share } else { 1.0 - share };
-        match black {
-            black if black > self.thresholds[0] => Cell::Occupied,
-            black if black < self.thresholds[1] => Cell::Free,
-            _ => Cell::Unknown,
-        }
-    }
-}
 
 impl Map {
     /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` or `.png` with pixels of this side \[m\], text (`.txt`, `.map`) with such cells, or a [`Room`] (`.toml`).
@@ -99,14 +24,15 @@ impl Map {
     pub fn read(path: &Path, resolution: f64) -> Result<Self> {
         let map = match ending(path).as_str() {
             "yaml" | "yml" => {
-                let (image, meaning) =
-                    Meaning::from_yaml(&read_text(path, DESCRIPTION_LIMIT)?).map_err(|e| e.in_file(path))?;
+                let text = read_text(path, DESCRIPTION_LIMIT)?;
+                let (image, meaning) = Meaning::from_yaml(&text).map_err(|error| error.in_file(path))?;
                 let image = path.parent().unwrap_or(Path::new("")).join(image);
                 return Map::from_image(&image, &meaning).map_err(|e| e.in_file(&image));
             }
             "txt" | "map" => Map::from_text(&read_text(path, IMAGE_LIMIT)?, resolution),
             "toml" => Room::from_toml(&read_text(path, TEXT_LIMIT)?).and_then(|room| room.map()),
-            _ => Map::from_image(path, &Meaning::new(resolution)),
+            // Nobody has said that alpha is a colour, as the mode `trinary` has it.
+            _ => Map::from_image(path, &Meaning { mode: Mode::Scale, ..Meaning::new(resolution) }),
         };
         map.map_err(|error| error.in_file(path))
     }
@@ -143,7 +69,7 @@ impl Map {
         if is_plain {
             for pixel in 0..count {
                 let value = words.number("value", most).map_err(|text| bad(format!("pixel {pixel}: {text}")))?;
-                cells.push(meaning.cell(value, most));
+                cells.push(meaning.cell(f64::from(value) / f64::from(most), None));
             }
         } else {
             let wide = if most > 255 { 2 } else { 1 };
@@ -158,7 +84,7 @@ impl Map {
                 if value > most {
                     return Err(bad(format!("pixel {pixel}: the value is {value}; give a number up to {most}")));
                 }
-                cells.push(meaning.cell(value, most));
+                cells.push(meaning.cell(f64::from(value) / f64::from(most), None));
             }
         }
         // The first row of an image is the uppermost one.

@@ -39,7 +39,7 @@ impl Page {
     /// A page of `robot` at rest, its joints moved by hand. Meshes are shown where their folders are given; what cannot be read of them is told in the page.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
+    /// As [`Robot::check`]; [`ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>) -> Result<Self> {
         Ok(Page::of(described(robot, meshes)?))
     }

@@ -15,8 +15,9 @@ const APART: f64 = 1e-6;
 /// The robot with what is to be seen of it: of each link what it looks like, else what it collides with.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a robot of which nothing is to be seen.
+/// As [`model::Robot::check`]; [`ErrorKind::BadValue`] for a robot of which nothing is to be seen.
 pub fn described(robot: &model::Robot, meshes: Option<&Meshes>) -> Result<Robot> {
+    robot.check()?;
     let mut notes = Vec::new();
     let links: Vec<Link> = robot.links().iter().map(|own| link(own, meshes, &mut notes)).collect();
     let hidden = links.iter().filter(|link| link.hidden).count();

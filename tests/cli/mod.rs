@@ -10,6 +10,7 @@ mod derive;
 mod dynamics;
 mod explain;
 mod export;
+mod faults;
 mod fk;
 mod follow;
 mod ik;

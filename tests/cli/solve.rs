@@ -135,6 +135,24 @@ fn a_row_of_names_orders_the_columns() {
 }
 
 #[test]
+fn lines_end_as_any_program_ends_them() {
+    let plain = stream("px,pz\n60,150\n\n0,0\n", &[]);
+    for text in [
+        "px,pz\r\n60,150\r\n\r\n0,0\r\n",
+        "px,pz\r60,150\r\r0,0\r",
+        "px,pz\r60,150\r\r0,0",
+        "\u{feff}px,pz\n60,150\r0,0\n",
+    ] {
+        let ran = stream(text, &[]);
+        assert_eq!((ran.code, &ran.out), (0, &plain.out), "{text:?}: {}", ran.err);
+    }
+    let ran = stream("px,pz\r60,150\r\r\n60,x\r", &[]);
+    assert!(ran.code == 1 && ran.err.starts_with("error: <stdin>: line 4: cell 2"), "{}", ran.err);
+    let ran = stream(&"1".repeat(2_000_000), &[]);
+    assert!(ran.code == 1 && ran.err.contains("line 1: the line is too long; at most 1000000 bytes"), "{}", ran.err);
+}
+
+#[test]
 fn json_of_many_targets_is_one_object_a_line() {
     let ran = stream("60,150\n0,0\n", &["--json"]);
     let answers: Vec<Value> = ran.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -150,6 +168,12 @@ fn a_bad_row_names_its_line() {
         ("60,150\n\n60\n", "<stdin>: line 3: 1 numbers given"),
         ("60,150\n1,NaN\n", "<stdin>: line 2: `pz` is NaN"),
         ("a,b\n1,2\n", "<stdin>: line 1: the first row"),
+        (
+            "px,pz,weight\n60,150,1\n",
+            "<stdin>: line 1: column 3 of the first row, `weight`, is unknown; px, pz are allowed",
+        ),
+        ("px,px,pz\n60,60,150\n", "<stdin>: line 1: column 2 of the first row, `px`, stands twice"),
+        ("px,pz\n60,150,1\n", "<stdin>: line 2: 3 cells stand in the row; the first one has 2 names"),
         ("1,x\n", "<stdin>: line 1: cell 2"),
     ];
     for (input, words) in cases {

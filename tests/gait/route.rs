@@ -72,6 +72,9 @@ fn footprints_compose() {
 fn footsteps_are_read_from_csv() {
     let text = "# a curve\nfoot, x, y, yaw\n\nright,0.03,-0.05,0\nleft,0.05,0.05,0.05\nright, 0.06,-0.048,0.05\n";
     let route = Route::from_csv(text, 0.05).unwrap();
+    for ends in ["\r\n", "\r"] {
+        assert_eq!(Route::from_csv(&text.replace('\n', ends), 0.05), Ok(route.clone()), "{ends:?}");
+    }
     assert_eq!((route.steps.len(), route.steps[0].side), (3, Side::Right));
     assert_eq!(route.steps[1].print, Footprint { x: 0.05, y: 0.05, yaw: 0.05 });
     assert_eq!(route.start[1], Footprint { y: -0.05, ..Default::default() });

@@ -1,5 +1,7 @@
 //! Robots: read from URDF and TOML, written, and cut into chains.
 
+mod encoding;
+mod faults;
 mod mesh;
 mod mjcf;
 mod robot;

@@ -167,7 +167,7 @@ fn what_is_wrong_with_a_mass_is_refused_and_with_a_shape_told() {
             if to.contains("inertal") { "</inertal>" } else { "</inertial>" },
             1,
         );
-        let error = Robot::from_urdf(&text).unwrap_err();
+        let error = Robot::from_urdf(&text).unwrap().check().unwrap_err();
         assert!(error.message().contains(words), "{error}");
         assert!(error.place().line.is_some(), "{error}");
     }

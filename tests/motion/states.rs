@@ -4,6 +4,18 @@ use groebot::ErrorKind;
 use groebot::motion::StateTable;
 
 #[test]
+fn lines_end_as_any_program_ends_them() {
+    let text = "q0,v0\n1,2\n\n3,4\n";
+    let table = StateTable::from_csv(text).unwrap();
+    assert_eq!(table.rows.len(), 2);
+    for ends in ["\r\n", "\r"] {
+        assert_eq!(StateTable::from_csv(&text.replace('\n', ends)), Ok(table.clone()));
+    }
+    let error = StateTable::from_csv("q0\r1\rx\r").unwrap_err();
+    assert_eq!(error.place().line, Some(3), "{error}");
+}
+
+#[test]
 fn columns_stand_in_any_order() {
     let table = StateTable::from_csv("\u{feff}v1, q0 ,q1,v0,t\n\n 4,1,2,3,0.5\n-4e-1,1,2,inf,1\n").unwrap();
     assert_eq!((table.coordinates, table.rows.len()), (2, 2));

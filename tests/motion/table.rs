@@ -14,6 +14,9 @@ fn a_table_is_read_back() {
     assert!(text.starts_with(&format!("# groebot trajectory 1\n# robot: r\n{header},")), "{text}");
     let read = Trajectory::from_csv(&text).unwrap();
     assert_eq!(read.to_csv(), text);
+    for ends in ["\r\n", "\r"] {
+        assert_eq!(Trajectory::from_csv(&text.replace('\n', ends)), Ok(read.clone()), "{ends:?}");
+    }
     assert_eq!((&read.robot, &read.times, &read.q), (&path.robot, &path.times, &path.q));
     assert_eq!(
         (&read.figures, &read.points, &read.contacts[0].stands),

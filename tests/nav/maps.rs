@@ -1,7 +1,7 @@
 //! Maps as they are read, and what stands on them.
 
 use groebot::ErrorKind;
-use groebot::nav::{Cell, Map, Meaning, Shape};
+use groebot::nav::{Cell, Map, Meaning, Mode, Shape};
 use nalgebra::Point2;
 
 use super::random_map;
@@ -53,13 +53,144 @@ fn a_description_tells_where_its_image_stands() {
         ("room.pgm", "room.yaml", ErrorKind::Unsupported, "an image of a map is a .pgm or .png"),
         ("[-1.0, 2.0, 0.5]", "[1, 2]", ErrorKind::BadValue, "[x, y, yaw]"),
         ("negate: 1", "negate: 2", ErrorKind::BadValue, "0 or 1"),
-        ("negate: 1", "mode: raw", ErrorKind::BadValue, "trinary"),
+        ("negate: 1", "mode: tri", ErrorKind::BadValue, "line 4: `mode` is `tri`; give one of trinary, scale, raw"),
         ("room.pgm", "hall.pgm", ErrorKind::Io, "hall.pgm"),
     ] {
         std::fs::write(&yaml, told.replacen(from, to, 1)).unwrap();
         let error = Map::read(&yaml, 1.0).unwrap_err();
         assert!(error.kind() == kind && error.to_string().contains(words), "{error}");
     }
+}
+
+const YAML: &str = "image: a.pgm\nresolution: 0.05\norigin: [-1.5, 2.0, 0.25]\nnegate: 1\noccupied_thresh: 0.7\nfree_thresh: 0.2\nmode: scale\n";
+
+/// What PyYAML's `safe_dump` and `map_saver` write, and what people write by hand: all of it says the same.
+#[test]
+fn yaml_is_read_as_any_program_writes_it() {
+    let expected = (
+        "a.pgm".to_owned(),
+        Meaning {
+            resolution: 0.05,
+            origin: [-1.5, 2.0, 0.25],
+            negate: true,
+            thresholds: [0.7, 0.2],
+            mode: Mode::Scale,
+        },
+    );
+    let flow = "[-1.5, 2.0, 0.25]";
+    for text in [
+        YAML.to_owned(),
+        format!("\u{feff}{YAML}"),
+        YAML.replace('\n', "\r\n"),
+        YAML.replace('\n', "\r"),
+        format!("%YAML 1.2\n---\n# a map\n{YAML}...\n"),
+        YAML.replace(flow, "\n- -1.5\n- 2.0\n- 0.25"),
+        YAML.replace(flow, "\n  - -1.5\n  - 2.0 # metres\n  - 0.25\n"),
+        YAML.replace(flow, "[-1.5,\n         2.0, # y\n\n    0.25]"),
+        YAML.replace(flow, "&here [-15e-1, +2, .25]\nsame: *here"),
+        YAML.replace("0.05", "!!float \"0.050000\"").replace("negate: 1", "'negate': True"),
+        format!("{{{}}}", YAML.trim_end().replace('\n', ", ")),
+        format!("{YAML}nested: {{a: [1, {{b: c}}]}}\nblock: |\n  mode: raw\n  negate: 0\n"),
+    ] {
+        assert_eq!(Meaning::from_yaml(&text), Ok(expected.clone()), "{text}");
+    }
+    let rest = "image: 'my map: #1.pgm' # no remark in it\nresolution: 1\n";
+    assert_eq!(Meaning::from_yaml(rest), Ok(("my map: #1.pgm".to_owned(), Meaning::new(1.0))));
+}
+
+#[test]
+fn yaml_that_is_none_has_a_line() {
+    for (from, to, kind, line, words) in [
+        ("image: a.pgm", "image: [a.pgm", ErrorKind::Syntax, None, "this is no YAML"),
+        ("negate: 1", "negate: \"1", ErrorKind::Syntax, None, "this is no YAML"),
+        ("negate: 1", "mode: raw", ErrorKind::DuplicateName, Some(7), "the key `mode` stands twice"),
+        ("negate: 1", "negate: [1]", ErrorKind::BadValue, Some(4), "`negate` is `[1]`; give 0 or 1"),
+        ("mode: scale", "mode: Scale", ErrorKind::BadValue, Some(7), "give one of trinary, scale, raw"),
+        ("mode: scale", "mode:", ErrorKind::BadValue, Some(7), "give one of trinary, scale, raw"),
+        ("image: a.pgm", "image: {a: b}", ErrorKind::BadValue, Some(1), "give the name of a file"),
+        ("-1.5, 2.0, 0.25", "-1.5, 2.0, .inf", ErrorKind::BadValue, Some(3), "[x, y, yaw]"),
+        ("-1.5, 2.0, 0.25", "[-1.5], 2.0, 0.25", ErrorKind::BadValue, Some(3), "[x, y, yaw]"),
+        ("0.7", ".nan", ErrorKind::BadValue, Some(5), "a share from 0 to 1"),
+    ] {
+        let error = Meaning::from_yaml(&YAML.replacen(from, to, 1)).unwrap_err();
+        assert!(error.kind() == kind && error.message().contains(words), "{to}: {error}");
+        assert!(
+            line.is_none_or(|line| error.place().line == Some(line)) && error.place().line.is_some(),
+            "{to}: {error}"
+        );
+    }
+    for text in ["- image: a.pgm\n", "a map\n", "[1, 2]"] {
+        let error = Meaning::from_yaml(text).unwrap_err();
+        assert!(error.kind() == ErrorKind::Syntax && error.message().contains("this is no mapping"), "{error}");
+    }
+    assert_eq!(Meaning::from_yaml("# nothing\n").unwrap_err().kind(), ErrorKind::MissingKey);
+}
+
+/// A hundred thousand bytes, the most that a description has, made to grow, to nest or to look far ahead.
+#[test]
+fn no_yaml_takes_long() {
+    let most = 100_000;
+    let growing: String =
+        (1..9).map(|n| format!("a{n}: &a{n} [{}]\n", vec![format!("*a{}", n - 1); 9].join(", "))).collect();
+    let list = format!("x: &x [{}]\n", "1, ".repeat(most / 6));
+    let again: String = (0..most / 20).map(|n| format!("k{n}: *x\n")).collect();
+    let keys: String = (0..most / 9).map(|n| format!("k{n}: 1\n")).collect();
+    for text in [
+        format!("a0: &a0 [lol]\n{growing}"),
+        list + &again,
+        keys,
+        "[".repeat(most),
+        "{a: ".repeat(most / 4),
+        format!("a: {}", "[".repeat(most)),
+        "- ".repeat(most / 2),
+        "? ".repeat(most / 2),
+        format!("a: {}", "&a ".repeat(most / 3)),
+        format!("a: \"{}", "\\n".repeat(most / 2)),
+        "a".repeat(most),
+        "#".repeat(most),
+        "\n".repeat(most),
+        "a: b: c: ".repeat(most / 9),
+        "%".repeat(most),
+        "!".repeat(most),
+        "a: |\n".to_owned() + &" \n".repeat(most / 2),
+        format!("a: [{}", "a, ".repeat(most / 3)),
+        format!("a: {}", "'' ".repeat(most / 3)),
+    ] {
+        let start = std::time::Instant::now();
+        assert!(Meaning::from_yaml(&text).is_err());
+        assert!(start.elapsed().as_secs_f64() < 5.0, "{}: {:?}", &text[..text.len().min(20)], start.elapsed());
+    }
+}
+
+/// What `map_server` gives for each value of a byte, by the formulas in its documentation (`nav2_map_server`, `map_io.cpp`).
+#[test]
+fn modes_are_those_of_map_server() {
+    let image: Vec<u8> = b"P5 256 1 255\n".iter().copied().chain(0..=255).collect();
+    let cells = |meaning: &Meaning| Map::from_pgm(&image, meaning).unwrap().cells().to_vec();
+    for negate in [false, true] {
+        for mode in Mode::ALL {
+            let meaning = Meaning { mode, negate, thresholds: [0.65, 0.25], ..Meaning::new(0.1) };
+            for (value, cell) in cells(&meaning).into_iter().enumerate() {
+                let shade = value as f64 / 255.0;
+                let percent = match mode {
+                    Mode::Raw if value > 100 => None,
+                    Mode::Raw => Some(value as f64 / 100.0),
+                    _ => Some(if negate { shade } else { 1.0 - shade }),
+                };
+                let expected = match percent {
+                    Some(share) if share > 0.65 => Cell::Occupied,
+                    Some(share) if share < 0.25 => Cell::Free,
+                    _ => Cell::Unknown,
+                };
+                assert_eq!(cell, expected, "{mode:?} {negate} {value}");
+            }
+        }
+    }
+    // What `map_saver` writes in the mode raw: 0 free, 100 occupied, 255 unknown.
+    let saved = Map::from_pgm(b"P2 3 1 255 0 100 255", &Meaning { mode: Mode::Raw, ..Meaning::new(0.1) }).unwrap();
+    assert_eq!(saved.cells(), [Cell::Free, Cell::Occupied, Cell::Unknown]);
+    let bits = Map::from_pgm(b"P2 3 1 65535 0 25700 65535", &Meaning { mode: Mode::Raw, ..Meaning::new(0.1) }).unwrap();
+    assert_eq!(bits.cells(), saved.cells(), "two bytes a pixel are scaled to one");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Rooms with furniture, images, and obstacles grown by an outline.
 
 use groebot::ErrorKind;
-use groebot::nav::{Cell, Map, Meaning, Room, Shape};
+use groebot::nav::{Cell, Map, Meaning, Mode, Room, Shape};
 use nalgebra::{Point2, Vector2};
 
 use super::random_map;
@@ -108,11 +108,21 @@ fn images_of_other_colours_are_the_same_map() {
     let threefold = |row: &[u8]| row.iter().flat_map(|value| [*value; 3]).collect::<Vec<u8>>();
     let colours = png(3, 2, &[&threefold(&[254, 254, 0]), &threefold(&[254, 0, 205])]);
     assert_eq!(Map::from_png(&colours, &meaning).unwrap().cells(), lower_first);
-    // What is transparent has not been seen, whatever its colour.
+    // What is transparent has not been seen, whatever its colour, in the mode `scale` and where nobody tells a mode.
     let through = png(3, 4, &[&[254, 255, 254, 255, 0, 255], &[254, 255, 0, 255, 0, 0]]);
-    assert_eq!(Map::from_png(&through, &meaning).unwrap().cells(), lower_first);
+    let scale = Meaning { mode: Mode::Scale, ..meaning.clone() };
+    assert_eq!(Map::from_png(&through, &scale).unwrap().cells(), lower_first);
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("room.png"), &grey).unwrap();
+    let file = folder.path().join("room.png");
+    std::fs::write(&file, &through).unwrap();
+    assert_eq!(Map::read(&file, 0.1).unwrap().cells(), lower_first);
+    std::fs::write(&file, &grey).unwrap();
+    // In the mode `trinary` alpha is a fourth colour: opaque 205 is (3 * 205 + 255) / (4 * 255) white, 0.147 black; opaque black is 0.75 black.
+    let opaque = png(4, 4, &[&[205, 255, 0, 255, 0, 0, 255, 0]]);
+    let trinary = [Cell::Free, Cell::Occupied, Cell::Occupied, Cell::Unknown];
+    assert_eq!(Map::from_png(&opaque, &meaning).unwrap().cells(), trinary);
+    let [red, green] = [&[205, 205, 205, 255, 0, 0, 0, 255][..], &[0, 0, 0, 0, 255, 255, 255, 0]];
+    assert_eq!(Map::from_png(&png(4, 6, &[&[red, green].concat()]), &meaning).unwrap().cells(), trinary);
     std::fs::write(folder.path().join("room.yaml"), "image: room.png\nresolution: 0.1\norigin: [0, 0, 0]\n").unwrap();
     assert_eq!(Map::read(&folder.path().join("room.yaml"), 1.0).unwrap().cells(), lower_first);
     for bad in [&grey[..40], b"\x89PNG", b""] {

@@ -16,7 +16,8 @@ const LISTED: usize = 8;
 /// A robot, what it weighs, and where its centre of mass is.
 pub struct Body<'r> {
     robot: &'r Robot,
-    model: Model,
+    /// The mass; none of a robot with faults.
+    mass: Option<f64>,
     /// The centre of mass in the frame of the root; none without a mass.
     centre: Option<Point3<f64>>,
 }
@@ -25,16 +26,19 @@ impl<'r> Body<'r> {
     /// `robot` at the joint values `q`, all zero where there are none.
     ///
     /// # Errors
-    /// As [`Model::new`] and [`Model::place`].
+    /// As [`Model::new`] and [`Model::place`]; faults of the robot only where there are joint values.
     pub fn new(robot: &'r Robot, q: &[f64]) -> Result<Self> {
+        if q.is_empty() && !robot.faults().is_empty() {
+            return Ok(Body { robot, mass: None, centre: None });
+        }
         let model = Model::new(robot)?;
         let zero = vec![0.0; model.joints().len()];
         let placed = model.place(&Pose::identity(), if q.is_empty() { &zero } else { q })?;
         let centre = (model.mass() > 0.0).then(|| placed.centre_of_mass());
-        Ok(Body { robot, centre, model })
+        Ok(Body { robot, mass: Some(model.mass()), centre })
     }
 
-    /// The robot as JSON: `format` (1), names, joints that move in the order of `--q`, mass, centre of mass, what is doubtful.
+    /// The robot as JSON: `format` (1), names, joints that move in the order of `--q`, mass, centre of mass, what is doubtful, what is wrong with single parts.
     pub fn json(&self) -> Value {
         let robot = self.robot;
         let moving = robot.moving().into_iter().map(|place| {
@@ -51,9 +55,11 @@ impl<'r> Body<'r> {
             "root": robot.root(),
             "links": robot.links().iter().map(|link| &link.name).collect::<Vec<_>>(),
             "joints": moving.collect::<Vec<_>>(),
-            "mass": self.model.mass(),
+            "mass": self.mass,
             "centre_of_mass": self.centre.map(|centre| [centre.x, centre.y, centre.z]),
             "doubts": robot.doubts(),
+            "faults": robot.faults().iter().map(|fault| fault.error.to_string()).collect::<Vec<_>>(),
+            "notes": robot.parts().notes,
         })
     }
 
@@ -73,6 +79,12 @@ impl<'r> Body<'r> {
         page += &format!("\n{}\n{}", paint.bold("ends of limbs"), wrapped(&robot.tips()));
         page += &format!("\n{}\n{}", paint.bold("leaves"), wrapped(&robot.leaves()));
         page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
+        page += &listed(
+            paint,
+            "faults: chains that do not pass here are sound",
+            robot.faults().iter().map(|fault| &fault.error),
+        );
+        page += &listed(paint, "notes", robot.parts().notes.iter());
         if let Some(tip) = robot.tips().first() {
             page +=
                 &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", robot.root());
@@ -81,16 +93,13 @@ impl<'r> Body<'r> {
     }
 
     fn weight(&self) -> String {
-        let Some(centre) = self.centre else { return "  not told\n".to_owned() };
+        let (Some(mass), Some(centre)) = (self.mass, self.centre) else { return "  not told\n".to_owned() };
         let shapes = |count: fn(&crate::model::Link) -> usize| self.robot.links().iter().map(count).sum::<usize>();
         let (seen, hard) = (shapes(|link| link.visuals.len()), shapes(|link| link.collisions.len()));
         let at = centre.coords.map(|x| format!("{x:.4}"));
         let mut text = format!(
             "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} shapes are seen, {hard} collide\n",
-            self.model.mass(),
-            at.x,
-            at.y,
-            at.z
+            mass, at.x, at.y, at.z
         );
         let doubts = self.robot.doubts();
         text += &doubts.iter().take(LISTED).map(|doubt| format!("  {doubt}\n")).collect::<String>();
@@ -99,6 +108,12 @@ impl<'r> Body<'r> {
         }
         text
     }
+}
+
+/// A heading and lines below it; nothing without lines.
+fn listed(paint: Paint, title: &str, lines: impl Iterator<Item = impl std::fmt::Display>) -> String {
+    let lines: String = lines.map(|line| format!("  {line}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\n{}\n{lines}", paint.bold(title)) }
 }
 
 /// Names with commas, in lines of about a hundred characters.

@@ -12,8 +12,9 @@ use crate::{Error, ErrorKind, Result};
 /// a body without moving on its own, or by joints beside the path, which stand at zero, counts with it.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] where the tip is not below the base, or joints of the path are one joint of the chain.
+/// As [`Robot::check`]; [`ErrorKind::Unsupported`] where the tip is not below the base, or joints of the path are one joint of the chain.
 pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigRational; 10]>> {
+    robot.check()?;
     let refused = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
     if path.joints.iter().any(|(_, upwards)| *upwards) {
         return refused("the tip is not below the base; choose links so that it is");

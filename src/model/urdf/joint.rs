@@ -15,21 +15,35 @@ use crate::{Error, ErrorKind, Result};
 const PARTS: [&str; 9] =
     ["parent", "child", "origin", "axis", "limit", "calibration", "dynamics", "mimic", "safety_controller"];
 
-/// The joint that a `<joint>` describes.
-pub fn read_joint(element: &Element, is_recent: bool) -> Result<Joint> {
+/// The joint that a `<joint>` describes, and what is wrong with it: then only its type and links are right.
+///
+/// # Errors
+/// [`ErrorKind::MissingKey`] without a name or a link, which the robot's tree rests on.
+pub fn read_joint(element: &Element, is_recent: bool) -> Result<(Joint, Option<Error>)> {
     let name = element.required("name")?;
-    read_named_joint(element, name, is_recent)
-        .map_err(|error| error.with_context(format_args!("joint `{}`", shown(name))).at_line(element.line))
+    let named = |error: Error| error.with_context(format_args!("joint `{}`", shown(name))).at_line(element.line);
+    let slip = |error: Error| refuse_slips(element, &PARTS).err().unwrap_or(error);
+    let bare = read_bare_joint(element, name).map_err(|error| named(slip(error)))?;
+    Ok(match read_whole_joint(element, bare.clone(), is_recent) {
+        Ok(joint) => (joint, None),
+        Err(error) => (bare, Some(named(error))),
+    })
 }
 
-fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Joint> {
-    refuse_slips(element, &PARTS)?;
-    let kind = read_kind(element)?;
-    let link = |part: &str| -> Result<String> {
+/// The joint's name, type and links; a type that URDF does not know is `fixed`.
+fn read_bare_joint(element: &Element, name: &str) -> Result<Joint> {
+    let link = |part: &str| -> Result<&str> {
         let missing =
             || element.error(ErrorKind::MissingKey, &format!("has no <{part} link=\"...\"/>; it is required"));
-        Ok(element.child(part)?.ok_or_else(missing)?.required("link")?.to_owned())
+        element.child(part)?.ok_or_else(missing)?.required("link")
     };
+    let kind = read_kind(element).unwrap_or(JointType::Fixed);
+    Ok(Joint { line: Some(element.line), ..Joint::new(name, kind, link("parent")?, link("child")?) })
+}
+
+fn read_whole_joint(element: &Element, bare: Joint, is_recent: bool) -> Result<Joint> {
+    refuse_slips(element, &PARTS)?;
+    let kind = read_kind(element)?;
     let (origin, mut notes) =
         element.child("origin")?.map_or_else(|| Ok((Origin::identity(), Vec::new())), read_origin)?;
     let axis = read_axis(element.child("axis")?)?;
@@ -55,8 +69,7 @@ fn read_named_joint(element: &Element, name: &str, is_recent: bool) -> Result<Jo
         armature: dynamics("armature")? + reflected_rotor(element)?,
         mimic: element.child("mimic")?.map(read_mimic).transpose()?,
         notes,
-        line: Some(element.line),
-        ..Joint::new(name, kind, &link("parent")?, &link("child")?)
+        ..bare
     })
 }
 
@@ -138,11 +151,7 @@ fn read_limits(joint: &Element, kind: JointType, is_recent: bool) -> Result<Opti
         return Ok(None);
     }
     let Some(element) = joint.child("limit")? else { return Ok(None) };
-    let read = |name: &str| -> Result<Option<f64>> {
-        let value = element.number(name)?;
-        Ok(value.map(|value| value.to_f64().unwrap_or(f64::INFINITY)))
-    };
-    match (read("lower")?, read("upper")?) {
+    match (read_limit(element, "lower")?, read_limit(element, "upper")?) {
         (None, None) if is_recent => Err(Error::new(
             ErrorKind::BadValue,
             "<limit> has no `lower` and no `upper`; give both, or the type `continuous`",
@@ -152,6 +161,15 @@ fn read_limits(joint: &Element, kind: JointType, is_recent: bool) -> Result<Opti
         }
         (lower, upper) => Ok(Some((lower.unwrap_or(0.0), upper.unwrap_or(0.0)))),
     }
+}
+
+/// A limit; also an infinite one, which the robot's checks refuse.
+fn read_limit(element: &Element, name: &str) -> Result<Option<f64>> {
+    let told = element.attribute(name).and_then(|text| text.trim().parse().ok());
+    if let Some(infinite) = told.filter(|value: &f64| value.is_infinite()) {
+        return Ok(Some(infinite));
+    }
+    Ok(element.number(name)?.map(|value| value.to_f64().unwrap_or(f64::INFINITY)))
 }
 
 fn read_mimic(element: &Element) -> Result<Mimic> {

@@ -8,35 +8,43 @@ use super::xml::Element;
 use crate::document::shown;
 use crate::model::{Link, Mass, Origin, Shape, Solid};
 use crate::spatial::rotation;
-use crate::{ErrorKind, Result};
+use crate::{Error, ErrorKind, Result};
 
 /// The elements of a link.
 const PARTS: [&str; 3] = ["inertial", "visual", "collision"];
 /// The names of the moments, in the order of [`Mass::moments`].
 const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
-/// The link that a `<link>` describes; `colours` are those of the robot's materials. A shape that is no shape is left out, with a note.
-pub fn read_link(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result<Link> {
+/// The link that a `<link>` describes, and what is wrong with it; `colours` are those of the robot's materials. A shape that is no shape is left out, with
+/// a note.
+///
+/// # Errors
+/// [`ErrorKind::MissingKey`] without a name.
+pub fn read_link(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result<(Link, Option<Error>)> {
     let name = element.required("name")?;
-    let read = || -> Result<Link> {
-        refuse_slips(element, &PARTS)?;
-        let mut link = Link { line: Some(element.line), ..Link::new(name) };
-        link.mass = element.child("inertial")?.map(read_mass).transpose()?;
-        for child in &element.children {
-            let shapes = match child.name.as_str() {
-                "visual" => &mut link.visuals,
-                "collision" => &mut link.collisions,
-                _ => continue,
-            };
-            match read_shape(child, colours) {
-                Ok(shape) => shapes.extend(shape),
-                // A description that is off in what it looks like is a robot all the same.
-                Err(error) => link.notes.push(format!("left out: {error}")),
-            }
+    let mut link = Link { line: Some(element.line), ..Link::new(name) };
+    for child in &element.children {
+        let shapes = match child.name.as_str() {
+            "visual" => &mut link.visuals,
+            "collision" => &mut link.collisions,
+            _ => continue,
+        };
+        match read_shape(child, colours) {
+            Ok(shape) => shapes.extend(shape),
+            // A description that is off in what it looks like is a robot all the same.
+            Err(error) => link.notes.push(format!("left out: {error}")),
         }
-        Ok(link)
+    }
+    let mass = || refuse_slips(element, &PARTS).and_then(|()| element.child("inertial")?.map(read_mass).transpose());
+    let named = |error: Error| error.with_context(format_args!("link `{}`", shown(name))).at_line(element.line);
+    let fault = match mass() {
+        Ok(mass) => {
+            link.mass = mass;
+            None
+        }
+        Err(error) => Some(named(error)),
     };
-    read().map_err(|error| error.with_context(format_args!("link `{}`", shown(name))).at_line(element.line))
+    Ok((link, fault))
 }
 
 fn read_mass(element: &Element) -> Result<Mass> {
@@ -79,7 +87,7 @@ fn read_shape(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result<Op
 fn read_solid(element: &Element) -> Result<Option<Solid>> {
     let number = |name: &str| {
         element.required(name)?;
-        Ok::<f64, crate::Error>(element.float(name)?.unwrap_or_default())
+        Ok::<f64, Error>(element.float(name)?.unwrap_or_default())
     };
     Ok(Some(match element.name.as_str() {
         "box" => {

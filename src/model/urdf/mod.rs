@@ -5,13 +5,14 @@
 mod joint;
 mod link;
 mod write;
+mod xacro;
 mod xml;
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::{Actuator, Robot, RobotParts};
-use crate::document::{did_you_mean, read_text};
+use super::{Actuator, Fault, Part, Robot, RobotParts};
+use crate::document::{did_you_mean, explained, read_xml};
 use crate::{ErrorKind, Result};
 use joint::read_joint;
 use link::{colour_of, read_link};
@@ -24,38 +25,67 @@ impl Robot {
     /// The robot that the URDF file at `path` describes.
     ///
     /// # Errors
-    /// As [`read_text`], with a limit of four megabytes, and [`Robot::from_urdf`], with the file.
+    /// As [`read_xml`], with a limit of four megabytes, and [`Robot::from_urdf`], with the file; [`ErrorKind::Unsupported`] for JSON, YAML and tables.
     pub fn read_urdf(path: &Path) -> Result<Robot> {
-        Robot::from_urdf(&read_text(path, URDF_LIMIT)?).map_err(|error| error.in_file(path))
+        let file = read_xml(path, URDF_LIMIT)?;
+        let robot = Robot::from_urdf(&file.text).map_err(|error| explained(error, &file.text).in_file(path))?;
+        Ok(robot.with_notes(file.notes))
     }
 
-    /// The robot that `text` describes in the format of [`crate::model::urdf`].
+    /// The robot that `text` describes in the format of [`crate::model::urdf`]. What is wrong with a single link or joint is kept in [`Robot::faults`]:
+    /// [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for missing elements and attributes;
-    /// [`ErrorKind::BadValue`] for another root element, wrong numbers, joint types that URDF does not know, elements given twice;
-    /// [`ErrorKind::Unsupported`] for xacro; and as [`Robot::new`]. All have a line.
+    /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for links and joints without a name, and joints without links;
+    /// [`ErrorKind::BadValue`] for another root element; [`ErrorKind::Unsupported`] for xacro; and as [`Robot::with_faults`]. All have a line.
     pub fn from_urdf(text: &str) -> Result<Robot> {
         let root = Element::parse(text)?;
-        check_root(&root)?;
+        let mut notes = xacro::unused(&root)?;
+        if root.name != "robot" {
+            return Err(root.error(ErrorKind::BadValue, "is the root element; a URDF has the root element <robot>"));
+        }
         let is_recent = version(&root).is_some_and(|version| version >= (1, 2));
         let elements = |name| root.children.iter().filter(move |child| child.name == name);
-        let mut colours = HashMap::new();
-        for material in elements("material") {
-            if let (Some(name), Some(colour)) = (material.attribute("name"), colour_of(material)?) {
-                colours.insert(name, colour);
-            }
+        let mut faults = Vec::new();
+        let mut links = Vec::new();
+        let colours = colours(&root, &mut notes);
+        for element in elements("link") {
+            let (link, error) = read_link(element, &colours)?;
+            faults.extend(error.map(|error| Fault { part: Part::Link(link.name.clone()), error }));
+            links.push(link);
+        }
+        let mut joints = Vec::new();
+        for element in elements("joint") {
+            let (joint, error) = read_joint(element, is_recent)?;
+            faults.extend(error.map(|error| Fault { part: Part::Joint(joint.name.clone()), error }));
+            joints.push(joint);
         }
         let name = root.attribute("name").unwrap_or("robot").trim();
-        let parts = RobotParts {
-            name: if name.is_empty() { "robot".to_owned() } else { name.to_owned() },
-            source: None,
-            links: elements("link").map(|link| read_link(link, &colours)).collect::<Result<_>>()?,
-            joints: elements("joint").map(|joint| read_joint(joint, is_recent)).collect::<Result<_>>()?,
-            actuators: elements("transmission").filter_map(read_transmission).collect(),
+        let name = if name.is_empty() { "robot".to_owned() } else { name.to_owned() };
+        let actuators = elements("transmission").filter_map(read_transmission).collect();
+        let parts = RobotParts { name, source: None, links, joints, actuators, faults, notes };
+        let line_of = |part: &Part| {
+            let Part::Actuator(name) = part else { return None };
+            let is_own = |child: &Element| child.name == "actuator" && child.attribute("name") == Some(name);
+            elements("transmission").find(|element| element.children.iter().any(is_own)).map(|element| element.line)
         };
-        Robot::new(parts).map_err(|error| error.at_line(root.line))
+        Ok(Robot::with_faults(parts).map_err(|error| error.at_line(root.line))?.with_lines(line_of))
     }
+}
+
+/// The colours of the robot's materials; one that is none is passed over, with a note.
+fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [f64; 4]> {
+    let mut colours = HashMap::new();
+    for material in root.children.iter().filter(|child| child.name == "material") {
+        match (material.attribute("name"), colour_of(material)) {
+            (Some(name), Ok(Some(colour))) => {
+                colours.insert(name, colour);
+            }
+            (_, Err(error)) => notes.push(format!("left out: {error}")),
+            _ => {}
+        }
+    }
+    colours
 }
 
 /// An actuator of a `<transmission>` that moves several joints; those that are not of that kind are extensions.
@@ -79,17 +109,6 @@ fn refuse_slips(element: &Element, parts: &[&str]) -> Result<()> {
             let text = format!("is no element of a {}{advice}", element.name);
             return Err(child.error(ErrorKind::UnknownKey, &text));
         }
-    }
-    Ok(())
-}
-
-fn check_root(root: &Element) -> Result<()> {
-    if let Some(macros) = root.children.iter().find(|child| child.name.starts_with("xacro:")) {
-        let message = "is xacro, a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
-        return Err(macros.error(ErrorKind::Unsupported, message));
-    }
-    if root.name != "robot" {
-        return Err(root.error(ErrorKind::BadValue, "is the root element; a URDF has the root element <robot>"));
     }
     Ok(())
 }

@@ -16,6 +16,9 @@ const MOST_TEXT: usize = 200;
 /// The deepest nesting.
 const DEEPEST: usize = 100;
 
+/// What to do with xacro.
+pub const EXPAND: &str = "a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
+
 /// An element with its attributes and children.
 #[derive(Debug)]
 pub struct Element {
@@ -55,6 +58,11 @@ impl Element {
         self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
     }
 
+    /// All attributes, each with its name.
+    pub fn attributes(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
+    }
+
     /// The text of an attribute that must be there.
     ///
     /// # Errors
@@ -86,6 +94,10 @@ impl Element {
             let wanted = if N == 1 { "one number".to_owned() } else { format!("{N} numbers with blanks between them") };
             self.error(ErrorKind::BadValue, &format!("has `{name}` = \"{}\": {what}; give {wanted}", shown(text)))
         };
+        if text.contains("$(") {
+            let text = format!("has `{name}` = \"{}\": `$(...)` is xacro, {EXPAND}", shown(text));
+            return Err(self.error(ErrorKind::Unsupported, &text));
+        }
         let words: Vec<&str> = text.split_whitespace().collect();
         let numbers: Vec<BigRational> = words.iter().map(|word| decimal(word).map_err(bad)).collect::<Result<_>>()?;
         let count = numbers.len();

@@ -22,9 +22,10 @@ impl Scene {
     /// one that turns the robot's z axis to y.
     ///
     /// # Errors
-    /// As [`Trajectory::check`]; [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for one that does not turn
+    /// As [`Robot::check`] and [`Trajectory::check`]; [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for one that does not turn
     /// or slide as the trajectory says, no sample, or a robot of which nothing is to be seen.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>, trajectory: Option<&Trajectory>) -> Result<Self> {
+        robot.check()?;
         let values = values(robot, trajectory)?;
         let mut scene = Scene { title: robot.name().to_owned(), ..Scene::default() };
         let mut link = |own: &Link| {

@@ -1,0 +1,108 @@
+//! Faults beside a chain: each command that uses the chain tells them, each that uses the whole robot refuses them.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{refused, run, run_on, text};
+
+/// A planar arm of two joints of 0.3 m, and a camera whose limits are inverted.
+const ROBOT: &str = "<robot name=\"arm\"><xacro:property name=\"width\" value=\".2\"/>\n\
+    <link name=\"base\"/><link name=\"upper\"/><link name=\"fore\"/><link name=\"tip\"/><link name=\"cam\"/>\n\
+    <joint name=\"j1\" type=\"continuous\"><parent link=\"base\"/><child link=\"upper\"/><axis xyz=\"0 0 1\"/></joint>\n\
+    <joint name=\"j2\" type=\"continuous\"><parent link=\"upper\"/><child link=\"fore\"/><origin xyz=\"0.3 0 0\"/><axis xyz=\"0 0 1\"/></joint>\n\
+    <joint name=\"jt\" type=\"fixed\"><parent link=\"fore\"/><child link=\"tip\"/><origin xyz=\"0.3 0 0\"/></joint>\n\
+    <joint name=\"pan\" type=\"revolute\"><parent link=\"base\"/><child link=\"cam\"/><axis xyz=\"0 0 1\"/><limit lower=\"2\" upper=\"-2\"/></joint>\n\
+    </robot>\n";
+const FAULT: &str = "line 6: joint `pan`: the limits 2..-2 are inverted";
+const XACRO: &str = "line 1: definitions of xacro that nothing uses are passed over: `width`";
+
+fn robot() -> (TempDir, String) {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("arm.urdf");
+    fs::write(&file, ROBOT).unwrap();
+    let name = text(&file).to_owned();
+    (folder, name)
+}
+
+fn notes(page: &str) -> Vec<String> {
+    let value: Value = serde_json::from_str(page).unwrap();
+    value["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn derive_tells_them_in_its_report_and_in_json() {
+    let (folder, file) = robot();
+    let out = folder.path().join("out");
+    let asked = ["derive", &file, "--tip", "tip", "--task", "planar_position", "--plane", "xy", "--out", text(&out)];
+    let ran = run(&asked);
+    let words = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(ran.code == 0 && words.contains(FAULT) && words.contains(XACRO), "{}{}", ran.out, ran.err);
+    let told = notes(&run(&[&asked[..], &["--json"]].concat()).out);
+    assert!(told.len() == 2 && told[0] == XACRO && told[1].contains(FAULT), "{told:?}");
+    // The folder is a derivation like any other; 0.3 m in each link reach (0.3, 0.3) with the elbow at a right angle.
+    let solved = run(&["solve", text(&out), "--target", "0.3,0.3", "--json"]);
+    let solved: Value = serde_json::from_str(&solved.out).unwrap();
+    let mut elbows: Vec<f64> =
+        solved["solutions"].as_array().unwrap().iter().map(|own| own["q"][1].as_f64().unwrap()).collect();
+    elbows.sort_by(f64::total_cmp);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    assert!(
+        elbows.len() == 2 && (elbows[0] + quarter).abs() < 1e-9 && (elbows[1] - quarter).abs() < 1e-9,
+        "{elbows:?}"
+    );
+    assert_eq!(run(&["check", text(&out)]).code, 0);
+}
+
+#[test]
+fn commands_on_a_chain_tell_them() {
+    let (_folder, file) = robot();
+    let told = notes(&run(&["info", &file, "--tip", "tip", "--json"]).out);
+    assert!(told.len() == 2 && told[1].contains(FAULT), "{told:?}");
+    let told = notes(&run(&["fk", &file, "--tip", "tip", "--q", "0,0", "--json"]).out);
+    assert!(told.len() == 2 && told[1].contains(FAULT), "{told:?}");
+    let ik = ["ik", &file, "--tip", "tip", "--task", "planar_position", "--plane", "xy", "--target", "0.3,0.3"];
+    let fk = ["fk", &file, "--tip", "tip", "--q", "0,0"];
+    for arguments in [&ik[..], &fk] {
+        let ran = run(arguments);
+        assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(&format!("note: {XACRO}\n")) && ran.err.contains(FAULT), "{}", ran.err);
+    }
+    // The answers themselves are on standard output alone.
+    let table = run_on(&["fk", &file, "--tip", "tip"], b"0,0\n");
+    assert!(table.out.starts_with("j1,j2,x_m") && table.out.lines().count() == 2, "{}", table.out);
+}
+
+#[test]
+fn a_chain_through_them_and_the_whole_robot_are_refused() {
+    let (folder, file) = robot();
+    let states = folder.path().join("states.csv");
+    fs::write(&states, "q0,q1,q2\n0,0,0\n").unwrap();
+    for arguments in [
+        &["derive", &file, "--tip", "cam"][..],
+        &["fk", &file, "--tip", "cam", "--q", "0"],
+        &["export", &file, "--to", "urdf"],
+        &["export", &file, "--to", "mjcf"],
+        &["export", &file, "--to", "x3d"],
+        &["dynamics", &file, "--states", text(&states)],
+        &["walk", &file, "--left", "tip", "--right", "cam"],
+        &["view", &file, "-o", text(&folder.path().join("view.html"))],
+        &["info", &file, "--q", "0,0,0"],
+    ] {
+        let error = refused(arguments);
+        assert!(error.contains(FAULT) && error.contains("the type `continuous`"), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn info_shows_the_robot_all_the_same() {
+    let (_folder, file) = robot();
+    let ran = run(&["info", &file]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    for words in ["5 links, 3 joints that move", "mass\n  not told", "faults", FAULT, XACRO] {
+        assert!(ran.out.contains(words), "{words}: {}", ran.out);
+    }
+    let value: Value = serde_json::from_str(&run(&["info", &file, "--json"]).out).unwrap();
+    assert!(value["faults"][0].as_str().unwrap().contains(FAULT) && value["mass"].is_null(), "{value}");
+}
