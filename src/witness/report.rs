@@ -18,6 +18,10 @@ pub enum Kind {
     Rational,
     /// From one joint at a multiple of a right angle.
     Special,
+    /// From joint values in steps of 15 or 30 degrees.
+    Round,
+    /// Axes along those of the base, at a position on a grid.
+    Aligned,
     /// From a singular configuration of a chain.
     Singular,
     /// From a configuration 10^-k (rad, or a share of the reach) away from a singular one.
@@ -254,6 +258,8 @@ impl fmt::Display for Kind {
             Kind::Far => f.write_str("far"),
             Kind::Rational => f.write_str("rational"),
             Kind::Special => f.write_str("special"),
+            Kind::Round => f.write_str("round"),
+            Kind::Aligned => f.write_str("aligned"),
             Kind::Singular => f.write_str("singular"),
             Kind::Near(k) => write!(f, "1e-{k} of singular"),
             Kind::Edge(k) => write!(f, "1e-{k} of the edge"),

@@ -10,6 +10,7 @@ mod exact;
 mod form;
 mod model;
 mod rational;
+mod round;
 mod self_motion;
 mod singular;
 mod targets;
@@ -25,6 +26,9 @@ use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
 use rational::Rationals;
 use self_motion::{STEPS, SelfMotions};
 use targets::{Target, Targets};
+
+/// Round targets among so many rows, from the first, are searched numerically too.
+const SEARCHED: usize = 48;
 
 /// What is checked: anything that solves targets given as numbers.
 ///
@@ -152,7 +156,9 @@ impl<'a> Check<'a> {
                 }
             }
         }
-        if number < self.options.oracle {
+        let is_searched =
+            number < self.options.oracle || (self.options.oracle > 0 && is_round(&row.kind) && number < SEARCHED);
+        if is_searched {
             let (count, agrees) = self.oracle(&row.target, answers)?;
             row.oracle = Some(count);
             faults.extend((!agrees).then_some(Fault::Oracle));
@@ -260,6 +266,10 @@ impl<'a> Check<'a> {
 
 /// The exact number of distinct real solutions with the tip where rational joint values bring it, and these.
 pub use rational::{Counted, count_exactly};
+
+fn is_round(kind: &Kind) -> bool {
+    matches!(kind, Kind::Round | Kind::Aligned)
+}
 
 fn is_random(kind: &Kind) -> bool {
     *kind == Kind::Random

@@ -40,6 +40,12 @@ impl<'a> Model<'a> {
     }
 
     /// Whether joint `index` turns.
+    /// The values that a joint which slides may have: its limits, or the reach to either side.
+    pub fn slide(&self, joint: usize) -> (f64, f64) {
+        let limits = self.chain.joints()[joint].limits.filter(|(low, high)| low < high);
+        limits.unwrap_or((-self.length, self.length))
+    }
+
     pub fn turns(&self, index: usize) -> bool {
         self.chain.joints()[index].kind == JointKind::Revolute
     }

@@ -6,6 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::model::{Configuration, Model};
+use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::spatial::Pose;
 use crate::witness::random::Random;
@@ -26,11 +27,13 @@ const FAR: f64 = 10.0;
 /// Distances 10^-k from singular configurations.
 const NEAR: [u32; 3] = [3, 6, 9];
 
-/// What every twenty rows try.
-const PLAN: [Slot; 20] = {
-    use Slot::{Anywhere, Edge, Far, Near, Random, Singular, Special};
+/// What every 24 rows try.
+const PLAN: [Slot; 24] = {
+    use Slot::{Aligned, Anywhere, Edge, Far, Near, Random, Round, Singular, Special};
     [
         Random,
+        Round(15),
+        Aligned,
         Singular,
         Random,
         Near(0),
@@ -39,7 +42,9 @@ const PLAN: [Slot; 20] = {
         Random,
         Near(2),
         Random,
-        Special, //
+        Special,
+        Round(30),
+        Aligned,
         Random,
         Singular,
         Random,
@@ -59,6 +64,8 @@ enum Slot {
     Singular,
     Near(usize),
     Special,
+    Round(u32),
+    Aligned,
     Edge,
     Anywhere,
     Far,
@@ -75,6 +82,7 @@ pub(super) struct Target {
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
     random: Random,
+    round: RoundTargets<'a>,
     /// Values of single joints that make every configuration singular: joint and value.
     critical: Vec<(usize, f64)>,
     done: usize,
@@ -88,7 +96,8 @@ struct Singularity {
 
 impl<'a> Targets<'a> {
     pub fn new(model: &'a Model<'a>, seed: u64) -> Self {
-        let mut targets = Targets { model, random: Random::new(seed), critical: Vec::new(), done: 0 };
+        let round = RoundTargets::new(model, seed);
+        let mut targets = Targets { model, random: Random::new(seed), round, critical: Vec::new(), done: 0 };
         targets.critical = targets.critical_values();
         targets
     }
@@ -100,6 +109,11 @@ impl<'a> Targets<'a> {
             Slot::Singular => self.singular().map(|found| self.reached(Kind::Singular, found.q)),
             Slot::Near(index) => self.near(NEAR[index]),
             Slot::Special => Some(self.special()),
+            Slot::Round(degrees) => {
+                let q = self.round.joints(degrees);
+                Some(self.reached(Kind::Round, q))
+            }
+            Slot::Aligned => Some(self.round.aligned(number)),
             Slot::Edge => self.edge(),
             Slot::Anywhere => Some(self.anywhere()),
             Slot::Far => self.far(),
@@ -128,13 +142,8 @@ impl<'a> Targets<'a> {
         if self.model.turns(joint) {
             return self.random.between(-PI, PI);
         }
-        let (low, high) = self.slide(joint);
+        let (low, high) = self.model.slide(joint);
         self.random.between(low, high)
-    }
-
-    fn slide(&self, joint: usize) -> (f64, f64) {
-        let limits = self.model.chain.joints()[joint].limits.filter(|(low, high)| low < high);
-        limits.unwrap_or((-self.model.length, self.model.length))
     }
 
     /// Single joint values that are critical whatever the other joints are, as two configurations tell.
@@ -152,7 +161,7 @@ impl<'a> Targets<'a> {
 
     /// The values of one joint at which the determinant changes its sign while the others stay as in `q`.
     fn sign_changes(&self, q: &[f64], joint: usize) -> Vec<f64> {
-        let (low, high) = if self.model.turns(joint) { (-PI, PI) } else { self.slide(joint) };
+        let (low, high) = if self.model.turns(joint) { (-PI, PI) } else { self.model.slide(joint) };
         let place = |k: usize| low + (high - low) * (k as f64 + 0.37) / PLACES as f64;
         let count = if self.model.turns(joint) { PLACES } else { PLACES - 1 };
         (0..count).filter_map(|k| self.bisected(q, joint, place(k), place(k + 1))).collect()
