@@ -18,15 +18,30 @@ const FAR: f64 = 10.0;
 const DECADES: usize = 12;
 /// Inputs below this share of their typical size become zero where a sum of squares is to vanish.
 const SNAP: f64 = 1e-6;
-/// What every ten rows try.
-const PLAN: [Slot; 10] = {
-    use Slot::{Boundary, Far, Random, Stratum};
-    [Random, Boundary, Stratum, Random, Far, Random, Boundary, Random, Stratum, Random]
+/// What every twelve rows try.
+const PLAN: [Slot; 12] = {
+    use Slot::{Boundary, Far, Random, Round, Stratum};
+    [
+        Random,
+        Round(15),
+        Boundary,
+        Stratum,
+        Random,
+        Far,
+        Random,
+        Round(30),
+        Boundary,
+        Random,
+        Stratum,
+        Random, //
+    ]
 };
 
 #[derive(Clone, Copy)]
 enum Slot {
     Random,
+    /// Angles in steps of so many degrees.
+    Round(u32),
     Boundary,
     Stratum,
     Far,
@@ -59,6 +74,7 @@ impl<'a> Targets<'a> {
     pub fn draw(&mut self, number: usize) -> Option<Target> {
         let special = match PLAN[number % PLAN.len()] {
             Slot::Random => None,
+            Slot::Round(degrees) => self.round(degrees),
             Slot::Boundary => self.boundary(),
             Slot::Stratum => self.stratum(),
             Slot::Far => self.far(),
@@ -89,10 +105,25 @@ impl<'a> Targets<'a> {
             if let Some((joint, value)) = held {
                 q[joint] = value;
             }
-            let start = self.inputs();
-            let inputs = self.model.inputs_at(&q, &start)?;
-            Some(Target { kind: kind.clone(), inputs, joints: Some(q) })
+            self.reached(kind.clone(), q)
         })
+    }
+
+    /// A target of angles in steps of so many degrees.
+    fn round(&mut self, degrees: u32) -> Option<Target> {
+        let step = PI / f64::from(180 / degrees);
+        (0..DRAWS).find_map(|_| {
+            let mut q = self.joints();
+            let angles = (0..q.len()).filter(|&joint| self.model.is_angle(joint));
+            angles.for_each(|joint| q[joint] = (q[joint] / step).ceil() * step);
+            self.reached(Kind::Round, q)
+        })
+    }
+
+    fn reached(&mut self, kind: Kind, q: Vec<f64>) -> Option<Target> {
+        let start = self.inputs();
+        let inputs = self.model.inputs_at(&q, &start)?;
+        Some(Target { kind, inputs, joints: Some(q) })
     }
 
     /// In turn: each angle at 0 and at pi, and a configuration where the Jacobian is singular.
