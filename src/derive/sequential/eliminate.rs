@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::determinant::by_determinant;
 use super::squares::by_squares;
 use super::symbolic::{Symbolic, TargetPoly};
-use crate::derive::closure::{Factor, Mechanism, Relation};
+use crate::derive::closure::{Coupling, Factor, Mechanism, Polynomials, Relation};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis, divide};
 use crate::number::{BigRational, Rationals, Ring, Style};
@@ -46,7 +46,7 @@ pub struct Elimination {
     pub ring: PolynomialRing<Rationals>,
     /// The number of unknowns that go, and of the joint's own.
     pub sizes: [usize; 2],
-    /// The relations with symbols, then the circles.
+    /// The relations with symbols, then the laws of joints that follow others, then the circles.
     pub generators: Vec<Poly>,
     /// The symbols.
     pub symbols: Vec<SymbolPlace>,
@@ -97,7 +97,9 @@ impl Elimination {
     fn by_squares(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<(Poly, Vec<Poly>)> {
         let ([joint], [f, g, ..]) = (away, self.generators.as_slice()) else { return None };
         let screw = &mechanism.joints()[*joint];
-        if !screw.is_revolute() || step.way.relations().len() != 2 {
+        let couples = |(follower, _): &(usize, &Coupling)| [*joint, step.joint].contains(follower);
+        let coupled = mechanism.followers().iter().any(couples);
+        if !screw.is_revolute() || step.way.relations().len() != 2 || coupled {
             return None;
         }
         let squares = |pair: [&Poly; 2]| by_squares(&self.ring, pair, &screw.square);
@@ -233,19 +235,25 @@ struct Setting<'a> {
     symbols: Vec<(SymbolPlace, Coefficient)>,
     /// The first symbol of the mechanism at hand.
     first: usize,
+    /// Joints that follow others of these.
+    followers: Vec<(usize, &'a Coupling)>,
 }
 
 impl<'a> Setting<'a> {
     fn of_step(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
         let sides: Vec<_> = step.way.relations().iter().map(|relation| (mechanism, relation)).collect();
-        Setting::new(&sides, [away, &[step.joint]].concat())
+        let setting = Setting::new(&sides, [away, &[step.joint]].concat())?;
+        let is_in = |joint: usize| setting.joints.contains(&joint);
+        let mut followers = mechanism.followers();
+        followers.retain(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
+        Ok(Setting { followers, ..setting })
     }
 
     /// The equations of relations, each of its mechanism. A mechanism's coefficients are told apart from those of another.
     fn new(sides: &[(&'a Mechanism, &Relation)], joints: Vec<usize>) -> Result<Self> {
         let none = || Error::new(ErrorKind::Unsupported, "there is no relation to eliminate from");
         let mut mechanism = sides.first().ok_or_else(none)?.0;
-        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0 };
+        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0, followers: Vec::new() };
         let mut symbolic = Symbolic::new(mechanism)?;
         for (relation, &(own, words)) in sides.iter().enumerate() {
             if !std::ptr::eq(own, mechanism) {
@@ -318,6 +326,12 @@ impl<'a> Setting<'a> {
                 sum = ring.add(&sum, &term);
             }
             generators.push(sum);
+        }
+        for (follower, coupling) in &self.followers {
+            let [own, leader]: [Vec<Poly>; 2] = [*follower, coupling.leader]
+                .map(|joint| unknowns(&joint).iter().filter_map(place).map(|v| ring.variable(v)).collect());
+            let law = coupling.follow(&leader, &mut Polynomials(&ring));
+            generators.extend(own.iter().zip(&law).map(|(own, law)| ring.sub(own, law)));
         }
         for joint in self.joints.iter().filter(|joint| self.mechanism.joints()[**joint].is_revolute()) {
             let square =
