@@ -9,7 +9,7 @@ use super::sights::{Sample, Sight, Sights, is_number, members, set};
 use super::specimen::Random;
 use super::types::{PlanStep, Way};
 use crate::derive::closure::{Factor, Mechanism};
-use crate::groebner::basis_modulo_prime;
+use crate::groebner::{basis_modulo_prime, normal_form};
 use crate::number::Ring;
 use crate::poly::Polynomial;
 use crate::{Result, Watch};
@@ -36,8 +36,9 @@ type Seen = (usize, Rc<Sight>);
 /// As [`Sights::of`]; what `watch` stops with.
 pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Watch) -> Result<Vec<Candidate>> {
     let places = members(joints);
-    let relations = independent(sights, joints, known)?;
     let followers = followers(sights.mechanism, joints);
+    let laws = if followers == 0 { None } else { Some(Laws::new(sights, &places)?) };
+    let relations = independent(sights, joints, known, laws.as_ref())?;
     let mut best: Vec<Option<Candidate>> = vec![None; places.len()];
     for chosen in combinations(relations.len(), places.len() - members(followers).len()) {
         watch.check()?;
@@ -48,7 +49,12 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
         let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
         for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
             let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
-            let is_hard = |joint: &&usize| followers >> **joint & 1 == 0 && !turns_as_one(sights, &some, **joint);
+            let is_led = |joint: &usize| followers >> *joint & 1 == 1;
+            let is_plain = match &laws {
+                None => false,
+                Some(laws) => some.iter().all(|(_, sight)| laws.degree(sight).is_ok_and(|degree| degree <= 1)),
+            };
+            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !turns_as_one(sights, &some, **joint);
             let hard = away.iter().filter(is_hard).count();
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
@@ -104,12 +110,42 @@ fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
     turned.into_iter().all(|turn| !rows.insert(turn))
 }
 
-/// The first linearly independent relations in which only joints of the set are unknown.
-fn independent(sights: &mut Sights<'_>, joints: u32, known: u32) -> Result<Vec<Seen>> {
+/// What joints that follow others make of relations.
+struct Laws {
+    space: Space,
+    ideal: Vec<Polynomial<u64>>,
+}
+
+impl Laws {
+    fn new(sights: &Sights<'_>, places: &[usize]) -> Result<Self> {
+        let space = Space::new(sights.mechanism, places, sights.field())?;
+        let mut ideal = space.couplings(sights.mechanism);
+        ideal.extend(space.circles(&sights.squares)?);
+        Ok(Laws { space, ideal })
+    }
+
+    /// The degree of a relation with the laws in it.
+    fn degree(&self, sight: &Sight) -> Result<u32> {
+        let polynomial = self.space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?;
+        Ok(self.space.ring.degree(&normal_form(&self.space.ring, &polynomial, &self.ideal)?))
+    }
+}
+
+/// The first linearly independent relations in which only joints of the set are unknown; where joints follow others, of the least degree.
+fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&Laws>) -> Result<Vec<Seen>> {
     let of_loop = |index: &usize| sights.relations[*index].followed().is_none();
     let mut within: Vec<usize> =
         subsets(joints).flat_map(|subset| sights.among(subset, known)).filter(of_loop).collect();
     within.sort_unstable();
+    if let Some(laws) = laws {
+        let mut sorted = Vec::with_capacity(within.len());
+        for index in within {
+            let sight = sights.of(index, joints & sights.joints_of(index))?;
+            sorted.push((laws.degree(&sight)?, index));
+        }
+        sorted.sort_unstable();
+        within = sorted.into_iter().filter(|(degree, _)| *degree > 0).map(|(_, index)| index).collect();
+    }
     let mut rows = Echelon::new(sights.field());
     let mut found = Vec::new();
     for index in within.into_iter().take(LOOKED_AT) {
