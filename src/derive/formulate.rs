@@ -6,6 +6,7 @@
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
+use super::closure::{Coupling, Polynomials};
 use super::setting::{Coefficients, Poly, Unknowns, expression_of};
 use super::{
     Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -23,7 +24,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks;
-/// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
+/// as [`Chain::check_leaders`]; [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
     if matches!(task, Task::Pose | Task::Ray | Task::Direction | Task::Rotation | Task::PositionPitchRoll) {
@@ -38,6 +39,7 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         let text = "joints with given values need the planner of blocks; leave `given` out";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
+    chain.check_leaders()?;
     let model = Model::new(chain)?;
     let mut parts = SystemParts {
         name: word(chain.name()),
@@ -71,6 +73,7 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         parts.equations.push(model.equation("cos phi", &turned[first], "cphi"));
         parts.equations.push(model.equation("sin phi", &turned[second], "sphi"));
     }
+    parts.equations.extend(model.laws(chain)?);
     parts.order = chain.order().map_or_else(|| parts.default_order(), <[String]>::to_vec);
     System::new(parts)
 }
@@ -210,6 +213,29 @@ impl Model {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             ring.sub(&ring.mul(&a[i], &b[j]), &ring.mul(&a[j], &b[i]))
         })
+    }
+
+    /// For each joint that follows another one: its unknowns less what the law gives for them.
+    fn laws(&self, chain: &Chain) -> Result<Vec<Equation>> {
+        let unknowns = |joint: &Joint| -> Result<Vec<Poly>> {
+            let letters: &[char] = if joint.kind == JointKind::Revolute { &['c', 's'] } else { &['d'] };
+            letters.iter().map(|letter| self.variable(*letter, joint)).collect()
+        };
+        let mut equations = Vec::new();
+        for (place, joint) in chain.joints().iter().enumerate() {
+            let Some((leader, mimic)) = chain.leader(place) else { continue };
+            let other = &chain.joints()[leader];
+            let turn = [joint, other].map(|joint| joint.kind == JointKind::Revolute);
+            let Some(coupling) = Coupling::plain(leader, turn, mimic) else { continue };
+            let law = coupling.follow(&unknowns(other)?, &mut Polynomials(&self.ring));
+            let label = format!("follows {}", word(&other.name));
+            let equation = |(own, law): (Poly, Poly)| Equation {
+                label: label.clone(),
+                expression: expression_of(&self.ring, &self.ring.sub(&own, &law)),
+            };
+            equations.extend(unknowns(joint)?.into_iter().zip(law).map(equation));
+        }
+        Ok(equations)
     }
 
     fn equation(&self, label: &str, value: &Poly, target: &str) -> Equation {

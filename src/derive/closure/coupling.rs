@@ -63,21 +63,30 @@ impl Coupling {
             );
             Error::new(ErrorKind::Unsupported, text)
         };
-        let square = joint.square.clone();
-        let ratio = rational_root(&(&other.square / &square)).ok_or_else(unfit)?;
+        let ratio = rational_root(&(&other.square / &joint.square)).ok_or_else(unfit)?;
+        let turn = [joint, other].map(ScrewJoint::is_revolute);
+        Coupling::by(leader, turn, mimic, [ratio, joint.square.clone()]).ok_or_else(unfit)
+    }
+
+    /// The law of `mimic` in true sines and lengths, of joints of which each turns or slides; none where it is no polynomial.
+    pub(in crate::derive) fn plain(leader: usize, turn: [bool; 2], mimic: &Mimic) -> Option<Self> {
+        Coupling::by(leader, turn, mimic, [BigRational::one(), BigRational::one()])
+    }
+
+    fn by(leader: usize, turn: [bool; 2], mimic: &Mimic, [ratio, square]: [BigRational; 2]) -> Option<Self> {
         let root = square.to_f64().unwrap_or(1.0).sqrt();
-        let law = match (joint.is_revolute(), other.is_revolute(), mimic.whole()) {
-            (true, true, Some(times)) => {
+        let law = match (turn, mimic.whole()) {
+            ([true, true], Some(times)) => {
                 let offset = turned(mimic.offset.to_f64().unwrap_or(0.0), &square, root);
                 Law::Turn { times, ratio, square, offset }
             }
-            (false, false, _) => {
+            ([false, false], _) => {
                 let factor = &mimic.multiplier * ratio;
                 Law::Slide { factor, offset: quotient(&mimic.offset, &square, root) }
             }
-            _ => return Err(unfit()),
+            _ => return None,
         };
-        Ok(Coupling { leader, law })
+        Some(Coupling { leader, law })
     }
 
     /// Whether the law is linear in the unknowns of the leader, so that these follow from the follower's.
