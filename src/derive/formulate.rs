@@ -6,12 +6,11 @@
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
-use super::closure::{Coupling, Polynomials};
 use super::setting::{Coefficients, Poly, Unknowns, expression_of};
 use super::{
     Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
 };
-use crate::document::word;
+use crate::document::{shown, word};
 use crate::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Expression, Fractions, Order, PolynomialRing, rational_root};
@@ -23,8 +22,9 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// the angle, about the plane's normal, by which the tip frame has turned since the zero configuration.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks;
-/// as [`Chain::check_leaders`]; [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
+/// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks, and for joints that
+/// follow others;
+/// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
     if matches!(task, Task::Pose | Task::Ray | Task::Direction | Task::Rotation | Task::PositionPitchRoll) {
@@ -39,7 +39,13 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         let text = "joints with given values need the planner of blocks; leave `given` out";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
-    chain.check_leaders()?;
+    if let Some(joint) = chain.joints().iter().find(|joint| joint.mimic.is_some()) {
+        let text = format!(
+            "joint `{}` follows another one (mimic), which needs the planner of blocks; leave `order` and `choice` out",
+            shown(&joint.name)
+        );
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
     let model = Model::new(chain)?;
     let mut parts = SystemParts {
         name: word(chain.name()),
@@ -73,7 +79,6 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         parts.equations.push(model.equation("cos phi", &turned[first], "cphi"));
         parts.equations.push(model.equation("sin phi", &turned[second], "sphi"));
     }
-    parts.equations.extend(model.laws(chain)?);
     parts.order = chain.order().map_or_else(|| parts.default_order(), <[String]>::to_vec);
     System::new(parts)
 }
@@ -213,29 +218,6 @@ impl Model {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             ring.sub(&ring.mul(&a[i], &b[j]), &ring.mul(&a[j], &b[i]))
         })
-    }
-
-    /// For each joint that follows another one: its unknowns less what the law gives for them.
-    fn laws(&self, chain: &Chain) -> Result<Vec<Equation>> {
-        let unknowns = |joint: &Joint| -> Result<Vec<Poly>> {
-            let letters: &[char] = if joint.kind == JointKind::Revolute { &['c', 's'] } else { &['d'] };
-            letters.iter().map(|letter| self.variable(*letter, joint)).collect()
-        };
-        let mut equations = Vec::new();
-        for (place, joint) in chain.joints().iter().enumerate() {
-            let Some((leader, mimic)) = chain.leader(place) else { continue };
-            let other = &chain.joints()[leader];
-            let turn = [joint, other].map(|joint| joint.kind == JointKind::Revolute);
-            let Some(coupling) = Coupling::plain(leader, turn, mimic) else { continue };
-            let law = coupling.follow(&unknowns(other)?, &mut Polynomials(&self.ring));
-            let label = format!("follows {}", word(&other.name));
-            let equation = |(own, law): (Poly, Poly)| Equation {
-                label: label.clone(),
-                expression: expression_of(&self.ring, &self.ring.sub(&own, &law)),
-            };
-            equations.extend(unknowns(joint)?.into_iter().zip(law).map(equation));
-        }
-        Ok(equations)
     }
 
     fn equation(&self, label: &str, value: &Poly, target: &str) -> Equation {

@@ -267,11 +267,13 @@ fn proposed(chain: &Chain, choice: &Choice) -> Error {
 
 /// The equations of `chain`, where its task has any that are solved together.
 fn formulated(chain: &Chain) -> Result<Option<System>> {
+    let by_steps = chain.order().is_none() && chain.choice().is_none();
+    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
     match formulate(chain) {
         Ok(system) => Ok(Some(system)),
-        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
         // A chain that is solved joint by joint needs no names that equations can have.
-        Err(_) if chain.order().is_none() && chain.choice().is_none() => Ok(None),
+        Err(_) if by_steps => Ok(None),
         Err(error) => Err(error),
     }
 }

@@ -180,12 +180,8 @@ impl Robot {
 
     /// The symbols of the moving joints on the way: those of the source, where each has its own, else 1, 2, 3.
     fn symbols(&self, path: &LinkPath) -> Vec<String> {
-        let moving: Vec<&model::Joint> = path
-            .joints
-            .iter()
-            .map(|(index, _)| &self.joints()[*index])
-            .filter(|joint| self.moves(joint))
-            .collect();
+        let moving: Vec<&model::Joint> =
+            path.joints.iter().map(|(index, _)| &self.joints()[*index]).filter(|joint| self.moves(joint)).collect();
         let told: Vec<String> = moving.iter().filter_map(|joint| joint.symbol.clone()).collect();
         let distinct: HashSet<&String> = told.iter().collect();
         if distinct.len() == moving.len() { told } else { (1..=moving.len()).map(|place| place.to_string()).collect() }

@@ -68,11 +68,7 @@ impl Coupling {
         Coupling::by(leader, turn, mimic, [ratio, joint.square.clone()]).ok_or_else(unfit)
     }
 
-    /// The law of `mimic` in true sines and lengths, of joints of which each turns or slides; none where it is no polynomial.
-    pub(in crate::derive) fn plain(leader: usize, turn: [bool; 2], mimic: &Mimic) -> Option<Self> {
-        Coupling::by(leader, turn, mimic, [BigRational::one(), BigRational::one()])
-    }
-
+    /// The same of joints of which each turns or slides; none where it is no polynomial.
     fn by(leader: usize, turn: [bool; 2], mimic: &Mimic, [ratio, square]: [BigRational; 2]) -> Option<Self> {
         let root = square.to_f64().unwrap_or(1.0).sqrt();
         let law = match (turn, mimic.whole()) {
@@ -138,7 +134,12 @@ impl Coupling {
 }
 
 /// The product of two turns, each by c and s' about axes of the same length.
-fn product<A: Arithmetic>(a: &[A::Value; 2], b: &[A::Value; 2], square: &A::Value, arithmetic: &mut A) -> [A::Value; 2] {
+fn product<A: Arithmetic>(
+    a: &[A::Value; 2],
+    b: &[A::Value; 2],
+    square: &A::Value,
+    arithmetic: &mut A,
+) -> [A::Value; 2] {
     let [cc, ss, sc, cs] = [(0, 0), (1, 1), (1, 0), (0, 1)].map(|(i, j)| arithmetic.mul(&a[i], &b[j]));
     let across = arithmetic.mul(square, &ss);
     [arithmetic.sub(&cc, &across), arithmetic.add(&sc, &cs)]

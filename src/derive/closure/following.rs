@@ -24,8 +24,12 @@ pub(super) fn follow<A: Arithmetic>(
     let value = |joint: usize| assignment.joints.get(joint).ok_or_else(unfit);
     let place = unknown % 2;
     let law = match value(leader)? {
-        JointValue::Angle { cosine, sine } => known(coupling.follow(&[cosine.clone(), sine.clone()], arithmetic), place, arithmetic),
-        JointValue::Length(length) => known(coupling.follow(std::slice::from_ref(length), arithmetic), place, arithmetic),
+        JointValue::Angle { cosine, sine } => {
+            known(coupling.follow(&[cosine.clone(), sine.clone()], arithmetic), place, arithmetic)
+        }
+        JointValue::Length(length) => {
+            known(coupling.follow(std::slice::from_ref(length), arithmetic), place, arithmetic)
+        }
         JointValue::Unknown if coupling.is_linear() => Some(linear(coupling, unknown, arithmetic)),
         JointValue::Unknown => None,
     };
@@ -47,7 +51,11 @@ fn linear<A: Arithmetic>(coupling: &Coupling, unknown: usize, arithmetic: &mut A
     let rows = coupling.coefficients();
     let row = &rows[unknown % 2];
     let one = arithmetic.rational(&BigRational::one());
-    let factors = if unknown < 2 { vec![factor(coupling.leader, 0), factor(coupling.leader, 1)] } else { vec![factor(coupling.leader, 2)] };
+    let factors = if unknown < 2 {
+        vec![factor(coupling.leader, 0), factor(coupling.leader, 1)]
+    } else {
+        vec![factor(coupling.leader, 2)]
+    };
     let constant = Multilinear::constant(one, arithmetic).scale(&row[factors.len()], arithmetic);
     factors.into_iter().zip(row).fold(constant, |sum, (factor, number)| {
         let term = unit(factor, arithmetic).scale(number, arithmetic);

@@ -20,7 +20,11 @@ use crate::{Error, ErrorKind, Result};
 /// [`ErrorKind::Certificate`] when it is not; as [`evaluate`] when it is no relation of the mechanism.
 pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
     if relation.measure == Measure::Follow {
-        return if mechanism.couplings().contains(relation) { Ok(()) } else { Err(refused(relation, "no joint follows so")) };
+        return if mechanism.couplings().contains(relation) {
+            Ok(())
+        } else {
+            Err(refused(relation, "no joint follows so"))
+        };
     }
     let closed = |word: &Word| closed(mechanism, relation.measure, word);
     let substituted = Relation { left: closed(&relation.left), right: closed(&relation.right), ..relation.clone() };

@@ -70,7 +70,8 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
 /// The joints of a set that follow others of it: their laws determine them.
 pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
     let is_in = |joint: usize| joints >> joint & 1 == 1;
-    let led = mechanism.followers().into_iter().filter(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
+    let led =
+        mechanism.followers().into_iter().filter(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
     led.fold(0, |set, (follower, _)| set | 1 << follower)
 }
 

@@ -1,8 +1,8 @@
 //! Random reachable targets modulo a prime: joints at rational points of their circles, the target by forward kinematics.
 
 use crate::derive::closure::{
-    Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object, Relation,
-    Target, Turn, Word, carry, evaluate,
+    Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
+    Relation, Target, Turn, Word, carry, evaluate,
 };
 use crate::kinematics::{ExactVector, Task};
 use crate::number::{BigRational, Field, Ring, Zp};

@@ -10,6 +10,7 @@ use std::ops::Range;
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
+use super::combination::combination;
 use super::determinant::by_determinant;
 use super::squares::by_squares;
 use super::symbolic::{Symbolic, TargetPoly};
@@ -290,7 +291,8 @@ impl<'a> Setting<'a> {
     fn new(sides: &[(&'a Mechanism, &Relation)], joints: Vec<usize>) -> Result<Self> {
         let none = || Error::new(ErrorKind::Unsupported, "there is no relation to eliminate from");
         let mut mechanism = sides.first().ok_or_else(none)?.0;
-        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0, followers: Vec::new() };
+        let mut setting =
+            Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0, followers: Vec::new() };
         let mut symbolic = Symbolic::new(mechanism)?;
         for (relation, &(own, words)) in sides.iter().enumerate() {
             if !std::ptr::eq(own, mechanism) {
@@ -384,45 +386,4 @@ impl<'a> Setting<'a> {
         let (member, cofactors) = (ring.zero(), Vec::new());
         Ok(Elimination { ring, sizes, generators, laws, symbols, member, cofactors })
     }
-}
-
-/// The numbers with which `rows`, which are independent, add up to `target`.
-fn combination<K: Ord + Clone>(
-    target: &BTreeMap<K, BigRational>,
-    rows: &[BTreeMap<K, BigRational>],
-) -> Option<Vec<BigRational>> {
-    // Each row, with what it is made of, is reduced by those before; then the target is.
-    let unit =
-        |index: usize| (0..rows.len()).map(|k| BigRational::from_integer(i32::from(k == index).into())).collect();
-    let mut echelon: Vec<(K, BTreeMap<K, BigRational>, Vec<BigRational>)> = Vec::new();
-    let reduce = |row: &mut BTreeMap<K, BigRational>, made: &mut Vec<BigRational>, echelon: &[(K, _, Vec<_>)]| {
-        for (pivot, own, parts) in echelon {
-            let Some(factor) = row
-                .get(pivot)
-                .map(|value| value / &BTreeMap::get(own, pivot).cloned().unwrap_or_else(BigRational::one))
-            else {
-                continue;
-            };
-            subtract(row, own, &factor);
-            made.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= &factor * part);
-        }
-    };
-    for (index, row) in rows.iter().enumerate() {
-        let (mut row, mut made): (_, Vec<BigRational>) = (row.clone(), unit(index));
-        reduce(&mut row, &mut made, &echelon);
-        let pivot = row.keys().next()?.clone();
-        echelon.push((pivot, row, made));
-    }
-    let (mut rest, mut made) = (target.clone(), vec![BigRational::zero(); rows.len()]);
-    reduce(&mut rest, &mut made, &echelon);
-    rest.is_empty().then(|| made.into_iter().map(|number| -number).collect())
-}
-
-/// `row - factor own`, zeros left out.
-fn subtract<K: Ord + Clone>(row: &mut BTreeMap<K, BigRational>, own: &BTreeMap<K, BigRational>, factor: &BigRational) {
-    for (key, value) in own {
-        let entry = row.entry(key.clone()).or_insert_with(BigRational::zero);
-        *entry -= factor * value;
-    }
-    row.retain(|_, value| !value.is_zero());
 }

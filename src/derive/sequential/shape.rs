@@ -49,9 +49,11 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
 
 /// Whether these are the relations by which the joint follows another one: `c = ..` and `s' = ..`.
 fn follows(joint: usize, relations: [&Relation; 2]) -> bool {
-    relations.map(Relation::followed).iter().zip(0..).all(|(followed, unknown)| {
-        followed.is_some_and(|[follower, _, own]| follower == joint && own == unknown)
-    })
+    relations
+        .map(Relation::followed)
+        .iter()
+        .zip(0..)
+        .all(|(followed, unknown)| followed.is_some_and(|[follower, _, own]| follower == joint && own == unknown))
 }
 
 /// The shape of what an elimination leaves.
