@@ -145,7 +145,7 @@ fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
 fn advised(source: &Source, error: Error) -> Error {
     let Some((ideal, report)) = &source.ideal else { return error };
     if let Some(task) = fitting_task(ideal) {
-        let free = ideal.joints().len() - ideal.given().len();
+        let free = ideal.independent().len();
         let text = format!(
             "{free} joints reach no generic target of the task `{}`; `{task}` asks for what they can do: {}",
             ideal.task().name(),

@@ -78,7 +78,7 @@ fn meant(page: &mut Page, told: &Report<'_>) {
         usual.lines().iter().for_each(|line| page.line(&format!("not taken: {line}")));
         page.line("Without --exact that is what the description is taken for, and the solver is that much simpler.");
     }
-    let free = ideal.joints().len() - ideal.given().len();
+    let free = ideal.independent().len();
     if free < ideal.task().freedoms() {
         page.heading("Out of reach, as a rule");
         page.line(&format!(

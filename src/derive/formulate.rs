@@ -10,7 +10,7 @@ use super::setting::{Coefficients, Poly, Unknowns, expression_of};
 use super::{
     Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
 };
-use crate::document::word;
+use crate::document::{shown, word};
 use crate::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Expression, Fractions, Order, PolynomialRing, rational_root};
@@ -22,7 +22,8 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// the angle, about the plane's normal, by which the tip frame has turned since the zero configuration.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks;
+/// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks, and for joints that
+/// follow others;
 /// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
@@ -36,6 +37,13 @@ pub fn formulate(chain: &Chain) -> Result<System> {
     }
     if !chain.given().is_empty() {
         let text = "joints with given values need the planner of blocks; leave `given` out";
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    if let Some(joint) = chain.joints().iter().find(|joint| joint.mimic.is_some()) {
+        let text = format!(
+            "joint `{}` follows another one (mimic), which needs the planner of blocks; leave `order` and `choice` out",
+            shown(&joint.name)
+        );
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let model = Model::new(chain)?;

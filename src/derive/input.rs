@@ -229,11 +229,12 @@ impl Source {
         Ok(Some(choice))
     }
 
-    /// Gives the values of joints that turn and that others of the chain follow: one value then moves them all.
+    /// Where the task leaves so many joints free, gives the values of those that others of the chain follow by a law of which no closed form is
+    /// derived: one value then moves them all.
     fn give_leaders(&mut self) -> Result<Option<Choice>> {
         let Some(chain) = self.chain_by_steps() else { return Ok(None) };
         let leaders = chain.open_leaders();
-        if leaders.is_empty() || chain.check_leaders().is_ok() {
+        if leaders.is_empty() || chain.independent().len() < chain.task().freedoms() + leaders.len() {
             return Ok(None);
         }
         let given = [chain.parts().given.clone(), leaders].concat();
@@ -278,7 +279,7 @@ fn proposed(chain: &Chain, choice: &Choice) -> Error {
         choice.given.len(),
         chain.task().name(),
         chain.task().freedoms(),
-        chain.joints().len(),
+        chain.independent().len() + chain.given_inputs().len(),
         Ends::AUTO,
         options.join(" "),
         100.0 * share
@@ -288,11 +289,13 @@ fn proposed(chain: &Chain, choice: &Choice) -> Error {
 
 /// The equations of `chain`, where its task has any that are solved together.
 fn formulated(chain: &Chain) -> Result<Option<System>> {
+    let by_steps = chain.order().is_none() && chain.choice().is_none();
+    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
     match formulate(chain) {
         Ok(system) => Ok(Some(system)),
-        Err(error) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
         // A chain that is solved joint by joint needs no names that equations can have.
-        Err(_) if chain.order().is_none() && chain.choice().is_none() => Ok(None),
+        Err(_) if by_steps => Ok(None),
         Err(error) => Err(error),
     }
 }

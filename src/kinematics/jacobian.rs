@@ -95,6 +95,29 @@ impl Chain {
 }
 
 impl Chain {
+    /// The same as [`Chain::task_jacobian`], but joints that follow others move with these: the columns of leaders hold what their followers do
+    /// too, those of followers are zero.
+    ///
+    /// # Panics
+    /// When `q` has fewer values than the chain has joints.
+    pub fn coupled_jacobian(&self, q: &[f64], held: &[usize]) -> DMatrix<f64> {
+        let mut jacobian = self.task_jacobian(q, &[]);
+        self.fold_followers(&mut jacobian, |_| 1.0);
+        held.iter().for_each(|&joint| jacobian.column_mut(joint).fill(0.0));
+        jacobian
+    }
+
+    /// Adds the columns of followers to those of their leaders and makes them zero. `unit` is what a joint's column is a derivative by.
+    fn fold_followers(&self, jacobian: &mut DMatrix<f64>, unit: impl Fn(usize) -> f64) {
+        for joint in 0..jacobian.ncols() {
+            let Some((leader, mimic)) = self.leader(joint) else { continue };
+            let moved = jacobian.column(joint) * (mimic.law()[0] * unit(joint) / unit(leader));
+            let mut column = jacobian.column_mut(leader);
+            column += moved;
+            jacobian.column_mut(joint).fill(0.0);
+        }
+    }
+
     /// How well the tip moves at the joint values `q`, in what the task determines: Yoshikawa's measure `sqrt(det(J J'))` (Manipulability of robotic mechanisms, IJRR 4, 1985), by metres and radians, whatever the chain's unit. Of fewer joints than
     /// the task determines numbers, `sqrt(det(J' J))`. Joints that follow others move with them.
     ///
@@ -112,14 +135,7 @@ impl Chain {
         }
         // What follows moves with its leader, and is no joint of its own.
         let followers: Vec<usize> = (0..jacobian.ncols()).filter(|joint| self.leader(*joint).is_some()).collect();
-        for &joint in followers.iter().rev() {
-            let Some((leader, mimic)) = self.leader(joint) else { continue };
-            let metres = |joint: usize| if slides(joint) { unit } else { 1.0 };
-            let factor = mimic.law()[0] * metres(joint) / metres(leader);
-            let moved = jacobian.column(joint) * factor;
-            let mut column = jacobian.column_mut(leader);
-            column += moved;
-        }
+        self.fold_followers(&mut jacobian, |joint| if slides(joint) { unit } else { 1.0 });
         let jacobian = jacobian.remove_columns_at(&followers);
         if jacobian.is_square() {
             return jacobian.determinant().abs();

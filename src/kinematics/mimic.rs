@@ -39,17 +39,34 @@ impl Chain {
         }
     }
 
-    /// The names of the joints that others follow and whose values are not given.
-    pub fn open_leaders(&self) -> Vec<String> {
+    /// The places of the joints that are not given and follow no other, from the base: what a task has to determine.
+    pub fn independent(&self) -> Vec<usize> {
         let given = self.given();
-        let followed = |place: &usize| self.followers(*place).next().is_some();
-        let open = (0..self.joints().len()).filter(|place| !given.contains(place)).filter(followed);
-        open.map(|place| self.joints()[place].name.clone()).collect()
+        (0..self.joints().len()).filter(|place| !given.contains(place) && self.leader(*place).is_none()).collect()
     }
 
-    /// The places of the joints that follow the one at `leader`.
-    fn followers(&self, leader: usize) -> impl Iterator<Item = usize> {
-        (0..self.joints().len()).filter(move |&place| self.leader(place).is_some_and(|(own, _)| own == leader))
+    /// The names of the joints that are not given and that others follow by a law of which no closed form is derived, each once.
+    pub fn open_leaders(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for (leader, _) in self.unfit_followers() {
+            let name = &self.joints()[leader].name;
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        names
+    }
+
+    /// The joints that are not given and follow others by a law that is no polynomial in cosines and sines: each behind its leader.
+    fn unfit_followers(&self) -> Vec<(usize, usize)> {
+        let given = self.given();
+        let unfit = |place: usize| {
+            let (leader, mimic) = self.leader(place)?;
+            let [kind, other] = [place, leader].map(|joint| self.joints()[joint].kind);
+            let fits = kind == other && (kind == JointKind::Prismatic || mimic.whole().is_some());
+            (!fits && !given.contains(&place)).then_some((leader, place))
+        };
+        (0..self.joints().len()).filter_map(unfit).collect()
     }
 
     /// The largest difference of a joint from where the one that it follows brings it, angles the way round that is shorter: radians, or the
@@ -67,31 +84,19 @@ impl Chain {
         (0..self.joints().len()).filter_map(strays).fold(0.0, f64::max)
     }
 
-    /// Fails where a joint that is not given is followed by others, unless the task sees as many numbers as there are joints and what follows
-    /// slides as its leader does, or turns a whole number of times as far: then all are found and those kept that follow.
+    /// Fails where a joint that is not given is followed by another one by a fraction of a turn, or by one of the other kind: a closed form takes
+    /// slides that follow slides, and turns that follow turns by whole numbers up to eight.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] with the joint and what helps.
+    /// [`ErrorKind::Unsupported`] with both joints and what helps.
     pub fn check_leaders(&self) -> Result<()> {
-        let given = self.given();
-        let sees_all = self.joints().len() - given.len() <= self.task().freedoms();
-        let is_exact = |place: usize| {
-            self.leader(place).is_none_or(|(leader, mimic)| {
-                let [kind, other] = [place, leader].map(|joint| self.joints()[joint].kind);
-                kind == other && (kind == JointKind::Prismatic || mimic.whole().is_some())
-            })
-        };
-        let is_told = |place: usize| given.contains(&place) || is_exact(place);
-        let all_told = sees_all && (0..self.joints().len()).all(is_told);
-        let Some(name) = self.open_leaders().into_iter().next().filter(|_| !all_told) else { return Ok(()) };
-        let leader = self.joints().iter().position(|joint| joint.name == name).unwrap_or(0);
-        let followers: Vec<String> =
-            self.followers(leader).map(|place| format!("`{}`", shown(&self.joints()[place].name))).collect();
-        let (name, verb) = (shown(&name), if followers.len() == 1 { "follows" } else { "follow" });
+        let Some((leader, follower)) = self.unfit_followers().into_iter().next() else { return Ok(()) };
+        let law = self.joints()[follower].mimic.as_ref().map(Mimic::to_string).unwrap_or_default();
+        let [leader, name] = [leader, follower].map(|place| shown(&self.joints()[place].name));
         let text = format!(
-            "joint `{name}`: {} {verb} it (mimic); give its value (`--given {name}`), and theirs come from it; a search \
-             (`groebot ik --numeric`) finds it, too",
-            followers.join(", ")
+            "joint `{name}` is {law} (mimic): a closed form takes turns that follow turns by a whole number up to 8, and slides that follow slides; \
+             a search (`groebot ik --numeric`) finds joint values, and so does a solver to which the value of `{leader}` is given \
+             (`--given {leader}`)"
         );
         Err(Error::new(ErrorKind::Unsupported, text))
     }

@@ -2,12 +2,16 @@
 
 use std::collections::{HashMap, HashSet};
 
+use num_traits::{One, ToPrimitive, Zero};
+
 use super::frame::{Frame, Rationality, Reading};
 use super::parts::{Meant, along_z};
 use super::telescope::{Telescope, joined};
-use super::{Chain, ChainParts, Joint, JointKind, LengthUnit, Mimic, Task, Tip};
+use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Task, Tip};
 use crate::document::shown;
 use crate::model::{self, Fault, JointType, Part, Robot, listing, some_among};
+use crate::number::BigRational;
+use crate::poly::rational_root;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest path, fixed joints included.
@@ -142,7 +146,10 @@ impl Robot {
             let joint = &self.joints()[*index];
             let name = shown(&joint.name);
             notes.extend(joint.notes.iter().map(|note| format!("{name}: {note}")));
-            if let Some(mimic) = joint.mimic.as_ref().filter(|_| alone(joint)) {
+            if let Some(value) = self.constant(joint) {
+                let value = value.to_f64().unwrap_or(f64::NAN);
+                notes.push(format!("{name}: its multiplier is zero, so that it is fixed at {value}"));
+            } else if let Some(mimic) = joint.mimic.as_ref().filter(|_| alone(joint)) {
                 notes
                     .push(format!("{name}: in the robot it follows {mimic}, outside this chain; here it moves freely"));
             }
@@ -173,7 +180,7 @@ impl Robot {
     /// first of them.
     fn mimics(&self, path: &LinkPath) -> Vec<(&str, Mimic)> {
         let moving = path.joints.iter().map(|(index, _)| &self.joints()[*index]);
-        let laws = moving.filter(|joint| joint.kind != JointType::Fixed).map(|joint| (joint, self.law(joint)));
+        let laws = moving.filter(|joint| self.moves(joint)).map(|joint| (joint, self.law(joint)));
         let mut heads: HashMap<String, (&str, Mimic)> = HashMap::new();
         let laws: Vec<(&model::Joint, Mimic)> = laws.collect();
         for (joint, law) in &laws {
@@ -197,15 +204,16 @@ impl Robot {
 
     /// The symbols of the moving joints on the way: those of the source, where each has its own, else 1, 2, 3.
     fn symbols(&self, path: &LinkPath) -> Vec<String> {
-        let moving: Vec<&model::Joint> = path
-            .joints
-            .iter()
-            .map(|(index, _)| &self.joints()[*index])
-            .filter(|joint| joint.kind != JointType::Fixed)
-            .collect();
+        let moving: Vec<&model::Joint> =
+            path.joints.iter().map(|(index, _)| &self.joints()[*index]).filter(|joint| self.moves(joint)).collect();
         let told: Vec<String> = moving.iter().filter_map(|joint| joint.symbol.clone()).collect();
         let distinct: HashSet<&String> = told.iter().collect();
         if distinct.len() == moving.len() { told } else { (1..=moving.len()).map(|place| place.to_string()).collect() }
+    }
+
+    /// Whether a joint moves in a chain: it is not fixed, and follows no other by a multiplier of zero.
+    fn moves(&self, joint: &model::Joint) -> bool {
+        joint.kind != JointType::Fixed && self.constant(joint).is_none()
     }
 
     /// The moving joints in the base frame, and the tip.
@@ -222,7 +230,10 @@ impl Robot {
             if !is_up {
                 frame = frame.then(&joint.origin.placement);
             }
-            if let Some(kind) = kind_of(joint)? {
+            let kind = kind_of(joint)?;
+            if let (Some(kind), Some(value)) = (kind, self.constant(joint)) {
+                frame = frame.then(&held(kind, &joint.axis, &if *is_up { -value } else { value }));
+            } else if let Some(kind) = kind {
                 let axis = frame.direction(&joint.axis);
                 told.add(frame.rationality(&joint.axis));
                 joints.push(Joint {
@@ -241,6 +252,21 @@ impl Robot {
         }
         Ok(((joints, frame), told))
     }
+}
+
+/// The motion of a joint at a value that never changes: right to rounding.
+fn held(kind: JointKind, axis: &ExactVector, value: &BigRational) -> Placement {
+    let square: BigRational = axis.iter().map(|entry| entry * entry).sum();
+    let root = rational_root(&square).or_else(|| BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt()));
+    let length = root.filter(|root| !root.is_zero()).unwrap_or_else(BigRational::one);
+    if kind == JointKind::Prismatic {
+        return Placement { origin: axis.each_ref().map(|entry| entry * value / &length), ..Placement::identity() };
+    }
+    let half = value.to_f64().unwrap_or(0.0) / 2.0;
+    let [sine, cosine] = [half.sin(), half.cos()].map(|x| BigRational::from_float(x).unwrap_or_default());
+    let [x, y, z] = axis.each_ref().map(|entry| entry * &sine / &length);
+    let rotation = ExactRotation::from_quaternion(&[x, y, z, cosine]).unwrap_or_else(ExactRotation::identity);
+    Placement { rotation, ..Placement::identity() }
 }
 
 /// How a joint moves in a chain; none when it is fixed.

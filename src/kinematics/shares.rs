@@ -47,14 +47,15 @@ impl Draws<'_> {
 
 impl Chain {
     /// For each joint the share of its range, between its limits or all round, that it is swept through while the tip stands still and the
-    /// joints `held` do too: the mean of random reachable poses, each followed to where the joint turns back. Zero for the joints that are held.
+    /// joints `held` do too: the mean of random reachable poses, each followed to where the joint turns back. Zero for the joints that are held or follow others.
     /// It is measured by walking: values that no way leads to do not count.
     pub fn shares(&self, held: &[usize]) -> Vec<f64> {
         let mut shares = vec![0.0; self.joints().len()];
+        let is_free = |joint: &usize| !held.contains(joint) && self.leader(*joint).is_none();
         let mut draws = self.draws();
         for _ in 0..POSES {
             let q = draws.posture();
-            for (joint, share) in shares.iter_mut().enumerate().filter(|(joint, _)| !held.contains(joint)) {
+            for (joint, share) in shares.iter_mut().enumerate().filter(|(joint, _)| is_free(joint)) {
                 *share += self.swept(&q, joint, held) / POSES as f64;
             }
         }
@@ -129,13 +130,16 @@ impl Chain {
     /// `q` behind a step of `motion` in which `joint` moves by `way` steps, less where others would move too far.
     fn stepped(&self, q: &[f64], motion: &DVector<f64>, joint: usize, way: f64) -> Vec<f64> {
         let length = (STEP / motion[joint]).min(LONGEST / motion.amax());
-        q.iter().enumerate().map(|(i, value)| value + way * length * motion[i] * self.unit(i)).collect()
+        let step = |(i, value): (usize, &f64)| value + way * length * motion[i] * self.unit(i);
+        let mut next: Vec<f64> = q.iter().enumerate().map(step).collect();
+        self.follow(&mut next);
+        next
     }
 
     /// The unit motion of all joints (radians, and reaches) that leaves the tip and the joints `held` where they are and moves `joint` most,
     /// forwards; none where it hardly moves it.
     fn self_motion(&self, q: &[f64], joint: usize, held: &[usize]) -> Option<DVector<f64>> {
-        let svd = self.task_jacobian(q, held).svd(false, true);
+        let svd = self.coupled_jacobian(q, held).svd(false, true);
         let greatest = svd.singular_values.amax();
         let mut wish = DVector::zeros(q.len());
         wish[joint] = 1.0;
@@ -144,7 +148,8 @@ impl Chain {
                 wish -= row.transpose() * row[joint];
             }
         }
-        held.iter().for_each(|&other| wish[other] = 0.0);
+        let follow = (0..q.len()).filter(|joint| self.leader(*joint).is_some());
+        held.iter().copied().chain(follow).for_each(|other| wish[other] = 0.0);
         let share = wish[joint].max(0.0).sqrt();
         (share > TURNS_BACK).then(|| wish / share)
     }

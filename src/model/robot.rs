@@ -243,9 +243,15 @@ impl Robot {
         let own = Mimic { leader: joint.name.clone(), multiplier: BigRational::one(), offset: BigRational::zero() };
         let leader = |mimic: &Mimic| self.joints().iter().find(|joint| joint.name == mimic.leader);
         match joint.mimic.as_ref().and_then(|mimic| Some((mimic, leader(mimic)?))) {
-            Some((mimic, leader)) if !mimic.multiplier.is_zero() => self.law(leader).then(mimic),
-            _ => own,
+            Some((mimic, leader)) => self.law(leader).then(mimic),
+            None => own,
         }
+    }
+
+    /// The value that `joint` always has: that of one that follows another one by a multiplier of zero \[rad or m\].
+    pub fn constant(&self, joint: &Joint) -> Option<BigRational> {
+        let law = self.law(joint);
+        law.multiplier.is_zero().then_some(law.offset)
     }
 
     /// Puts the joints of a configuration that follow others where these bring them.

@@ -7,6 +7,7 @@ mod coupled;
 mod ends;
 mod explain;
 mod families;
+mod followers;
 mod mimic;
 mod noisy;
 mod planner;

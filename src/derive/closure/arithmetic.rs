@@ -7,6 +7,7 @@ use num_traits::Zero;
 use smallvec::SmallVec;
 
 use crate::number::{BigInt, BigRational, Field, Ring, Zp};
+use crate::poly::{Polynomial, PolynomialRing};
 
 /// A commutative ring of values that may keep books on what it is asked for: numbers, polynomials, registers of a program.
 pub trait Arithmetic {
@@ -50,6 +51,34 @@ impl Arithmetic for Exact {
         -a
     }
     fn is_zero(&self, a: &BigRational) -> bool {
+        a.is_zero()
+    }
+}
+
+/// Polynomials over a field, whose numbers have images there.
+#[derive(Clone, Copy, Debug)]
+pub struct Polynomials<'a, F: Field>(pub &'a PolynomialRing<F>);
+
+impl<F: Field> Arithmetic for Polynomials<'_, F> {
+    type Value = Polynomial<F::Element>;
+
+    fn rational(&mut self, number: &BigRational) -> Self::Value {
+        let ring = self.0;
+        ring.constant(ring.field().from_rational(number).unwrap_or_else(|| ring.field().zero()))
+    }
+    fn add(&mut self, a: &Self::Value, b: &Self::Value) -> Self::Value {
+        Ring::add(self.0, a, b)
+    }
+    fn sub(&mut self, a: &Self::Value, b: &Self::Value) -> Self::Value {
+        Ring::sub(self.0, a, b)
+    }
+    fn mul(&mut self, a: &Self::Value, b: &Self::Value) -> Self::Value {
+        Ring::mul(self.0, a, b)
+    }
+    fn neg(&mut self, a: &Self::Value) -> Self::Value {
+        Ring::neg(self.0, a)
+    }
+    fn is_zero(&self, a: &Self::Value) -> bool {
         a.is_zero()
     }
 }

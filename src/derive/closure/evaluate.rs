@@ -6,6 +6,7 @@
 
 use super::arithmetic::{Arithmetic, Factor, Multilinear};
 use super::assignment::{Assignment, JointValue, Turn};
+use super::following::follow;
 use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Object, Relation, Word};
 use super::vector;
@@ -41,6 +42,9 @@ pub fn evaluate<A: Arithmetic>(
     assignment: &Assignment<A::Value>,
     arithmetic: &mut A,
 ) -> Result<Multilinear<A::Value>> {
+    if let Some(followed) = relation.followed() {
+        return follow(mechanism, followed, assignment, arithmetic);
+    }
     let mut evaluation = Evaluation { mechanism, assignment, arithmetic };
     let left = evaluation.side(relation, &relation.left)?;
     let right = evaluation.side(relation, &relation.right)?;

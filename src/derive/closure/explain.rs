@@ -2,17 +2,23 @@
 
 use std::fmt;
 
-use num_traits::ToPrimitive;
+use num_traits::{One, ToPrimitive};
 
+use super::arithmetic::Polynomials;
 use super::feature::leaves;
 use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Object, Relation, Word};
 use crate::kinematics::ExactVector;
 use crate::number::{BigRational, Rationals, Ring, Style};
+use crate::poly::{Order, PolynomialRing};
 
-/// `|E3 (0, 1, 0) - (0, 0, 0.29)|^2 = |G (0, 1, 0) - (0, 0, 0.29)|^2`, `(0, 0, 1) . E2 (1, 0, 0) = ...`.
+/// `|E3 (0, 1, 0) - (0, 0, 0.29)|^2 = |G (0, 1, 0) - (0, 0, 0.29)|^2`, `(0, 0, 1) . E2 (1, 0, 0) = ...`; of a joint that follows, `c4 by c2, s2`.
 impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some([follower, leader, unknown]) = self.followed() {
+            let (own, other) = (["c", "s", "d"][unknown], if unknown < 2 { "angle" } else { "length" });
+            return write!(f, "{own} of joint {} by the {other} of joint {}", follower + 1, leader + 1);
+        }
         write!(f, "{} = {}", self.side(&self.left), self.side(&self.right))
     }
 }
@@ -45,14 +51,38 @@ impl Relation {
         }
     }
 
+    /// Of a joint that follows another one, the law as an equation: `c3 = c2^2 - s2^2`.
+    pub fn law(&self, mechanism: &Mechanism) -> Option<String> {
+        let [follower, leader, unknown] = self.followed()?;
+        let coupling = mechanism.joints().get(follower)?.coupling.as_ref()?;
+        let letters: &[&str] = if unknown < 2 { &["c", "s"] } else { &["d"] };
+        let names = |joint: usize| {
+            let screw = &mechanism.joints()[joint];
+            let prime = |letter: &&str| if *letter != "c" && !screw.square.is_one() { "'" } else { "" };
+            letters.iter().map(|letter| format!("{letter}{}{}", screw.symbol, prime(letter))).collect::<Vec<String>>()
+        };
+        let plain: Vec<String> = (0..letters.len()).map(|k| format!("x{k}")).collect();
+        let ring = PolynomialRing::new(Rationals, &plain, Order::GrevLex).ok()?;
+        let unknowns: Vec<_> = (0..letters.len()).map(|k| ring.variable(k)).collect();
+        let law = coupling.follow(&unknowns, &mut Polynomials(&ring));
+        let text = ring.format(law.get(unknown % 2)?, Style::Decimal);
+        let text = plain.iter().zip(names(leader)).fold(text, |text, (plain, name)| text.replace(plain, &name));
+        Some(format!("{} = {text}", names(follower)[unknown % 2]))
+    }
+
     /// What it says, in words: which joints leave what in place.
     pub fn meaning(&self, mechanism: &Mechanism) -> String {
+        if let Some([follower, leader, _]) = self.followed() {
+            let [name, other] = [follower, leader].map(|joint| &mechanism.joints()[joint].name);
+            return format!("the joint `{name}` follows `{other}`");
+        }
         let [run, tail] = self.cancelled(mechanism);
         let what = match self.measure {
             Measure::Angle => "angle between",
             Measure::Offset => "distance along the normal between",
             Measure::Distance => "distance between",
             Measure::Moment => "mutual moment of",
+            Measure::Follow => "values of",
         };
         let name = |object: &Object, joints: &[usize]| {
             let noun = match (self.measure, object) {

@@ -1,5 +1,7 @@
 //! A chain as exact screws with its task: what relations are made of. Main type: [`Mechanism`].
 
+use super::coupling::Coupling;
+use super::relation::Relation;
 use super::vector;
 use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
@@ -25,6 +27,8 @@ pub struct ScrewJoint {
     pub point: ExactVector,
     /// The place of the joint that it follows, the factor and the summand.
     pub follows: Option<(usize, [f64; 2])>,
+    /// The same as an exact law, where its leader is not given.
+    pub coupling: Option<Coupling>,
     /// The limits of a slide, if it has two, in the chain's unit.
     pub travel: Option<(f64, f64)>,
     /// w / |w|^2.
@@ -37,7 +41,7 @@ impl ScrewJoint {
         let (square, point) = (vector::dot(&axis, &axis), point.clone());
         let dual = vector::scale(&axis, &square.recip());
         let (name, symbol) = (name.to_owned(), symbol.to_owned());
-        ScrewJoint { name, symbol, kind, axis, square, point, follows: None, travel: None, dual }
+        ScrewJoint { name, symbol, kind, axis, square, point, follows: None, coupling: None, travel: None, dual }
     }
 
     /// The screw of a chain's joint.
@@ -113,9 +117,14 @@ impl Mechanism {
     /// The mechanism of the joints of `chain`, none of them given.
     fn of_joints(chain: &Chain) -> Result<Self> {
         chain.check_leaders()?;
-        let mut joints: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
+        let plain: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
+        let (mut joints, given) = (plain.clone(), chain.given());
         for (place, joint) in joints.iter_mut().enumerate() {
-            joint.follows = chain.leader(place).map(|(leader, mimic)| (leader, mimic.law()));
+            let Some((leader, mimic)) = chain.leader(place) else { continue };
+            joint.follows = Some((leader, mimic.law()));
+            if !given.contains(&place) {
+                joint.coupling = Some(Coupling::new(&plain[place], leader, &plain[leader], mimic)?);
+            }
         }
         let task = chain.task();
         // The angle of a planar pose is counted from the zero configuration, and so is the turn about a ray.
@@ -133,7 +142,7 @@ impl Mechanism {
         Ok(Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen, upright: None })
     }
 
-    /// The same mechanism with these joints, by their places, given by the user.
+    /// The same mechanism with these joints, by their places, given by the user, and those that follow them.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a place beyond the last joint.
@@ -152,6 +161,8 @@ impl Mechanism {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         self.given = given.to_vec();
+        let leads = |place: &usize| self.joints[*place].follows.is_some_and(|(leader, _)| given.contains(&leader));
+        self.given.extend((0..count).filter(leads));
         self.given.sort_unstable();
         self.given.dedup();
         Ok(self)
@@ -225,6 +236,36 @@ impl Mechanism {
     /// The places of the joints that are not given, ascending, that of the hidden one too.
     pub fn unknown(&self) -> Vec<usize> {
         (0..self.joints.len()).filter(|joint| !self.given.contains(joint)).collect()
+    }
+
+    /// The places of the joints that follow others and are not given, ascending, each with its law.
+    pub fn followers(&self) -> Vec<(usize, &Coupling)> {
+        let coupled = |place: usize| self.joints[place].coupling.as_ref().map(|coupling| (place, coupling));
+        self.unknown().into_iter().filter_map(coupled).collect()
+    }
+
+    /// The number of joints that are not given and follow no other, the hidden one too.
+    pub fn independent(&self) -> usize {
+        self.unknown().len() - self.followers().len()
+    }
+
+    /// The relations of the joints that follow others.
+    pub fn couplings(&self) -> Vec<Relation> {
+        let each = |(place, coupling): (usize, &Coupling)| {
+            Relation::following(place, coupling.leader, self.joints[place].is_revolute())
+        };
+        self.followers().into_iter().flat_map(each).collect()
+    }
+
+    /// Whether the task asks for no more numbers than there are independent joints.
+    pub fn is_tight(&self) -> bool {
+        self.seen().freedoms() <= self.independent()
+    }
+
+    /// Whether the steps of a plan must have as many solutions as the loop. Where more is asked than the joints can do, or joints follow others,
+    /// steps may have more: what they leave out is measured at run time.
+    pub fn counts_exactly(&self) -> bool {
+        self.is_tight() && self.followers().is_empty()
     }
 
     /// The motions that relations do not see, as joints behind the tip: for a position all turns about the tip's point, and so on.

@@ -8,17 +8,20 @@
 mod arithmetic;
 mod assignment;
 mod coordinates;
+mod coupling;
 mod evaluate;
 mod explain;
 mod feature;
+mod following;
 mod mechanism;
 mod pool;
 mod prove;
 mod relation;
 mod vector;
 
-pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear};
+pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear, Polynomials};
 pub use assignment::{Assignment, JointValue, Target, Turn};
+pub use coupling::{Coupling, Law};
 pub use evaluate::{Image, Vector, carry, evaluate, evaluate_side};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;

@@ -10,7 +10,7 @@ use super::vector;
 use crate::kinematics::ExactVector;
 
 impl Mechanism {
-    /// The relations of the loop, each once, those with few joints first.
+    /// The relations of joints that follow others, then those of the loop, each once, those with few joints first.
     ///
     /// For each thing that stays in place only the longest run and tail are taken: the others give the same polynomials. An
     /// empty run or tail leaves everything in place; three directions adapted to the joint beside it are taken.
@@ -32,7 +32,7 @@ impl Mechanism {
                 }
             }
         }
-        sorted(relations)
+        self.couplings().into_iter().chain(sorted(relations)).collect()
     }
 
     fn row(&self, range: &Range<usize>) -> Vec<&ScrewJoint> {

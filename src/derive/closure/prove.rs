@@ -3,7 +3,8 @@
 //! {G_ij - (E1 ... En)_ij, c_i^2 + |w_i|^2 s'_i^2 - 1} is a Groebner basis in an order with the entries of G first and c_i before s'_i:
 //! its leading terms are coprime. So a polynomial is in the ideal exactly when substituting G := E1 ... En and reducing the squares of
 //! the cosines gives zero. In a word, E E^-1 = 1 holds modulo the circle, so neighbours cancel before anything is multiplied out; each
-//! joint is then left once at most, and the multilinear polynomial is its own normal form.
+//! joint is then left once at most, and the multilinear polynomial is its own normal form. Where joints follow others, these laws are generators too:
+//! what is in the ideal without them is in it with them.
 
 use super::arithmetic::Exact;
 use super::assignment::{Assignment, JointValue, Target, Turn};
@@ -18,6 +19,13 @@ use crate::{Error, ErrorKind, Result};
 /// # Errors
 /// [`ErrorKind::Certificate`] when it is not; as [`evaluate`] when it is no relation of the mechanism.
 pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
+    if relation.measure == Measure::Follow {
+        return if mechanism.couplings().contains(relation) {
+            Ok(())
+        } else {
+            Err(refused(relation, "no joint follows so"))
+        };
+    }
     let closed = |word: &Word| closed(mechanism, relation.measure, word);
     let substituted = Relation { left: closed(&relation.left), right: closed(&relation.right), ..relation.clone() };
     let target = Target { position: vector::zero(), turn: Turn::Nothing };
@@ -26,9 +34,11 @@ pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
     if normal_form.is_zero() {
         return Ok(());
     }
-    let text =
-        format!("`{relation}` does not follow from the loop: its normal form has {} terms", normal_form.terms().len());
-    Err(Error::new(ErrorKind::Certificate, text))
+    Err(refused(relation, &format!("its normal form has {} terms", normal_form.terms().len())))
+}
+
+fn refused(relation: &Relation, why: &str) -> Error {
+    Error::new(ErrorKind::Certificate, format!("`{relation}` does not follow from the loop: {why}"))
 }
 
 /// `word` with G := E1 ... En, and E E^-1 cancelled. Sliding joints do not act on directions, which is all that angles see.

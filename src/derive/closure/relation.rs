@@ -5,8 +5,10 @@
 
 use std::fmt;
 
+use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 
+use super::vector;
 use crate::kinematics::{ExactVector, exact_serde};
 
 /// A motion that a word is made of. Joints are counted from 0.
@@ -79,6 +81,9 @@ pub enum Measure {
     Distance,
     /// (a - x).(v x w) of two lines: through a along w, moved: through x along v.
     Moment,
+    /// An unknown of a joint that follows another one, and its value by the law that it follows. The words are the follower and the leader, both
+    /// objects the coordinate axis whose number is that of the unknown: c, s', d'.
+    Follow,
 }
 
 /// The equation `measure(fixed, left moved) - measure(fixed, right moved) = 0`.
@@ -97,6 +102,26 @@ pub struct Relation {
 }
 
 impl Relation {
+    /// The relations by which the joint `follower` follows `leader`: of c and s' where they turn, else of d'.
+    pub(super) fn following(follower: usize, leader: usize, turns: bool) -> Vec<Relation> {
+        let unknown = |axis: usize| Relation {
+            measure: Measure::Follow,
+            fixed: Object::Direction(vector::unit(axis)),
+            moved: Object::Direction(vector::unit(axis)),
+            left: Word(vec![Letter::Joint(follower)]),
+            right: Word(vec![Letter::Joint(leader)]),
+        };
+        let unknowns: &[usize] = if turns { &[0, 1] } else { &[2] };
+        unknowns.iter().map(|&axis| unknown(axis)).collect()
+    }
+
+    /// Of a relation of a joint that follows another one: that joint, its leader, and the number of the unknown, 0 and 1 for c and s', 2 for d'.
+    pub fn followed(&self) -> Option<[usize; 3]> {
+        let (Measure::Follow, Object::Direction(axis)) = (self.measure, &self.fixed) else { return None };
+        let [follower, leader] = [&self.left, &self.right].map(|word| word.0.first().and_then(|letter| letter.joint()));
+        Some([follower?, leader?, axis.iter().position(|entry| !entry.is_zero())?])
+    }
+
     /// The places of the joints that occur, ascending.
     pub fn joints(&self) -> Vec<usize> {
         let mut joints: Vec<usize> =

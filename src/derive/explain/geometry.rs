@@ -64,6 +64,7 @@ pub fn conserved(measure: Measure) -> &'static str {
         Measure::Offset => "the distance along the normal between the two is the same both ways round the loop",
         Measure::Distance => "the distance between the two, hence its square, is the same both ways round the loop",
         Measure::Moment => "the mutual moment of the two is the same both ways round the loop",
+        Measure::Follow => "the one joint is where the other brings it",
     }
 }
 
@@ -80,6 +81,7 @@ pub fn degenerate(measure: Measure) -> &'static str {
             "one of the two points has come to lie on the joint's axis, so that turning about it changes no distance"
         }
         Measure::Moment => "turning about the axis does not change the moment of the two lines",
+        Measure::Follow => "nothing can: the law determines the joint everywhere",
     }
 }
 

@@ -17,7 +17,9 @@ const LONGEST: usize = 1500;
 /// Adds the section of step `index`.
 pub fn explain(page: &mut Document, derived: &Derived, mechanism: &Mechanism, index: usize) -> Result<()> {
     let step = &derived.steps[index];
-    let sorted = step.relations.iter().map(|relation| Sorted::new(mechanism, relation, step.joint));
+    let laws: Vec<String> = step.relations.iter().filter_map(|relation| relation.law(mechanism)).collect();
+    let relations = if laws.len() == step.relations.len() { &[] } else { step.relations.as_slice() };
+    let sorted = relations.iter().map(|relation| Sorted::new(mechanism, relation, step.joint));
     let sorted = sorted.collect::<Result<Vec<_>>>()?;
     Writer { page, derived, mechanism, step, index, sorted, numbers: step.relations.len() }.section()
 }
@@ -39,6 +41,10 @@ impl Writer<'_> {
         let heading = format!("Step {}: joint {}, ", self.index + 1, self.step.joint + 1);
         self.page.section(Line::of(&heading).name(&self.joint().name));
         self.known();
+        if self.sorted.is_empty() {
+            self.follows();
+            return Ok(());
+        }
         (0..self.step.relations.len()).for_each(|number| self.relation(number));
         match &self.step.elimination {
             Some(elimination) => self.elimination(elimination),
@@ -47,6 +53,15 @@ impl Writer<'_> {
         self.triangular()?;
         self.singular();
         Ok(())
+    }
+
+    /// A joint that follows another one.
+    fn follows(&mut self) {
+        for relation in &self.step.relations {
+            self.page.say(&format!("Here {}:", relation.meaning(self.mechanism)));
+            self.page.display(relation.law(self.mechanism).unwrap_or_default());
+        }
+        self.page.say("Nothing is to be solved, and no solution is added or lost.");
     }
 
     fn joint(&self) -> &ScrewJoint {

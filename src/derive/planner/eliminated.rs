@@ -8,8 +8,8 @@ use super::one_joint::Candidate;
 use super::sights::{Sample, Sight, Sights, is_number, members, set};
 use super::specimen::Random;
 use super::types::{PlanStep, Way};
-use crate::derive::closure::Factor;
-use crate::groebner::basis_modulo_prime;
+use crate::derive::closure::{Factor, Mechanism};
+use crate::groebner::{basis_modulo_prime, normal_form};
 use crate::number::Ring;
 use crate::poly::Polynomial;
 use crate::{Result, Watch};
@@ -36,18 +36,26 @@ type Seen = (usize, Rc<Sight>);
 /// As [`Sights::of`]; what `watch` stops with.
 pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Watch) -> Result<Vec<Candidate>> {
     let places = members(joints);
-    let relations = independent(sights, joints, known)?;
+    let followers = followers(sights.mechanism, joints);
+    let laws = if followers == 0 { None } else { Some(Laws::new(sights, &places)?) };
+    let relations = independent(sights, joints, known, laws.as_ref())?;
     let mut best: Vec<Option<Candidate>> = vec![None; places.len()];
-    for chosen in combinations(relations.len(), places.len()) {
+    for chosen in combinations(relations.len(), places.len() - members(followers).len()) {
         watch.check()?;
         let some: Vec<Seen> = chosen.into_iter().map(|at| relations[at].clone()).collect();
-        if !covers(&some, joints) {
+        if !covers(sights.mechanism, &some, joints) {
             continue;
         }
         let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
         for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
             let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
-            let hard = away.iter().filter(|&&joint| !turns_as_one(sights, &some, joint)).count();
+            let is_led = |joint: &usize| followers >> *joint & 1 == 1;
+            let is_plain = match &laws {
+                None => false,
+                Some(laws) => some.iter().all(|(_, sight)| laws.degree(sight).is_ok_and(|degree| degree <= 1)),
+            };
+            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !turns_as_one(sights, &some, **joint);
+            let hard = away.iter().filter(is_hard).count();
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
                 let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
@@ -59,10 +67,20 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
     Ok(best.into_iter().flatten().collect())
 }
 
-/// Whether every joint of the set occurs.
-fn covers(some: &[Seen], joints: u32) -> bool {
+/// The joints of a set that follow others of it: their laws determine them.
+pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
+    let is_in = |joint: usize| joints >> joint & 1 == 1;
+    let led =
+        mechanism.followers().into_iter().filter(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
+    led.fold(0, |set, (follower, _)| set | 1 << follower)
+}
+
+/// Whether every joint of the set occurs, itself or in the law of one that does.
+fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
     let factors = some.iter().flat_map(|(_, sight)| sight.iter().flat_map(|(product, _)| product.list()));
-    factors.fold(0, |set, factor| set | 1 << factor.joint()) == joints
+    let occur = factors.fold(0, |set, factor| set | 1 << factor.joint());
+    let leaders = mechanism.followers().into_iter().filter(|(follower, _)| occur >> follower & 1 == 1);
+    leaders.fold(occur, |set, (_, coupling)| set | 1 << coupling.leader) & joints == joints
 }
 
 /// Whether the relations are combinations, with numbers, of coordinates of one vector that `joint` turns: the sum of their squares
@@ -93,10 +111,42 @@ fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
     turned.into_iter().all(|turn| !rows.insert(turn))
 }
 
-/// The first linearly independent relations in which only joints of the set are unknown.
-fn independent(sights: &mut Sights<'_>, joints: u32, known: u32) -> Result<Vec<Seen>> {
-    let mut within: Vec<usize> = subsets(joints).flat_map(|subset| sights.among(subset, known)).collect();
+/// What joints that follow others make of relations.
+struct Laws {
+    space: Space,
+    ideal: Vec<Polynomial<u64>>,
+}
+
+impl Laws {
+    fn new(sights: &Sights<'_>, places: &[usize]) -> Result<Self> {
+        let space = Space::new(sights.mechanism, places, sights.field())?;
+        let mut ideal = space.couplings(sights.mechanism);
+        ideal.extend(space.circles(&sights.squares)?);
+        Ok(Laws { space, ideal })
+    }
+
+    /// The degree of a relation with the laws in it.
+    fn degree(&self, sight: &Sight) -> Result<u32> {
+        let polynomial = self.space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?;
+        Ok(self.space.ring.degree(&normal_form(&self.space.ring, &polynomial, &self.ideal)?))
+    }
+}
+
+/// The first linearly independent relations in which only joints of the set are unknown; where joints follow others, of the least degree.
+fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&Laws>) -> Result<Vec<Seen>> {
+    let of_loop = |index: &usize| sights.relations[*index].followed().is_none();
+    let mut within: Vec<usize> =
+        subsets(joints).flat_map(|subset| sights.among(subset, known)).filter(of_loop).collect();
     within.sort_unstable();
+    if let Some(laws) = laws {
+        let mut sorted = Vec::with_capacity(within.len());
+        for index in within {
+            let sight = sights.of(index, joints & sights.joints_of(index))?;
+            sorted.push((laws.degree(&sight)?, index));
+        }
+        sorted.sort_unstable();
+        within = sorted.into_iter().filter(|(degree, _)| *degree > 0).map(|(_, index)| index).collect();
+    }
     let mut rows = Echelon::new(sights.field());
     let mut found = Vec::new();
     for index in within.into_iter().take(LOOKED_AT) {
@@ -168,6 +218,7 @@ fn degrees(
     watch: &Watch,
 ) -> Result<Vec<usize>> {
     let mut generators = space.circles(&sights.squares)?;
+    generators.extend(space.couplings(sights.mechanism));
     generators.extend(polynomials);
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {

@@ -3,7 +3,7 @@
 use super::sights::set;
 use super::specimen::{Random, Specimen, lucky_field};
 use super::types::Evidence;
-use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Relation};
+use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Polynomials, Relation};
 use crate::groebner::{Basis, WordQuotient, basis_modulo_prime};
 use crate::number::{Ring, Zp, primes_below};
 use crate::poly::{Order, Polynomial, PolynomialRing, Term};
@@ -85,7 +85,9 @@ fn basis(
     let mask = set(&mechanism.unknown());
     let squares: Vec<u64> = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
     let mut generators = space.circles(&squares)?;
-    for relation in relations.iter().filter(|relation| is_split(relation, mask)) {
+    generators.extend(space.couplings(mechanism));
+    let of_loop = relations.iter().filter(|relation| relation.followed().is_none());
+    for relation in of_loop.filter(|relation| is_split(relation, mask)) {
         watch.check()?;
         let value = specimen.evaluate(mechanism, relation, mask, arithmetic)?;
         generators.push(space.polynomial(value.terms().map(|(product, &coefficient)| (product, coefficient)))?);
@@ -135,6 +137,22 @@ impl Space {
             circles.push(ring.sub(&sum, &ring.one()));
         }
         Ok(circles)
+    }
+
+    /// For each joint that follows another one of these: its unknowns less what the law gives for them.
+    pub fn couplings(&self, mechanism: &Mechanism) -> Vec<Polynomial<u64>> {
+        let mut arithmetic = Polynomials(&self.ring);
+        let places = |joint: usize| (0..self.factors.len()).filter(move |&place| self.factors[place].joint() == joint);
+        let mut couplings = Vec::new();
+        for (follower, coupling) in mechanism.followers() {
+            let [own, leader]: [Vec<Polynomial<u64>>; 2] =
+                [follower, coupling.leader].map(|joint| places(joint).map(|place| self.ring.variable(place)).collect());
+            if !own.is_empty() && !leader.is_empty() {
+                let law = coupling.follow(&leader, &mut arithmetic);
+                couplings.extend(own.iter().zip(&law).map(|(own, law)| self.ring.sub(own, law)));
+            }
+        }
+        couplings
     }
 
     /// The polynomial of products with their coefficients; factors of other joints must not occur.

@@ -9,10 +9,10 @@ use crate::kinematics::{Chain, ExactVector, Plane, Task};
 use crate::number::BigRational;
 
 /// The options of `groebot derive` for a task that the joints of `chain` can do anywhere in their workspace, one joint at a time: as many numbers
-/// as there are joints whose values are not given, or one less. None for a chain whose task asks for no more than the joints can do, and where
+/// as there are joints whose values are not given and that follow no other, or one less. None for a chain whose task asks for no more than the joints can do, and where
 /// no such task is found.
 pub fn fitting_task(chain: &Chain) -> Option<String> {
-    let free = chain.joints().len() - chain.given().len();
+    let free = chain.independent().len();
     if free >= chain.task().freedoms() {
         return None;
     }

@@ -47,18 +47,23 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
     let names =
         |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
     let mut given = chain.given();
-    let Some(excess) = (chain.joints().len() - given.len()).checked_sub(chain.task().freedoms()).filter(|n| *n > 0)
-    else {
+    let Some(excess) = chain.independent().len().checked_sub(chain.task().freedoms()).filter(|n| *n > 0) else {
         return Ok(None);
     };
     for _ in 1..excess {
-        given.push(of_greatest_share(&chain.shares(&given), &given));
+        let joint = of_greatest_share(&chain.shares(&given), &given);
+        given.extend((0..chain.joints().len()).filter(|&place| place == joint || led_by(chain, place) == Some(joint)));
         given.sort_unstable();
     }
     let (joint, candidates) = last_to_give(chain, &given, watch)?;
     given.push(joint);
     given.sort_unstable();
     Ok(Some(Choice { given: names(&given), candidates }))
+}
+
+/// The joint that the one at `place` follows.
+fn led_by(chain: &Chain, place: usize) -> Option<usize> {
+    chain.leader(place).map(|(leader, _)| leader)
 }
 
 /// The first joint whose share is as good as the greatest.

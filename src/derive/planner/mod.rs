@@ -36,14 +36,14 @@ const REACHES: [Reach; 4] = [Reach::OneJoint, Reach::WhereStuck(2), Reach::Every
 const SEED: u64 = 5;
 
 /// The plan of `mechanism`: each joint that is not given is found by a step of at most four solutions, and the product of these
-/// numbers is the number of complex solutions at a generic reachable target. Where the task asks more than the joints can do, the
+/// numbers is the number of complex solutions at a generic reachable target. Where the task asks more than the joints can do, or joints follow others, the
 /// product may be greater: the equations that are left over are measured at run time.
 ///
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] when joints are free, with those that may be given; [`ErrorKind::Unsupported`] when there is no
 /// such plan, with the number of solutions, the degrees of the joints and what the geometry lacks; what `watch` stops with.
 pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
-    if mechanism.unknown().len() > mechanism.seen().freedoms() {
+    if mechanism.independent() > mechanism.seen().freedoms() {
         return Err(refuse::free(mechanism, watch)?);
     }
     let relations = mechanism.relations();
@@ -79,7 +79,7 @@ fn search(
     let (_, arithmetic) =
         lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
     let mut sights = Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))?;
-    let asks_too_much = mechanism.seen().freedoms() > mechanism.unknown().len();
+    let may_be_more = !mechanism.counts_exactly();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
     for reach in REACHES {
         let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };
@@ -92,7 +92,7 @@ fn search(
         }
     }
     match best {
-        Some((_, steps)) if asks_too_much => Ok(steps),
+        Some((_, steps)) if may_be_more => Ok(steps),
         other => Err(refuse::no_plan(mechanism, evidence, other.map(|(product, _)| product))),
     }
 }

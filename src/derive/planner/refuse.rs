@@ -25,9 +25,10 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
 }
 
-/// The places of the chain's own joints that are not given.
+/// The places of the chain's own joints that are not given and follow no other.
 pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
-    mechanism.unknown().into_iter().filter(|&joint| mechanism.hidden() != Some(joint)).collect()
+    let leads = |joint: &usize| mechanism.hidden() != Some(*joint) && mechanism.joints()[*joint].coupling.is_none();
+    mechanism.unknown().into_iter().filter(leads).collect()
 }
 
 /// The error of a mechanism with one joint too many of which none can be given: what each leads to.

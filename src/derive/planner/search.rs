@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use super::eliminated::eliminations;
+use super::eliminated::{eliminations, followers};
 use super::one_joint::{Candidate, best_step};
 use super::sights::{Sights, members, set};
 use super::types::PlanStep;
@@ -107,10 +107,17 @@ impl<'a, 'b> Search<'a, 'b> {
         };
         let unknown = self.all & !known;
         for joints in (1..=unknown).filter(|joints| joints & !unknown == 0) {
-            if (2..=size).contains(&(joints.count_ones() as usize)) {
+            if self.is_together(joints, size) {
                 alone.extend(eliminations(self.sights, joints, known, self.watch)?);
             }
         }
         Ok(alone)
+    }
+
+    /// Whether so many joints are found together: two or more, of which at most `size` follow none of the others.
+    fn is_together(&self, joints: u32, size: usize) -> bool {
+        let count = joints.count_ones() as usize;
+        let led = followers(self.sights.mechanism, joints).count_ones() as usize;
+        count > 1 && count - led <= size
     }
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::specimen::{Random, Specimen};
 use crate::Result;
-use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
+use crate::derive::closure::{Arithmetic, Coupling, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
 use crate::number::{Ring, Zp};
 
 /// So many targets.
@@ -33,6 +33,8 @@ pub struct Sights<'a> {
     weights: Vec<u64>,
     /// The joints of each relation.
     joints: Vec<u32>,
+    /// The joints that must be known for each relation to be one of degree one: leaders that others follow by another law.
+    leaders: Vec<u32>,
     seen: HashMap<(usize, u32), Rc<Sight>>,
 }
 
@@ -50,7 +52,9 @@ impl<'a> Sights<'a> {
         let specimens = (0..MIXED).map(draw).collect::<Result<_>>()?;
         let squares = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
         let joints = relations.iter().map(|relation| set(&relation.joints())).collect();
-        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, weights, joints, seen: HashMap::new() })
+        let leaders = relations.iter().map(|relation| nonlinear_leader(mechanism, relation)).collect();
+        let seen = HashMap::new();
+        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, weights, joints, leaders, seen })
     }
 
     /// The prime field.
@@ -60,7 +64,8 @@ impl<'a> Sights<'a> {
 
     /// The relations whose unknown joints are those of the set `joints`, when those of `known` are known.
     pub fn among(&self, joints: u32, known: u32) -> impl Iterator<Item = usize> + '_ {
-        (0..self.relations.len()).filter(move |&index| self.joints[index] & !known == joints)
+        let is_linear = move |index: &usize| self.leaders[*index] & !known == 0;
+        (0..self.relations.len()).filter(move |&index| self.joints[index] & !known == joints).filter(is_linear)
     }
 
     /// The joints of the relation `index`.
@@ -104,6 +109,13 @@ impl<'a> Sights<'a> {
         let ratio = field.checked_div(&a[0], &b[0])?;
         (0..SPECIMENS).all(|k| a[k] == field.mul(&ratio, &b[k])).then_some(ratio)
     }
+}
+
+/// The leader of a relation of a joint that follows it by a law that is not linear.
+fn nonlinear_leader(mechanism: &Mechanism, relation: &Relation) -> u32 {
+    let Some([follower, leader, _]) = relation.followed() else { return 0 };
+    let coupling = mechanism.joints()[follower].coupling.as_ref();
+    if coupling.is_some_and(Coupling::is_linear) { 0 } else { 1 << leader }
 }
 
 /// The set of these joints.

@@ -1,8 +1,8 @@
 //! Random reachable targets modulo a prime: joints at rational points of their circles, the target by forward kinematics.
 
 use crate::derive::closure::{
-    Arithmetic, Assignment, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object, Relation,
-    Target, Turn, Word, carry, evaluate,
+    Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
+    Relation, Target, Turn, Word, carry, evaluate,
 };
 use crate::kinematics::{ExactVector, Task};
 use crate::number::{BigRational, Field, Ring, Zp};
@@ -39,7 +39,11 @@ impl Specimen {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a denominator that the prime divides.
     pub fn draw(mechanism: &Mechanism, arithmetic: &mut Modular, random: &mut Random) -> Result<Self> {
-        let joints = (0..mechanism.joints().len()).map(|joint| value(mechanism, joint, arithmetic, random)).collect();
+        let mut joints: Vec<JointValue<u64>> =
+            (0..mechanism.joints().len()).map(|joint| value(mechanism, joint, arithmetic, random)).collect();
+        for (follower, coupling) in mechanism.followers() {
+            joints[follower] = followed(coupling, &joints[coupling.leader], arithmetic);
+        }
         let nowhere = Target { position: [0; 3], turn: Turn::Nothing };
         let assignment = Assignment { joints, target: nowhere };
         let parameters = parameters(mechanism, &assignment, arithmetic)?;
@@ -86,6 +90,20 @@ fn value(mechanism: &Mechanism, joint: usize, arithmetic: &mut Modular, random: 
     }
 }
 
+/// The value of a joint that follows another one.
+fn followed(coupling: &Coupling, leader: &JointValue<u64>, arithmetic: &mut Modular) -> JointValue<u64> {
+    let values = match leader {
+        JointValue::Angle { cosine, sine } => coupling.follow(&[*cosine, *sine], arithmetic),
+        JointValue::Length(length) => coupling.follow(&[*length], arithmetic),
+        JointValue::Unknown => Vec::new(),
+    };
+    match values[..] {
+        [cosine, sine] => JointValue::Angle { cosine, sine },
+        [length] => JointValue::Length(length),
+        _ => JointValue::Unknown,
+    }
+}
+
 /// The numbers of the target, in the order of [`Mechanism::parameters`], by forward kinematics.
 fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modular) -> Result<Vec<u64>> {
     let word = Word((0..mechanism.joints().len()).map(Letter::Joint).collect());
@@ -128,6 +146,7 @@ pub fn lucky_field(mechanism: &Mechanism, p: u64) -> Result<Option<Modular>> {
     let mut has_lengths = true;
     for joint in mechanism.joints() {
         constants.extend(joint.axis.iter().chain(&joint.point));
+        constants.extend(joint.coupling.iter().flat_map(Coupling::numbers));
         has_lengths &= arithmetic.rational(&joint.square) != 0;
     }
     for constant in constants {

@@ -151,9 +151,9 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     if steps.len() + plan.given.len() != count {
         return Err(refused("the plan does not find every joint".to_owned()));
     }
-    // Equations beyond those of the plan, where the task asks for more than the joints can do, leave fewer solutions.
-    let tight = mechanism.seen().freedoms() <= mechanism.unknown().len();
-    if !tight && most(plan) < plan.dimension || tight && plan.product() != plan.dimension {
+    // Equations beyond those of the plan, where the task asks for more than the joints can do or joints follow others, leave fewer solutions.
+    let exact = mechanism.counts_exactly();
+    if !exact && most(plan) < plan.dimension || exact && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
         return Err(refused(text));
     }

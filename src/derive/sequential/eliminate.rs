@@ -5,14 +5,16 @@
 //! combination of the relations with polynomial cofactors, whatever the symbols are.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
+use super::combination::combination;
 use super::determinant::by_determinant;
 use super::squares::by_squares;
 use super::symbolic::{Symbolic, TargetPoly};
-use crate::derive::closure::{Factor, Mechanism, Relation};
+use crate::derive::closure::{Coupling, Factor, Mechanism, Polynomials, Relation};
 use crate::derive::planner::PlanStep;
 use crate::groebner::{Options, Strategy, basis, divide};
 use crate::number::{BigRational, Rationals, Ring, Style};
@@ -46,8 +48,10 @@ pub struct Elimination {
     pub ring: PolynomialRing<Rationals>,
     /// The number of unknowns that go, and of the joint's own.
     pub sizes: [usize; 2],
-    /// The relations with symbols, then the circles.
+    /// The relations with symbols, then the laws of joints that follow others, then the circles.
     pub generators: Vec<Poly>,
+    /// Which of the generators are laws.
+    pub laws: Range<usize>,
     /// The symbols.
     pub symbols: Vec<SymbolPlace>,
     /// The polynomial in the joint's unknowns and the symbols.
@@ -95,24 +99,57 @@ impl Elimination {
 
     /// The sum of the squares of two relations that turn a vector by one joint, when no form's degree is too low for it.
     fn by_squares(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<(Poly, Vec<Poly>)> {
-        let ([joint], [f, g, ..]) = (away, self.generators.as_slice()) else { return None };
+        let followers = mechanism.followers();
+        let is_led = |joint: &usize| {
+            let law = followers.iter().find(|(follower, _)| follower == joint);
+            law.is_some_and(|(_, law)| law.leader == step.joint || away.contains(&law.leader))
+        };
+        let mut leading = away.iter().filter(|joint| !is_led(joint));
+        let (Some(joint), None, 2) = (leading.next(), leading.next(), step.way.relations().len()) else { return None };
         let screw = &mechanism.joints()[*joint];
-        if !screw.is_revolute() || step.way.relations().len() != 2 {
+        if !screw.is_revolute() {
             return None;
         }
-        let squares = |pair: [&Poly; 2]| by_squares(&self.ring, pair, &screw.square);
-        let (member, [first, second, circle]) = match squares([f, g]) {
+        let [f, g] = [self.by_laws(0)?, self.by_laws(1)?];
+        let squares = |pair: [&Poly; 2]| by_squares(&self.ring, pair, &screw.square, self.sizes[0] - 2);
+        let (member, [first, second, circle]) = match squares([&f.0, &g.0]) {
             Some(found) => found,
-            None => squares([g, f]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
+            None => squares([&g.0, &f.0]).map(|(member, [second, first, circle])| (member, [first, second, circle]))?,
         };
-        let mut cofactors = vec![first, second, circle];
-        cofactors.resize(self.generators.len(), self.ring.zero());
+        let mut cofactors = self.without_laws([(&first, &f.1), (&second, &g.1)]);
+        let own = usize::from(mechanism.joints()[step.joint].is_revolute());
+        let place = cofactors.len().checked_sub(1 + own)?;
+        cofactors[place] = self.ring.add(&cofactors[place], &circle);
         let member = match mechanism.joints()[step.joint].is_revolute() {
             true => self.without_square(&member, cofactors.last_mut()?)?,
             false => member,
         };
         let most = if mechanism.joints()[step.joint].is_revolute() { 2 } else { 4 };
         (self.is_own(&member) && self.degree(&member) <= most).then_some((member, cofactors))
+    }
+
+    /// A relation with the laws in it, each angle's cosine in the first power, and the cofactors of the laws and circles, by which it
+    /// differs from its generator. Where there is no law it is the generator itself.
+    fn by_laws(&self, relation: usize) -> Option<(Poly, Vec<Poly>)> {
+        let f = &self.generators[relation];
+        if self.laws.is_empty() {
+            return Some((f.clone(), Vec::new()));
+        }
+        let division = divide(&self.ring, f, &self.generators[self.laws.start..]).ok()?;
+        Some((division.remainder, division.quotients))
+    }
+
+    /// The cofactors of a combination of relations from which multiples of laws and circles were taken.
+    fn without_laws(&self, parts: [(&Poly, &Vec<Poly>); 2]) -> Vec<Poly> {
+        let ring = &self.ring;
+        let mut cofactors: Vec<Poly> = parts.iter().map(|(factor, _)| (*factor).clone()).collect();
+        cofactors.resize(self.generators.len(), ring.zero());
+        for (factor, quotients) in parts {
+            for (cofactor, quotient) in cofactors[self.laws.start..].iter_mut().zip(quotients) {
+                *cofactor = ring.sub(cofactor, &ring.mul(factor, quotient));
+            }
+        }
+        cofactors
     }
 
     /// The remainder by the joint's own circle, the last generator: the square of the cosine goes.
@@ -233,19 +270,29 @@ struct Setting<'a> {
     symbols: Vec<(SymbolPlace, Coefficient)>,
     /// The first symbol of the mechanism at hand.
     first: usize,
+    /// Joints that follow others of these.
+    followers: Vec<(usize, &'a Coupling)>,
 }
 
 impl<'a> Setting<'a> {
     fn of_step(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
         let sides: Vec<_> = step.way.relations().iter().map(|relation| (mechanism, relation)).collect();
-        Setting::new(&sides, [away, &[step.joint]].concat())
+        let joints = [away, &[step.joint]].concat();
+        let is_in = |joint: usize| joints.contains(&joint);
+        let mut followers = mechanism.followers();
+        followers.retain(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
+        let is_led = |joint: &&usize| followers.iter().any(|(follower, _)| follower == *joint);
+        // Those that follow go first, and by nothing but their laws.
+        let (led, others): (Vec<usize>, Vec<usize>) = away.iter().partition(is_led);
+        Ok(Setting { followers, ..Setting::new(&sides, [led, others, vec![step.joint]].concat())? })
     }
 
     /// The equations of relations, each of its mechanism. A mechanism's coefficients are told apart from those of another.
     fn new(sides: &[(&'a Mechanism, &Relation)], joints: Vec<usize>) -> Result<Self> {
         let none = || Error::new(ErrorKind::Unsupported, "there is no relation to eliminate from");
         let mut mechanism = sides.first().ok_or_else(none)?.0;
-        let mut setting = Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0 };
+        let mut setting =
+            Setting { mechanism, joints, relations: Vec::new(), symbols: Vec::new(), first: 0, followers: Vec::new() };
         let mut symbolic = Symbolic::new(mechanism)?;
         for (relation, &(own, words)) in sides.iter().enumerate() {
             if !std::ptr::eq(own, mechanism) {
@@ -293,8 +340,10 @@ impl<'a> Setting<'a> {
         let factors: Vec<Factor> = self.joints.iter().flat_map(unknowns).collect();
         let own = self.joints.last().map_or(0, |joint| unknowns(joint).len());
         let sizes = [factors.len() - own, own];
+        let is_led = |factor: &&Factor| self.followers.iter().any(|(follower, _)| *follower == factor.joint());
+        let led = factors[..sizes[0]].iter().filter(is_led).count();
         let names = (0..factors.len()).map(|k| format!("x{k}")).chain((0..self.symbols.len()).map(|k| format!("S{k}")));
-        let blocks = [sizes[0], sizes[1], self.symbols.len()].into_iter().filter(|size| *size > 0);
+        let blocks = [led, sizes[0] - led, sizes[1], self.symbols.len()].into_iter().filter(|size| *size > 0);
         let order = Order::Block(blocks.map(|size| Block { size, graded: true }).collect());
         let ring = PolynomialRing::new(Rationals, &names.collect::<Vec<_>>(), order)?;
         let place = |factor: &Factor| factors.iter().position(|other| other == factor);
@@ -319,6 +368,14 @@ impl<'a> Setting<'a> {
             }
             generators.push(sum);
         }
+        let relations = generators.len();
+        for (follower, coupling) in &self.followers {
+            let [own, leader]: [Vec<Poly>; 2] = [*follower, coupling.leader]
+                .map(|joint| unknowns(&joint).iter().filter_map(place).map(|v| ring.variable(v)).collect());
+            let law = coupling.follow(&leader, &mut Polynomials(&ring));
+            generators.extend(own.iter().zip(&law).map(|(own, law)| ring.sub(own, law)));
+        }
+        let laws = relations..generators.len();
         for joint in self.joints.iter().filter(|joint| self.mechanism.joints()[**joint].is_revolute()) {
             let square =
                 |factor: Factor| place(&factor).map(|v| ring.pow(&ring.variable(v), 2)).unwrap_or_else(|| ring.zero());
@@ -327,47 +384,6 @@ impl<'a> Setting<'a> {
         }
         let symbols = self.symbols.into_iter().map(|(place, _)| place).collect();
         let (member, cofactors) = (ring.zero(), Vec::new());
-        Ok(Elimination { ring, sizes, generators, symbols, member, cofactors })
+        Ok(Elimination { ring, sizes, generators, laws, symbols, member, cofactors })
     }
-}
-
-/// The numbers with which `rows`, which are independent, add up to `target`.
-fn combination<K: Ord + Clone>(
-    target: &BTreeMap<K, BigRational>,
-    rows: &[BTreeMap<K, BigRational>],
-) -> Option<Vec<BigRational>> {
-    // Each row, with what it is made of, is reduced by those before; then the target is.
-    let unit =
-        |index: usize| (0..rows.len()).map(|k| BigRational::from_integer(i32::from(k == index).into())).collect();
-    let mut echelon: Vec<(K, BTreeMap<K, BigRational>, Vec<BigRational>)> = Vec::new();
-    let reduce = |row: &mut BTreeMap<K, BigRational>, made: &mut Vec<BigRational>, echelon: &[(K, _, Vec<_>)]| {
-        for (pivot, own, parts) in echelon {
-            let Some(factor) = row
-                .get(pivot)
-                .map(|value| value / &BTreeMap::get(own, pivot).cloned().unwrap_or_else(BigRational::one))
-            else {
-                continue;
-            };
-            subtract(row, own, &factor);
-            made.iter_mut().zip(parts).for_each(|(sum, part)| *sum -= &factor * part);
-        }
-    };
-    for (index, row) in rows.iter().enumerate() {
-        let (mut row, mut made): (_, Vec<BigRational>) = (row.clone(), unit(index));
-        reduce(&mut row, &mut made, &echelon);
-        let pivot = row.keys().next()?.clone();
-        echelon.push((pivot, row, made));
-    }
-    let (mut rest, mut made) = (target.clone(), vec![BigRational::zero(); rows.len()]);
-    reduce(&mut rest, &mut made, &echelon);
-    rest.is_empty().then(|| made.into_iter().map(|number| -number).collect())
-}
-
-/// `row - factor own`, zeros left out.
-fn subtract<K: Ord + Clone>(row: &mut BTreeMap<K, BigRational>, own: &BTreeMap<K, BigRational>, factor: &BigRational) {
-    for (key, value) in own {
-        let entry = row.entry(key.clone()).or_insert_with(BigRational::zero);
-        *entry -= factor * value;
-    }
-    row.retain(|_, value| !value.is_zero());
 }

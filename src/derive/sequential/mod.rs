@@ -5,6 +5,7 @@ mod cases;
 pub mod certificate;
 mod checks;
 mod circle;
+mod combination;
 mod context;
 mod determinant;
 mod eliminate;

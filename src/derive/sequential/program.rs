@@ -50,11 +50,12 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     if let Some(standing) = mechanism.standing() {
         standing::close(standing, &mut layout, &mut blocks, reach);
     }
+    let (dimension, product) = (parts.plan.dimension, parts.plan.product());
+    let most = if mechanism.followers().is_empty() { dimension } else { dimension.max(product) };
     let program = Program {
-        capacity: (2 * parts.plan.dimension + blocks.len()).min(4096),
+        capacity: (2 * most + blocks.len()).min(4096),
         // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
-        isolated: (mechanism.seen().freedoms() <= mechanism.unknown().len() && slack == Slack::NONE)
-            .then_some(parts.plan.dimension),
+        isolated: (mechanism.is_tight() && slack == Slack::NONE).then_some(parts.plan.dimension),
         blocks,
         ..framed(chain, mechanism, layout)
     }
@@ -82,10 +83,11 @@ fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
 }
 
 /// The joint that moves freely where the first of these steps leaves its joint free: that joint itself, and for the hidden one, which is no
-/// joint of an answer, the first that follows from it.
+/// joint of an answer, the first that follows from it; its leader where it has one.
 fn free(mechanism: &Mechanism, steps: &[ProvedStep]) -> usize {
     let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
-    own.unwrap_or(0)
+    let leading = |joint: usize| mechanism.joints()[joint].coupling.as_ref().map_or(joint, |coupling| coupling.leader);
+    own.map_or(0, leading)
 }
 
 impl Context<'_> {

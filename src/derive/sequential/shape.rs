@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 use super::eliminate::Elimination;
 use super::form_basis::Form;
@@ -35,6 +35,9 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
             let square = !part(&polynomial, Factor::LengthSquared(step.joint)).is_empty();
             plain(if square { Form::Quadratic } else { Form::Linear })
         }
+        Way::Pair([cosine, sine]) if follows(step.joint, [cosine, sine]) => {
+            Ok(Shape { form: Form::Turn, ratio: Some(BigRational::one()) })
+        }
         Way::Pair(relations) if revolute => {
             let ratio = turn(mechanism, step.joint, relations)?;
             Ok(Shape { form: if ratio.is_some() { Form::Turn } else { Form::Pair }, ratio })
@@ -42,6 +45,15 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
         Way::Pair(_) => Err(Error::new(ErrorKind::Unsupported, "two equations for one length; one is enough")),
         Way::Eliminated { .. } => Err(Error::new(ErrorKind::Unsupported, "the other joints are not eliminated yet")),
     }
+}
+
+/// Whether these are the relations by which the joint follows another one: `c = ..` and `s' = ..`.
+fn follows(joint: usize, relations: [&Relation; 2]) -> bool {
+    relations
+        .map(Relation::followed)
+        .iter()
+        .zip(0..)
+        .all(|(followed, unknown)| followed.is_some_and(|[follower, _, own]| follower == joint && own == unknown))
 }
 
 /// The shape of what an elimination leaves.

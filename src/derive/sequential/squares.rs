@@ -18,14 +18,15 @@ struct Linear {
     u: Poly,
 }
 
-/// The polynomial without variables 0 and 1, the cosine and sine, and its cofactors by `f`, `g` and the circle with `n`; `None` when no
+/// The polynomial without the variables `place` and the next, the cosine and sine, and its cofactors by `f`, `g` and the circle with `n`; `None` when no
 /// multiple of `f` makes a turn of the two.
 pub(super) fn by_squares(
     ring: &PolynomialRing<Rationals>,
     [f, g]: [&Poly; 2],
     n: &BigRational,
+    place: usize,
 ) -> Option<(Poly, [Poly; 3])> {
-    let (first, second) = (linear(ring, f)?, linear(ring, g)?);
+    let (first, second) = (linear(ring, f, place)?, linear(ring, g, place)?);
     let (k, m) = turn(ring, &first, &second, n)?;
     let lambda = n / (&k * &k);
     let other = ring.add(g, &ring.scale(f, &m));
@@ -41,16 +42,16 @@ pub(super) fn by_squares(
     Some((member, [by_first, by_other, length]))
 }
 
-fn linear(ring: &PolynomialRing<Rationals>, f: &Poly) -> Option<Linear> {
+fn linear(ring: &PolynomialRing<Rationals>, f: &Poly, place: usize) -> Option<Linear> {
     let part = |f: &Poly, v: usize| {
         let mut parts = ring.coefficients_in(f, v).into_iter();
         let low = parts.next().unwrap_or_else(|| ring.zero());
         let high = parts.next().unwrap_or_else(|| ring.zero());
         parts.next().is_none().then_some((low, high))
     };
-    let (rest, p) = part(f, 0)?;
-    let (u, q) = part(&rest, 1)?;
-    (ring.degree_in(&p, 1) == 0).then_some(Linear { p, q, u })
+    let (rest, p) = part(f, place)?;
+    let (u, q) = part(&rest, place + 1)?;
+    (ring.degree_in(&p, place + 1) == 0).then_some(Linear { p, q, u })
 }
 
 /// The numbers with `q2 + m q1 = k p1` and `p2 + m p1 = -k q1 / n`.

@@ -49,6 +49,10 @@ impl Derived {
             for (number, relation) in step.relations.iter().enumerate() {
                 let _ = writeln!(text, "({}.{})  {relation}", index + 1, number + 1);
                 let _ = writeln!(text, "       {}", relation.meaning(mechanism));
+                if let Some(law) = relation.law(mechanism) {
+                    let _ = writeln!(text, "       {law}");
+                    continue;
+                }
                 let polynomial = symbolic.polynomial(mechanism, relation)?;
                 let _ = writeln!(text, "       {}", written(mechanism, &symbolic, &polynomial));
             }

@@ -36,6 +36,16 @@ impl Model {
     pub fn of(chain: &Chain) -> Result<Model> {
         chain.check_leaders()?;
         let (joints, given, task) = (chain.joints().len(), chain.given(), chain.task());
+        if chain.independent().len() <= task.freedoms() && joints - given.len() > task.freedoms() {
+            let text = format!(
+                "screw theory takes at most {} unknown joints for the task `{}`, those that follow others included; `groebot derive` finds what the \
+                 {} independent joints are, and a search (`groebot ik --numeric`) does",
+                task.freedoms(),
+                task.name(),
+                chain.independent().len()
+            );
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
         if joints - given.len() > task.freedoms() {
             let text = format!(
                 "{} joints for the task `{}`, which determines {} at most; give the values of the others (`given`)",

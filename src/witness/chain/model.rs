@@ -25,7 +25,7 @@ pub(super) struct Model<'a> {
     pub chain: &'a Chain,
     /// The reach, or one for a chain that only turns its tip.
     pub length: f64,
-    /// The joints that are asked for.
+    /// The joints that are asked for, but for those that follow others.
     pub unknown: Vec<usize>,
     /// The joints whose values are given.
     pub given: Vec<usize>,
@@ -34,9 +34,8 @@ pub(super) struct Model<'a> {
 impl<'a> Model<'a> {
     pub fn new(chain: &'a Chain) -> Self {
         let given = chain.given();
-        let unknown = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
         let reach = chain.reach();
-        Model { chain, length: if reach > 0.0 { reach } else { 1.0 }, unknown, given }
+        Model { chain, length: if reach > 0.0 { reach } else { 1.0 }, unknown: chain.independent(), given }
     }
 
     /// Whether joint `index` turns.
@@ -163,10 +162,12 @@ impl<'a> Model<'a> {
         if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
-    /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
-    /// task has freedoms.
+    /// The derivative of what the task sees, by the unknown joints, with which others move: lengths in reaches, angles in radians. As many rows
+    /// as the task has freedoms.
     pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
-        self.chain.task_jacobian(q, &self.given).select_columns(&self.unknown)
+        let mut q = q.to_vec();
+        self.chain.follow(&mut q);
+        self.chain.coupled_jacobian(&q, &self.given).select_columns(&self.unknown)
     }
 }
 
@@ -205,6 +206,9 @@ pub(super) trait Configuration {
 
     /// An answer with the values of all joints.
     fn completed(&self, target: &[f64], answer: Solution) -> Solution;
+
+    /// Brings joints that follow others to where these bring them.
+    fn settle(&self, _q: &mut [f64]) {}
 
     /// One radian, or the reach.
     fn unit(&self, joint: usize) -> f64 {
@@ -288,17 +292,31 @@ impl Configuration for Model<'_> {
         Ok(found.iter().map(|answer| whole(&answer.q)).collect())
     }
 
-    /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering.
+    fn settle(&self, q: &mut [f64]) {
+        self.chain.follow(q);
+    }
+
+    /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering. Of a joint that follows another
+    /// one and is free, that one is.
     fn completed(&self, target: &[f64], answer: Solution) -> Solution {
-        if answer.q.len() != self.unknown.len() || self.given.is_empty() {
-            return answer;
-        }
-        let mut q = vec![0.0; self.chain.joints().len()];
+        let count = self.chain.joints().len();
+        let open: Vec<usize> = (0..count).filter(|joint| !self.given.contains(joint)).collect();
+        let places = match answer.q.len() {
+            length if length == count => (0..count).collect(),
+            length if length == open.len() => open,
+            length if length == self.unknown.len() => self.unknown.clone(),
+            _ => return answer,
+        };
+        let mut q = vec![0.0; count];
         let inputs = &target[target.len() - self.chain.given_inputs().len()..];
         let values = self.chain.given_values(inputs);
         self.given.iter().zip(values).for_each(|(&joint, value)| q[joint] = value);
-        self.unknown.iter().zip(&answer.q).for_each(|(&joint, &value)| q[joint] = value);
-        let free = answer.free.iter().map(|&place| self.unknown[place]).collect();
+        places.iter().zip(&answer.q).for_each(|(&joint, &value)| q[joint] = value);
+        if places.len() < count - self.given.len() {
+            self.chain.follow(&mut q);
+        }
+        let leading = |joint: usize| self.chain.leader(joint).map_or(joint, |(leader, _)| leader);
+        let free = answer.free.iter().map(|&place| leading(places[place])).collect();
         Solution { q, free, ..answer }
     }
 }

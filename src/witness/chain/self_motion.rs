@@ -161,6 +161,7 @@ pub(super) trait SelfMotions: Configuration {
         across: &dyn Fn(&[f64]) -> DMatrix<f64>,
         tolerance: f64,
     ) -> Option<Vec<f64>> {
+        self.settle(&mut q);
         let fixed = across(&q);
         for _ in 0..CORRECTIONS {
             if self.residual(target, &q) <= tolerance {
@@ -176,6 +177,7 @@ pub(super) trait SelfMotions: Configuration {
             for (&joint, step) in moving.iter().zip(step.iter()) {
                 q[joint] -= step * self.unit(joint);
             }
+            self.settle(&mut q);
         }
         (self.residual(target, &q) <= tolerance).then_some(q)
     }
@@ -187,6 +189,7 @@ pub(super) trait SelfMotions: Configuration {
             let moved = |by: f64| {
                 let mut q = q.to_vec();
                 q[joint] += by * self.unit(joint);
+                self.settle(&mut q);
                 DVector::from_vec(self.misses(target, &q))
             };
             (moved(width) - moved(-width)) / (2.0 * width)
