@@ -15,6 +15,7 @@ mod arithmetic;
 mod batch;
 mod conditions;
 pub mod derivatives;
+mod described;
 mod double;
 pub mod dynamics;
 mod joints;

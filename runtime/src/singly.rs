@@ -2,6 +2,7 @@
 
 use crate::answers::Answers;
 use crate::conditions::conform;
+use crate::described::solve_described;
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
@@ -11,6 +12,23 @@ use crate::trigonometry::{cosine, sine};
 /// As [`crate::Solve::solve`].
 #[inline]
 pub(crate) fn solve_one<M: Mechanism>(
+    mechanism: &M,
+    target: &Inputs<M>,
+    out: &mut [Solution<M>],
+) -> Result<usize, Error> {
+    match mechanism.facts().within {
+        None => solve_ideal(mechanism, target, out),
+        Some(within) => {
+            let mut target = target.clone();
+            conform(mechanism.facts().conditions, target.as_mut())?;
+            Ok(solve_described(mechanism, &target, within, out)?.0)
+        }
+    }
+}
+
+/// All joint values with which the equations hold.
+#[inline]
+pub(crate) fn solve_ideal<M: Mechanism>(
     mechanism: &M,
     target: &Inputs<M>,
     out: &mut [Solution<M>],
@@ -30,15 +48,17 @@ pub(crate) fn solve_one_by_pairs<M: Mechanism>(
     target: &Inputs<M>,
     out: &mut [Pairs<M>],
 ) -> Result<usize, Error> {
-    let mut conforming = target.clone();
-    conform(mechanism.facts().conditions, conforming.as_mut())?;
-    let p = mechanism.parameters(&conforming);
-    let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
-    answers.find()?;
-    let (count, are_all) = (answers.count, answers.are_all_pairs());
-    if are_all {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
+    if mechanism.facts().within.is_none() {
+        let mut conforming = target.clone();
+        conform(mechanism.facts().conditions, conforming.as_mut())?;
+        let p = mechanism.parameters(&conforming);
+        let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
+        answers.find()?;
+        let (count, are_all) = (answers.count, answers.are_all_pairs());
+        if are_all {
+            out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+            return Ok(count);
+        }
     }
     let mut list: Answered<M, Solution<M>> = Array::by(mechanism.facts().capacity, |_| Solution::empty(mechanism));
     let count = solve_one(mechanism, target, list.as_mut())?.min(out.len());

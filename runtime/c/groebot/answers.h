@@ -364,12 +364,42 @@ static void gb_keep_pairs(gb_sink_1 *c)
     }
 }
 
+#ifdef GB_WITHIN
+/* Keeps the one of the candidates that wait that comes nearest to the target, if it is nearer than those before. */
+static void gb_keep_closest(gb_sink_1 *c)
+{
+    gb_answers *all = &c->all;
+    /* Every case of a stratum runs. */
+    all->unsound = all->candidates;
+    for (size_t k = 0; k < c->waiting && !(all->has_nearest && all->nearest_fit.relative <= GB_POLISHED); k++) {
+        gb_real q[GB_MAX_JOINTS];
+        for (int i = 0; i < GB_JOINTS; i++) {
+            const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
+            q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
+        }
+        const gb_fit fit = gb_fitted(&all->problem, q, c->found[k].free);
+        if (!(all->has_nearest && fit.relative >= all->nearest_fit.relative) && gb_magnitude(fit.residual) <= GB_GREATEST) {
+            all->has_nearest = true;
+            all->nearest_fit = fit;
+            memcpy(all->nearest, q, GB_JOINTS * sizeof *q);
+        }
+    }
+}
+#endif
+
 /* Keeps what is an answer of the candidates that wait. */
 static GB_APART void gb_flush(gb_sink_1 *c)
 {
     for (int i = 0; c->waiting % 2 == 1 && i < GB_PLACES; i++) {
         c->at[i][c->waiting] = c->at[i][c->waiting - 1];
     }
+#ifdef GB_WITHIN
+    if (c->seeks_closest) {
+        gb_keep_closest(c);
+        c->waiting = 0;
+        return;
+    }
+#endif
     if (c->pairs) {
         gb_keep_pairs(c);
     } else {

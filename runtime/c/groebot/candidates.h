@@ -9,6 +9,8 @@ struct gb_sink_1 {
     /* Where pairs are written instead, or null, and whether all candidates so far can be. */
     gb_pairs *pairs;
     bool is_usual;
+    /* Whether only the candidate is wanted that comes nearest to the target, which the joints may miss. */
+    bool seeks_closest;
     /* Whether usual cases alone have run. */
     bool is_ordinary;
     size_t waiting;
