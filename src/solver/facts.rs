@@ -92,7 +92,7 @@ impl Facts {
             isolated: program.isolated,
             freed: program.freed().collect(),
             conditions: program.conditions.iter().map(condition).collect(),
-            reached: forward.map_or_else(Vec::new, |forward| reached(&forward)),
+            reached: forward.map_or_else(Vec::new, |forward| reached(program, &forward)),
             nearby: program.nearby,
             within: program.described.as_ref().map(|described| described.within),
             preference: program.preference.and_then(|preference| {
@@ -154,15 +154,23 @@ fn condition(condition: &Condition) -> (&'static str, usize) {
     }
 }
 
-fn reached(forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
-    let compares = |value: Operand| move |other: &Option<(Operand, usize)>| other.is_some_and(|other| other.0 == value);
-    let at = |value| forward.equations.iter().position(compares(value)).expect("an equation compares what is reached");
-    let input = |input: &Reached| match *input {
-        Reached::Value(value) => ("Value", vec![at(value)]),
-        Reached::Angle { cosine, sine } => ("Angle", vec![at(cosine), at(sine)]),
+fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
+    // Two equations may have one value; as described they have two.
+    let is_own = |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
+    let at = |value: Operand, rule: &dyn Fn() -> Rule| {
+        let compares = |other: &Option<(Operand, usize)>| {
+            other.is_some_and(|(other, parameter)| other == value && is_own(parameter, rule()))
+        };
+        forward.equations.iter().position(compares).expect("an equation compares what is reached")
+    };
+    let input = |(index, input): (usize, &Reached)| match *input {
+        Reached::Value(value) => ("Value", vec![at(value, &|| Rule::Input(index))]),
+        Reached::Angle { cosine, sine } => {
+            ("Angle", vec![at(cosine, &|| Rule::Cosine(index)), at(sine, &|| Rule::Sine(index))])
+        }
         Reached::Joint(joint) => ("Joint", vec![joint]),
     };
-    forward.inputs.iter().map(input).collect()
+    forward.inputs.iter().enumerate().map(input).collect()
 }
 
 /// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.

@@ -4,6 +4,7 @@ mod certificate;
 mod chains;
 mod closure;
 mod coupled;
+pub mod described;
 mod ends;
 mod explain;
 mod families;

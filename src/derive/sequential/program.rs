@@ -103,10 +103,11 @@ pub(super) fn described_by(
     Ok(fits.then_some(described))
 }
 
-/// Whether the equations say more than the joints can do: for a planar pose that the chain stays in its plane.
+/// Whether the equations say more than the joints can do: for a planar pose that the chain stays in its plane, for an angle about an axis that the tip does not
+/// tilt.
 fn asks_for_more(mechanism: &Mechanism) -> bool {
     let freedoms = mechanism.seen().freedoms();
-    matches!(mechanism.task(), Task::PlanarPose { .. }) || freedoms > mechanism.unknown().len()
+    matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. }) || freedoms > mechanism.unknown().len()
 }
 
 fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {

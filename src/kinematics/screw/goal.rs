@@ -35,8 +35,14 @@ impl Target {
                 let at = Translation3::from(in_plane(&from, plane, &[*x, *y]).coords);
                 Goal::Pose(Pose::from_parts(at, rotation) * tip.inverse())
             }
+            (Target::PositionYaw { point, yaw }, Task::PositionYaw { axis }) => {
+                let (aim, [a, b]) = (tip.rotation * chain.aim().into_inner(), axis.across());
+                let normal = Unit::new_unchecked(Vector3::ith(axis.coordinate(), 1.0));
+                let rotation = UnitQuaternion::from_axis_angle(&normal, yaw - aim[b].atan2(aim[a])) * tip.rotation;
+                Goal::Pose(Pose::from_parts(point.coords.into(), rotation) * tip.inverse())
+            }
             // A position with pitch and roll is asked of the loop that stands for it; a planar target has a plane.
-            (Target::PositionPitchRoll { point, .. }, _) => Goal::Point { from, to: *point },
+            (Target::PositionPitchRoll { point, .. } | Target::PositionYaw { point, .. }, _) => Goal::Point { from, to: *point },
             (Target::PlanarPosition(_) | Target::PlanarPose(_), _) => Goal::Point { from, to: from },
         };
         Ok(goal)

@@ -312,9 +312,11 @@ fn turn_about(ray: &Screw, motions: &[Pose], goal: &Goal) -> f64 {
     2.0 * turn.imag().dot(&axis.direction()).atan2(turn.scalar())
 }
 
-/// Whether a task asks for more than the joints of `chain` can do: a planar one that the chain stays in its plane.
+/// Whether a task asks for more than the joints of `chain` can do: a planar one that the chain stays in its plane, an angle about an axis that the tip does
+/// not tilt.
 fn asks_for_more(chain: &Chain) -> bool {
-    chain.task().plane().is_some() || chain.joints().len() - chain.given().len() < chain.task().freedoms()
+    let is_held = chain.task().plane().is_some() || chain.task().axis().is_some();
+    is_held || chain.joints().len() - chain.given().len() < chain.task().freedoms()
 }
 
 /// What is there, and what would be needed.
