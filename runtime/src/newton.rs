@@ -6,8 +6,8 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SHORT,
-    STIFF,
+    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ROUNDING, SHORT, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.

@@ -11,7 +11,9 @@ use super::samples::Table;
 use super::six_axes;
 use super::walk::{self, Function, reads};
 use crate::document::word;
-use crate::solver::{Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit};
+use crate::solver::{
+    Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit,
+};
 
 /// Everything that the skeletons name.
 #[derive(Serialize)]

@@ -153,8 +153,10 @@ impl Ends {
         }
         let task = self.task.unwrap_or(chain.task());
         if self.direction.is_some() && !task.aims() {
-            let text =
-                format!("the task `{}` aims no direction; leave it out, or ask for `ray`, `direction` or `position_yaw`", task.name());
+            let text = format!(
+                "the task `{}` aims no direction; leave it out, or ask for `ray`, `direction` or `position_yaw`",
+                task.name()
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let keeps = task.axis().is_none() || task == chain.task();

@@ -168,7 +168,11 @@ pub(super) fn check_plane(index: usize, joint: &Joint, plane: Plane, within: f64
         "axis {} moves the tip out of the {} plane of the task; {allowed}{}",
         shown(&show(&joint.axis)),
         plane.name(),
-        if off <= WIDEST { format!("; it is {off:.1e} rad off: a wider tolerance, `--snap`, takes it for that") } else { String::new() }
+        if off <= WIDEST {
+            format!("; it is {off:.1e} rad off: a wider tolerance, `--snap`, takes it for that")
+        } else {
+            String::new()
+        }
     );
     Err(joint_fault(index, joint, "axis", ErrorKind::BadValue, &message))
 }

@@ -156,7 +156,8 @@ fn condition(condition: &Condition) -> (&'static str, usize) {
 
 fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
     // Two equations may have one value; as described they have two.
-    let is_own = |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
+    let is_own =
+        |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
     let at = |value: Operand, rule: &dyn Fn() -> Rule| {
         let compares = |other: &Option<(Operand, usize)>| {
             other.is_some_and(|(other, parameter)| other == value && is_own(parameter, rule()))

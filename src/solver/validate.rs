@@ -224,8 +224,14 @@ impl Context<'_> {
         self.code(&described.code, "described")?;
         described.residuals.iter().try_for_each(|&operand| self.operand(operand, "described"))?;
         let is_whole = described.residuals.len() == self.program.checks.residuals.len() && !self.program.nearby;
-        ensure(is_whole && described.within.is_finite() && described.within >= 0.0, "described: equations or tolerance")?;
-        ensure(described.is_affine(self.program), "described: equations that are not affine in the numbers of each joint")?;
+        ensure(
+            is_whole && described.within.is_finite() && described.within >= 0.0,
+            "described: equations or tolerance",
+        )?;
+        ensure(
+            described.is_affine(self.program),
+            "described: equations that are not affine in the numbers of each joint",
+        )?;
         let reached = self.program.forward().is_some_and(|forward| !forward.inputs.is_empty());
         ensure(reached, "described: the equations do not compare the tip with the target")
     }

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use groebot::Watch;
 use groebot::derive::Proved;
 use groebot::kinematics::screw::ScrewSolver;
-use groebot::kinematics::{Chain, JointKind, Plane, Solution, Target, Task};
+use groebot::kinematics::{BaseAxis, Chain, JointKind, Plane, Solution, Target, Task};
 use groebot::model::Robot;
 use nalgebra::DMatrix;
 
@@ -173,7 +173,8 @@ fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
     for q in joints(exact, count) {
         let target = Target::reached(exact, &q).unwrap();
         let wanted = reference.solve(&target, &[]).unwrap();
-        let is_ordinary = |answer: &Solution| answer.free.is_empty() && sigma(exact.task_jacobian(&answer.q, &[])) > 2e-2;
+        let is_ordinary =
+            |answer: &Solution| answer.free.is_empty() && sigma(exact.task_jacobian(&answer.q, &[])) > 2e-2;
         for target in [target, Target::reached(described, &q).unwrap()] {
             let answers = solver.solve(&target, &[]).unwrap();
             for answer in &answers {
@@ -217,6 +218,9 @@ fn rays_and_planar_poses_of_rounded_robots_have_the_answers_of_all_digits() {
         let ray = |digits| asked(&robot(&SCARA, digits), Task::Ray, [1, 0, 0]);
         let seen = compare(&ray(rounding), &ray(EXACT), 16);
         assert!(seen.answers >= 20, "{seen:?}");
+        let yaw = |digits| asked(&robot(&SCARA, digits), Task::PositionYaw { axis: BaseAxis::Z }, [1, 0, 0]);
+        let seen = compare(&yaw(rounding), &yaw(EXACT), 16);
+        assert!(seen.answers >= 40, "{seen:?}");
         let planar = |digits| asked(&robot(&PLANAR, digits), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
         let seen = compare(&planar(rounding), &planar(EXACT), 24);
         assert!(seen.answers >= 40, "{seen:?}");

@@ -11,6 +11,7 @@ mod families;
 mod mimic;
 mod noisy;
 mod planner;
+mod position_yaw;
 mod random_chains;
 mod renamed;
 mod seed;

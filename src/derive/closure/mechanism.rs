@@ -241,7 +241,9 @@ impl Mechanism {
     /// The names of the numbers of the target that the user gives.
     pub fn inputs(&self) -> Vec<String> {
         match self.task {
-            Task::PositionYaw { axis } => ["px", "py", "pz"].map(str::to_owned).into_iter().chain(yaw_names(axis).map(|(_, name)| name)).collect(),
+            Task::PositionYaw { axis } => {
+                ["px", "py", "pz"].map(str::to_owned).into_iter().chain(yaw_names(axis).map(|(_, name)| name)).collect()
+            }
             task => numbers(task),
         }
     }
@@ -286,7 +288,9 @@ fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
     let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));
     let about_aim = joint(JointKind::Revolute, aim);
     match task {
-        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => Vec::new(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => {
+            Vec::new()
+        }
         Task::Position | Task::PlanarPosition { .. } => every(JointKind::Revolute).collect(),
         Task::Direction => every(JointKind::Prismatic).chain([about_aim]).collect(),
         Task::Rotation => every(JointKind::Prismatic).collect(),

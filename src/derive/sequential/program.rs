@@ -107,7 +107,8 @@ pub(super) fn described_by(
 /// tilt.
 fn asks_for_more(mechanism: &Mechanism) -> bool {
     let freedoms = mechanism.seen().freedoms();
-    matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. }) || freedoms > mechanism.unknown().len()
+    matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. })
+        || freedoms > mechanism.unknown().len()
 }
 
 fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {

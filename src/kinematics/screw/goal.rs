@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::reduced::{Goal, Member, Reduced};
+use super::reduced::{Goal, LOOSE, Member, Reduced};
+use super::values::Reach;
 use crate::Result;
 use crate::kinematics::{Chain, Plane, Target, Task};
 use crate::spatial::Pose;
@@ -42,7 +43,9 @@ impl Target {
                 Goal::Pose(Pose::from_parts(point.coords.into(), rotation) * tip.inverse())
             }
             // A position with pitch and roll is asked of the loop that stands for it; a planar target has a plane.
-            (Target::PositionPitchRoll { point, .. } | Target::PositionYaw { point, .. }, _) => Goal::Point { from, to: *point },
+            (Target::PositionPitchRoll { point, .. } | Target::PositionYaw { point, .. }, _) => {
+                Goal::Point { from, to: *point }
+            }
             (Target::PlanarPosition(_) | Target::PlanarPose(_), _) => Goal::Point { from, to: from },
         };
         Ok(goal)
@@ -74,5 +77,5 @@ fn in_plane(tip: &Point3<f64>, plane: Plane, at: &[f64; 2]) -> Point3<f64> {
 /// The loop of all joints.
 pub(super) fn whole(screws: &[crate::spatial::Screw], goal: Goal) -> Reduced {
     let row = screws.iter().enumerate().map(|(joint, &screw)| Member { joint, screw }).collect();
-    Reduced { row, goal }
+    Reduced { row, goal, loose: Reach::Within(LOOSE) }
 }

@@ -7,9 +7,10 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use super::model::Model;
 use super::order::{Order, Orders, samples};
 use super::plan::Plan;
-use super::reduced::{Goal, Reduced};
+use super::reduced::{Goal, LOOSE, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
+use super::values::Reach;
 use super::{ACCEPT, MERGE, upright};
 use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::upright::Upright;
@@ -17,6 +18,8 @@ use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Ta
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
+/// How many times as far as an answer may be off the goal a step's target may be out of reach.
+const LEVER: f64 = 30.0;
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
 
@@ -92,10 +95,12 @@ impl ScrewSolver {
         let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(&ideal)) };
         let (described, reach) = (if report.is_same() { None } else { Some(Model::of(chain)?) }, scale.length);
         let parts = (ideal.clone(), ideal.clone(), model.clone(), orders.clone());
-        let solver = ScrewSolver { chain: chain.clone(), ideal, model, described, orders, reach, upright: None, ideally: None };
+        let solver =
+            ScrewSolver { chain: chain.clone(), ideal, model, described, orders, reach, upright: None, ideally: None };
         Ok(if solver.described.is_some() && asks_for_more(chain) {
             let (chain, ideal, model, orders) = parts;
-            let inner = ScrewSolver { chain, ideal, model, described: None, orders, reach, upright: None, ideally: None };
+            let inner =
+                ScrewSolver { chain, ideal, model, described: None, orders, reach, upright: None, ideally: None };
             ScrewSolver { ideally: Some(Box::new(Ideally { solver: inner, within: 2.0 * report.bound() })), ..solver }
         } else {
             solver
@@ -150,7 +155,8 @@ impl ScrewSolver {
     /// The same as far as the steps lead: all joint values that miss the target by `accept` at most.
     pub(super) fn solve_within(&self, target: &Target, given: &[f64], accept: f64) -> Result<Vec<Solution>> {
         let given = &self.chain.given_values(given)[..];
-        let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
+        let mut start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
+        start.loose = Reach::Within(LOOSE.max(LEVER * accept));
         let goal = target.goal(if self.described.is_some() { &self.chain } else { &self.ideal })?;
         let mut found = Vec::with_capacity(self.plan().most_solutions());
         let doubtful = self.visit(&self.orders.first, &start, (&goal, accept), given, &mut found);
