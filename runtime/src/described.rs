@@ -6,6 +6,7 @@
 
 use crate::angles::angle;
 use crate::conditions::conform;
+use crate::exactly::solve_ideal;
 use crate::joints::place;
 use crate::limits::{strides_within, turned_within};
 use crate::mechanism::{
@@ -13,7 +14,6 @@ use crate::mechanism::{
 };
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Problem};
-use crate::singly::solve_ideal;
 use crate::solution::{Error, Solution};
 use crate::storage::Array;
 use crate::tolerances::{ACCEPT, MERGE, POLISHED};

@@ -18,6 +18,7 @@ pub mod derivatives;
 mod described;
 mod double;
 pub mod dynamics;
+mod exactly;
 mod joints;
 pub mod lanes;
 pub mod limits;

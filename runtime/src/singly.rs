@@ -3,6 +3,7 @@
 use crate::answers::Answers;
 use crate::conditions::conform;
 use crate::described::solve_described;
+use crate::exactly::solve_ideal;
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
@@ -24,22 +25,6 @@ pub(crate) fn solve_one<M: Mechanism>(
             Ok(solve_described(mechanism, &target, within, out)?.0)
         }
     }
-}
-
-/// All joint values with which the equations hold.
-#[inline]
-pub(crate) fn solve_ideal<M: Mechanism>(
-    mechanism: &M,
-    target: &Inputs<M>,
-    out: &mut [Solution<M>],
-) -> Result<usize, Error> {
-    let mut target = target.clone();
-    conform(mechanism.facts().conditions, target.as_mut())?;
-    let p = mechanism.parameters(&target);
-    let mut answers = Answers::new(Problem::new(mechanism, &p), out, None);
-    answers.find()?;
-    answers.conclude();
-    Ok(answers.count)
 }
 
 /// As [`crate::Solve::solve_pairs`].

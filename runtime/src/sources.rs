@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 28] = [
+pub const RUST: [(&str, &str); 29] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -11,6 +11,7 @@ pub const RUST: [(&str, &str); 28] = [
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
+    ("exactly", include_str!("exactly.rs")),
     ("joints", include_str!("joints.rs")),
     ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
