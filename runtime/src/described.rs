@@ -13,10 +13,10 @@ use crate::mechanism::{
     Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes,
 };
 use crate::number::{Guard, Number, With};
-use crate::problem::{End, Problem};
+use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, MERGE, POLISHED};
+use crate::tolerances::{ACCEPT, BLUR, MERGE, POLISHED};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -74,15 +74,16 @@ pub(crate) fn reached<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
     read_off::<M>(&facts, &mechanism.described(&nothing, &place::<M>(&facts, q, None)), q)
 }
 
-/// The candidate that comes nearest to a target, which the joints may miss.
-struct Closest<'a, M: Mechanism> {
+/// Candidates for a target, which the joints may miss, each brought nearest to it on the ideal mechanism and handed on until that is enough.
+struct Fitting<'a, M: Mechanism, F: FnMut(&Found, End<M>) -> bool> {
     problem: Problem<'a, M>,
-    best: Option<End<M>>,
+    take: F,
+    is_done: bool,
     candidates: usize,
     open: Option<usize>,
 }
 
-impl<M: Mechanism> Candidates<f64, M> for Closest<'_, M> {
+impl<M: Mechanism, F: FnMut(&Found, End<M>) -> bool> Candidates<f64, M> for Fitting<'_, M, F> {
     fn is_usual(&mut self, guard: Guard<f64>) -> bool {
         guard.here
     }
@@ -117,7 +118,7 @@ impl<M: Mechanism> Candidates<f64, M> for Closest<'_, M> {
 
     fn take(&mut self, found: Found, at: &Places<M>) {
         self.candidates += 1;
-        if self.best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHED) {
+        if self.is_done {
             return;
         }
         let joints = self.problem.facts().joints;
@@ -126,18 +127,61 @@ impl<M: Mechanism> Candidates<f64, M> for Closest<'_, M> {
             Joint::Length(place) => at.as_ref()[place],
         });
         let end = self.problem.fitted(q, found.free);
-        let is_nearer = self.best.as_ref().is_none_or(|(_, best)| end.1.relative < best.relative);
-        if is_nearer && end.1.residual.is_finite() {
-            self.best = Some(end);
-        }
+        self.is_done = end.1.residual.is_finite() && (self.take)(&found, end);
     }
 }
 
-/// What the candidates for a target come to: the joints with which the ideal mechanism is nearest to it, if there are any.
+/// Hands on the candidates for a target.
+fn fit_all<M: Mechanism>(
+    mechanism: &M,
+    p: &Parameters<M>,
+    take: impl FnMut(&Found, End<M>) -> bool,
+) -> Result<(), Error> {
+    let problem = Problem::new(mechanism, p);
+    let mut fitting = Fitting { problem, take, is_done: false, candidates: 0, open: None };
+    mechanism.walk(p, &mut fitting);
+    fitting.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
+}
+
+/// The joints with which the ideal mechanism is nearest to a target, if there are any candidates.
 fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<Option<End<M>>, Error> {
-    let mut closest = Closest { problem: Problem::new(mechanism, p), best: None, candidates: 0, open: None };
-    mechanism.walk(p, &mut closest);
-    closest.open.map_or(Ok(closest.best), |number| Err(Error::OpenStratum(number)))
+    let mut best: Option<End<M>> = None;
+    fit_all(mechanism, p, |_, end| {
+        if best.as_ref().is_none_or(|(_, fit)| end.1.relative < fit.relative) {
+            best = Some(end);
+        }
+        best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHED)
+    })?;
+    Ok(best)
+}
+
+/// Adds joints with which the ideal mechanism comes within the tolerance of the target, too, and that are far from all answers to the target next to it: where it
+/// reaches one pose in more ways than most, these part by as much as the target is off.
+fn add_others<M: Mechanism>(
+    mechanism: &M,
+    p: &Parameters<M>,
+    within: f64,
+    (out, count): (&mut [Solution<M>], usize),
+) -> Result<usize, Error> {
+    let (facts, mut count) = (mechanism.facts(), count);
+    fit_all(mechanism, p, |found, (q, fit)| {
+        let is_far = |other: &Solution<M>| !facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
+        if found.free == 0 && fit.relative <= within && count < out.len() && out[..count].iter().all(is_far) {
+            let Fit { residual, relative, .. } = fit;
+            out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
+            count += 1;
+        }
+        false
+    })?;
+    for end in 1..count {
+        for place in (1..=end).rev() {
+            if out[place - 1].branch <= out[place].branch {
+                break;
+            }
+            out.swap(place - 1, place);
+        }
+    }
+    Ok(count)
 }
 
 /// All answers to a target that fulfils its conditions; where there is none, where the mechanism comes nearest to it.
@@ -152,7 +196,8 @@ pub(crate) fn solve_described<M: Mechanism>(
     let described = Described(mechanism);
     let problem = Problem::new(&described, &p);
     let Some((q, fit)) = closest(mechanism, &p)? else { return Ok((0, None)) };
-    let is_reached = fit.relative <= f64::max(within, ACCEPT);
+    let within = f64::max(within, ACCEPT);
+    let is_reached = fit.relative <= within;
     if !is_reached {
         let mut nearest = Solution::empty(mechanism);
         nearest.q = q;
@@ -160,6 +205,7 @@ pub(crate) fn solve_described<M: Mechanism>(
         return Ok((0, Some(nearest)));
     }
     let count = solve_ideal(mechanism, &ideal_target(mechanism, &q), out)?;
+    let count = add_others(mechanism, &p, within, (&mut *out, count))?;
     out[..count].iter_mut().for_each(|answer| fit_to(&problem, answer));
     Ok((distinct(mechanism, out, count), None))
 }

@@ -3,7 +3,7 @@
 #ifdef GB_WITHIN
 
 static int gb_conform(const gb_real *target, gb_real *conforming);
-static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, bool seeks_closest);
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought);
 GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out);
 
 /* The equations' values, as described. */
@@ -54,21 +54,24 @@ static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
     answer->relative = fit.relative;
 }
 
-/* Whether two answers are one. */
-static bool gb_are_same(const gb_solution *a, const gb_solution *b)
+/* Adds those beside answers that come within the tolerance of the target, too, and puts all in order; their number, or a code below zero. */
+static int gb_add_others(const gb_real *target, gb_solution *out, size_t count)
 {
-    for (size_t i = 0; i < GB_JOINTS; i++) {
-        gb_real way = a->q[i] - b->q[i], span = R(1.0);
-        if (gb_joints[i].is_angle) {
-            way = way > GB_PI ? way - GB_TAU : way < -GB_PI ? way + GB_TAU : way;
-        } else {
-            span = gb_larger(GB_SCALE, gb_magnitude(a->q[i]));
-        }
-        if (!((a->free | b->free) >> i & 1) && !(gb_magnitude(way) <= GB_MERGE * span)) {
-            return false;
+    gb_sink_1 c;
+    gb_real p[GB_PARAMETERS];
+    c.known = count;
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_OTHERS);
+    if (code < 0) {
+        return code;
+    }
+    for (size_t end = 1; end < c.all.count; end++) {
+        for (size_t i = end; i > 0 && out[i - 1].branch > out[i].branch; i--) {
+            const gb_solution other = out[i];
+            out[i] = out[i - 1];
+            out[i - 1] = other;
         }
     }
-    return true;
+    return (int)c.all.count;
 }
 
 /* Keeps the first of answers that have become one; their number. */
@@ -78,7 +81,7 @@ static size_t gb_keep_distinct(gb_solution *out, size_t count)
     for (size_t k = 0; k < count; k++) {
         bool is_new = true;
         for (size_t i = 0; i < kept; i++) {
-            is_new = is_new && !gb_are_same(&out[i], &out[k]);
+            is_new = is_new && !gb_are_within(out[i].q, out[k].q, out[i].free | out[k].free, GB_MERGE);
         }
         if (is_new) {
             const gb_solution other = out[kept];
@@ -96,7 +99,7 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
     gb_real p[GB_PARAMETERS], ideal[GB_INPUTS];
     const gb_mechanism mechanism = gb_as_described();
     const gb_problem problem = {&mechanism, p, NULL};
-    const int code = gb_walk_through(&c, target, p, NULL, NULL, true);
+    const int code = gb_walk_through(&c, target, p, NULL, NULL, GB_CLOSEST);
     if (code < 0 || !c.all.has_nearest) {
         return code;
     }
@@ -108,7 +111,7 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
         return 0;
     }
     gb_ideal_target(c.all.nearest, ideal);
-    const int count = gb_solve_ideal(ideal, out);
+    const int found = gb_solve_ideal(ideal, out), count = found < 0 ? found : gb_add_others(target, out, (size_t)found);
     for (int i = 0; i < count; i++) {
         gb_fit_to(&problem, &out[i]);
     }

@@ -21,7 +21,7 @@ static int gb_conform(const gb_real *target, gb_real *conforming)
 }
 
 /* Walks through the program to the answers to a target with these parameters; 0, or a code below. */
-static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, bool seeks_closest)
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought)
 {
     gb_real conforming[GB_INPUTS] = {0};
     const int code = gb_conform(target, conforming);
@@ -34,10 +34,11 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.problem.extras = NULL;
     c->all.out = c->out = out;
     c->all.room = GB_CAPACITY;
-    c->all.count = c->all.candidates = c->all.unsound = c->waiting = 0;
+    c->all.count = sought == GB_OTHERS ? c->known : 0;
+    c->all.candidates = c->all.unsound = c->waiting = 0;
     c->all.is_open = c->all.has_nearest = false;
     c->pairs = pairs;
-    c->seeks_closest = seeks_closest;
+    c->sought = sought;
     c->is_usual = c->is_ordinary = true;
     gb_walk_1(p, c);
     gb_flush(c);
@@ -59,7 +60,7 @@ GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out)
 {
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, out, NULL, false);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
     if (code < 0) {
         return code;
     }
@@ -87,7 +88,7 @@ int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solu
 #else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, out, NULL, false);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
     if (code < 0) {
         return code;
     }
@@ -131,7 +132,7 @@ int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
 #else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, NULL, out, false);
+    const int code = gb_walk_through(&c, target, p, NULL, out, GB_ANSWERS);
     if (code < 0) {
         return code;
     }

@@ -20,6 +20,8 @@ use crate::{Error, ErrorKind, Result};
 
 /// How many times as far as an answer may be off the goal a step's target may be out of reach.
 const LEVER: f64 = 30.0;
+/// Answers that differ by more are far from each other \[rad, or reaches\].
+const APART: f64 = 5e-2;
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
 
@@ -306,7 +308,15 @@ impl Ideally {
         let near = self.solver.solve_within(target, given, self.within.max(ACCEPT))?;
         let Some(best) = near.iter().min_by(|a, b| a.residual.total_cmp(&b.residual)) else { return Ok(Vec::new()) };
         let reached = Target::reached(&self.solver.chain, &best.q)?;
-        self.solver.solve_within(&reached, given, ACCEPT)
+        let mut answers = self.solver.solve_within(&reached, given, ACCEPT)?;
+        // Where the ideal robot reaches one pose in more ways than most, these part by as much as the target is off.
+        for other in near {
+            let is_far = |answer: &Solution| !self.solver.chain.are_within(&answer.q, &other.q, APART);
+            if other.free.is_empty() && answers.iter().all(is_far) {
+                answers.push(other);
+            }
+        }
+        Ok(answers)
     }
 }
 
