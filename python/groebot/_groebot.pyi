@@ -175,6 +175,7 @@ def derive(
     given: str | Sequence[str] | None = None,
     *,
     plane: Literal["xy", "xz", "yz"] | None = None,
+    axis: Literal["x", "y", "z"] | None = None,
     direction: npt.ArrayLike | None = None,
     name: str | None = None,
     snap: float | None = None,

@@ -21,12 +21,12 @@ const MAX_SECONDS: f64 = 1e9;
 /// Derives the solver of a robot between its `base` and its `tip`, with a proof.
 ///
 /// `robot` is a `Robot`, or the path of a description: URDF, chain, DH table, equations, or the folder of a mechanism. `task` is pose, position, ray,
-/// direction, rotation, position_pitch_roll, planar_position or planar_pose, the last two in the `plane` xy, xz or yz of the base; `direction` is what ray and
-/// direction aim, in the frame of the tip. `given` are names of joints whose values come with each target; where joints are too many the planner chooses.
+/// direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose, the last two in the `plane` xy, xz or yz of the base; `axis` (x, y, z) is that of
+/// the base about which position_yaw asks for the angle; `direction` is what ray, direction and position_yaw aim, in the frame of the tip. `given` are names of joints whose values come with each target; where joints are too many the planner chooses.
 /// `snap` is the tolerance within which the ideal robot is meant (0: each digit counts). `time` \[s\] is a budget. `progress(stage, done, open)` is called now
 /// and then. An interrupt from the keyboard ends the work.
 #[pyfunction]
-#[pyo3(signature = (robot, task=None, given=None, *, plane=None, direction=None, name=None, snap=None, time=None, progress=None, threads=None))]
+#[pyo3(signature = (robot, task=None, given=None, *, plane=None, axis=None, direction=None, name=None, snap=None, time=None, progress=None, threads=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn derive(
     py: Python<'_>,
@@ -34,6 +34,7 @@ pub fn derive(
     task: Option<&str>,
     given: Option<&Bound<'_, PyAny>>,
     plane: Option<&str>,
+    axis: Option<&str>,
     direction: Option<&Bound<'_, PyAny>>,
     name: Option<&str>,
     snap: Option<f64>,
@@ -42,7 +43,7 @@ pub fn derive(
     threads: Option<usize>,
 ) -> PyResult<Solver> {
     let asked =
-        Asked { task, plane, direction: direction.map(decimals).transpose()?, given: names(given)?, name, snap };
+        Asked { task, plane, axis, direction: direction.map(decimals).transpose()?, given: names(given)?, name, snap };
     let time = time.map(budget).transpose()?;
     let (description, mut ends) = match robot.cast::<Robot>() {
         Ok(robot) => {
@@ -83,6 +84,7 @@ impl Described {
 struct Asked<'a> {
     task: Option<&'a str>,
     plane: Option<&'a str>,
+    axis: Option<&'a str>,
     direction: Option<Vec<String>>,
     given: Vec<String>,
     name: Option<&'a str>,
@@ -105,10 +107,10 @@ impl Asked<'_> {
         if !given.is_empty() {
             text += &format!("given = [{}]\n", given.join(", "));
         }
-        if self.task.is_some() || self.plane.is_some() || self.direction.is_some() {
+        if self.task.is_some() || self.plane.is_some() || self.axis.is_some() || self.direction.is_some() {
             text += "[task]\n";
         }
-        for (key, value) in [("kind", self.task), ("plane", self.plane)] {
+        for (key, value) in [("kind", self.task), ("plane", self.plane), ("axis", self.axis)] {
             text += &value.map(|value| format!("{key} = {}\n", quoted(value))).unwrap_or_default();
         }
         if let Some(direction) = &self.direction {

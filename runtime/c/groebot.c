@@ -9,15 +9,14 @@
 #include "groebot.h"
 
 /* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
-#define GB_MERGE GB_EITHER(1e-7, 2e-3)
 #define GB_PIVOT GB_EITHER(1e-9, 1e-4)
 #define GB_NEGLIGIBLE GB_EITHER(1e-290, 1e-30)
 #define GB_POLISH_STEPS 32
+#define GB_FITTING_STEPS 16
 #define GB_OVERSHOT R(100.0)
 #define GB_RETURNS 4
 #define GB_STIFF R(1e-6)
 #define GB_PATIENCE 3
-#define GB_POLISHED GB_EITHER(1e-15, 2e-7)
 #define GB_SHORT GB_EITHER(1e-9, 1e-4)
 #define GB_ADRIFT GB_EITHER(1e-7, 1e-3)
 #define GB_ASIDE R(0.1)

@@ -137,6 +137,7 @@ typedef double gb_real;
 #else
 #include "groebot/mechanism.h"
 #include "groebot/answers.h"
+#include "groebot/described.h"
 #include "groebot/solve.h"
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop

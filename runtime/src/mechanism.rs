@@ -66,6 +66,15 @@ pub trait Mechanism: Sized {
         values
     }
 
+    /// As [`Mechanism::values`], of the mechanism as described, where the equations are those of the ideal one that it means ([`Facts::within`]). Affine in
+    /// the numbers of each joint.
+    fn described<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Equations<Self, N>
+    where
+        f64: With<N>,
+    {
+        self.values(p, at)
+    }
+
     /// The sizes of equations: sums of their terms' magnitudes.
     fn sizes<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Sizes<Self, N>
     where
@@ -141,6 +150,9 @@ pub struct Facts<'a> {
     pub reached: &'a [Reached],
     /// The formulas are those of a mechanism near the one that the equations are of: so many equations lead on from there.
     pub nearby: Option<usize>,
+    /// The equations are those of the ideal mechanism that a described one means, and ask for more than the joints can do: the least share of their sizes
+    /// within which a target is one that the ideal mechanism reaches. It bounds twice the miss of one mechanism where the other holds.
+    pub within: Option<f64>,
     /// The source's choice of an answer.
     pub preference: Option<Preference>,
 }
@@ -167,6 +179,7 @@ impl Facts<'_> {
         conditions: &[],
         reached: &[],
         nearby: None,
+        within: None,
         preference: None,
     };
 }

@@ -2,12 +2,12 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::joints::{beyond, is_in, stepped};
-use crate::mechanism::{Joints, Mechanism};
+use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS, ROUNDING, SHORT,
-    STIFF,
+    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ROUNDING, SHORT, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.
@@ -133,6 +133,50 @@ impl<M: Mechanism> Problem<'_, M> {
         self.triangle(q, damping, held).substituted()
     }
 
+    /// Damped Gauss-Newton steps from `q` to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is
+    /// taken only if it falls. Joints that are `held` stay.
+    pub fn fitted(&self, q: Joints<M>, held: u32) -> End<M> {
+        let (mut q, mut squares) = (q.clone(), self.squares(&q));
+        for _ in 0..FITTING_STEPS {
+            if squares <= POLISHED * POLISHED {
+                break;
+            }
+            let Some((next, fallen, longest)) = self.fallen(&q, squares, held) else { break };
+            (q, squares) = (next, fallen);
+            if longest <= SHORT {
+                break;
+            }
+        }
+        self.measured(q)
+    }
+
+    /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.
+    fn fallen(&self, q: &Joints<M>, squares: f64, held: u32) -> Option<(Joints<M>, f64, f64)> {
+        for damping in DAMPINGS {
+            let Some(step) = self.shares(q, damping, held).substituted() else { continue };
+            let longest = self.facts().longest(step.as_ref());
+            if longest <= BLUR {
+                let next = stepped::<M>(&self.facts(), q, &step);
+                let fallen = self.squares(&next);
+                if fallen < squares {
+                    return Some((next, fallen, longest));
+                }
+            }
+        }
+        None
+    }
+
+    /// The sum of the squares of what the equations are missed by, as shares of their sizes.
+    fn squares(&self, q: &Joints<M>) -> f64 {
+        let (values, sizes) = self.equations(&self.place(q));
+        let mut sum = 0.0;
+        for (value, &size) in values.as_ref().iter().zip(self.facts().size_of) {
+            let share = value / f64::max(sizes.as_ref()[size], f64::MIN_POSITIVE);
+            sum += share * share;
+        }
+        sum
+    }
+
     /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
     /// hold, or a root is double.
     pub fn regularity(&self, q: &Joints<M>) -> f64 {
@@ -169,9 +213,32 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The triangle of a step's equations.
     fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
-        let (at, joints, equations) = (self.place(q), self.joints(), self.facts().size_of.len());
-        let derivatives = self.derivatives(&at);
-        let right = self.mechanism.values(self.parameters, &at);
+        let at = self.place(q);
+        let (derivatives, right) = (self.derivatives(&at), self.mechanism.values(self.parameters, &at));
+        self.triangle_of(&derivatives, &right, damping, held)
+    }
+
+    /// The same with the equations as shares of their sizes.
+    fn shares(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+        let at = self.place(q);
+        let (mut derivatives, (mut right, sizes)) = (self.derivatives(&at), self.equations(&at));
+        for (i, &size) in self.facts().size_of.iter().enumerate() {
+            let size = f64::max(sizes.as_ref()[size], f64::MIN_POSITIVE);
+            right.as_mut()[i] /= size;
+            derivatives.as_mut()[i].as_mut().iter_mut().for_each(|entry| *entry /= size);
+        }
+        self.triangle_of(&derivatives, &right, damping, held)
+    }
+
+    /// The triangle of equations with these derivatives and values.
+    fn triangle_of(
+        &self,
+        derivatives: &Equations<M, Joints<M>>,
+        right: &Equations<M>,
+        damping: f64,
+        held: u32,
+    ) -> Triangle<M> {
+        let (joints, equations) = (self.joints(), self.facts().size_of.len());
         let rows = equations + joints;
         let mut triangle: Triangle<M> = Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints };
         let mut size = 0.0;

@@ -2,6 +2,8 @@
 
 use crate::answers::Answers;
 use crate::conditions::conform;
+use crate::described::solve_described;
+use crate::exactly::solve_ideal;
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
@@ -15,13 +17,14 @@ pub(crate) fn solve_one<M: Mechanism>(
     target: &Inputs<M>,
     out: &mut [Solution<M>],
 ) -> Result<usize, Error> {
-    let mut target = target.clone();
-    conform(mechanism.facts().conditions, target.as_mut())?;
-    let p = mechanism.parameters(&target);
-    let mut answers = Answers::new(Problem::new(mechanism, &p), out, None);
-    answers.find()?;
-    answers.conclude();
-    Ok(answers.count)
+    match mechanism.facts().within {
+        None => solve_ideal(mechanism, target, out),
+        Some(within) => {
+            let mut target = target.clone();
+            conform(mechanism.facts().conditions, target.as_mut())?;
+            Ok(solve_described(mechanism, &target, within, out)?.0)
+        }
+    }
 }
 
 /// As [`crate::Solve::solve_pairs`].
@@ -30,15 +33,17 @@ pub(crate) fn solve_one_by_pairs<M: Mechanism>(
     target: &Inputs<M>,
     out: &mut [Pairs<M>],
 ) -> Result<usize, Error> {
-    let mut conforming = target.clone();
-    conform(mechanism.facts().conditions, conforming.as_mut())?;
-    let p = mechanism.parameters(&conforming);
-    let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
-    answers.find()?;
-    let (count, are_all) = (answers.count, answers.are_all_pairs());
-    if are_all {
-        out[..count].sort_unstable_by_key(|pairs| pairs.branch);
-        return Ok(count);
+    if mechanism.facts().within.is_none() {
+        let mut conforming = target.clone();
+        conform(mechanism.facts().conditions, conforming.as_mut())?;
+        let p = mechanism.parameters(&conforming);
+        let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
+        answers.find()?;
+        let (count, are_all) = (answers.count, answers.are_all_pairs());
+        if are_all {
+            out[..count].sort_unstable_by_key(|pairs| pairs.branch);
+            return Ok(count);
+        }
     }
     let mut list: Answered<M, Solution<M>> = Array::by(mechanism.facts().capacity, |_| Solution::empty(mechanism));
     let count = solve_one(mechanism, target, list.as_mut())?.min(out.len());

@@ -1,16 +1,15 @@
 //! What a mechanism's solver offers: [`Solve`].
 
-use crate::angles::angle;
 use crate::answers::Answers;
 use crate::batch::solve_widest;
 use crate::conditions::conform;
+use crate::described::{reached, read_off, solve_described, within_limits};
 use crate::joints::place;
 use crate::limits::{self, strides_within, turned_within};
-use crate::mechanism::{Inputs, Joints, Mechanism, Reached};
+use crate::mechanism::{Inputs, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
-use crate::storage::Array;
 
 /// Inverse kinematics of a mechanism.
 ///
@@ -38,6 +37,9 @@ pub trait Solve: Mechanism {
     ) -> Result<(usize, Option<Solution<Self>>), Error> {
         let mut target = target.clone();
         conform(self.facts().conditions, target.as_mut())?;
+        if let Some(within) = self.facts().within {
+            return solve_described(self, &target, within, out);
+        }
         let p = self.parameters(&target);
         let mut answers = Answers::new(Problem::new(self, &p), out, None);
         answers.find()?;
@@ -99,7 +101,8 @@ pub trait Solve: Mechanism {
         if facts.has_extras || conform(facts.conditions, target.as_mut()).is_err() {
             return f64::NAN;
         }
-        let values = self.values(&self.parameters(&target), &place::<Self>(&facts, q, None));
+        let (p, at) = (self.parameters(&target), place::<Self>(&facts, q, None));
+        let values = if facts.within.is_some() { self.described(&p, &at) } else { self.values(&p, &at) };
         let larger = |largest: f64, value: &f64| if largest >= value.abs() { largest } else { value.abs() };
         let are_numbers = !values.as_ref().iter().any(|value| value.is_nan());
         if are_numbers { values.as_ref().iter().fold(0.0, larger) } else { f64::NAN }
@@ -108,13 +111,10 @@ pub trait Solve: Mechanism {
     /// The target that joint values `q` reach; none for equations that do not compare the tip with the target.
     fn forward(&self, q: &Joints<Self>) -> Option<Inputs<Self>> {
         let facts = self.facts();
-        let tip = self.tip(&place::<Self>(&facts, q, None));
-        let number = |i: usize| match facts.reached[i] {
-            Reached::Value(value) => tip.as_ref()[value],
-            Reached::Angle([cosine, sine]) => angle(tip.as_ref()[cosine], tip.as_ref()[sine]),
-            Reached::Joint(joint) => q.as_ref()[joint],
-        };
-        (facts.reached.len() == facts.inputs).then(|| Array::by(facts.inputs, number))
+        (facts.reached.len() == facts.inputs).then(|| match facts.within {
+            None => read_off::<Self>(&facts, &self.tip(&place::<Self>(&facts, q, None)), q),
+            Some(_) => reached(self, q),
+        })
     }
 
     /// As [`Solve::solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
@@ -135,7 +135,10 @@ pub trait Solve: Mechanism {
         let problem = Problem::new(self, &p);
         let mut kept = 0;
         for k in 0..count {
-            if let Some(q) = turned_within::<Self>(&facts, &out[k].q, limits) {
+            if facts.within.is_some() {
+                let Some((q, residual)) = within_limits(self, &p, &out[k], limits) else { continue };
+                (out[k].q, out[k].residual) = (q, residual);
+            } else if let Some(q) = turned_within::<Self>(&facts, &out[k].q, limits) {
                 out[k].q = q;
             } else if let (false, Some((q, residual))) = (facts.has_extras, strides_within(&problem, &out[k], limits)) {
                 (out[k].q, out[k].residual) = (q, residual);

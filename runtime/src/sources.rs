@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 27] = [
+pub const RUST: [(&str, &str); 29] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -9,7 +9,9 @@ pub const RUST: [(&str, &str); 27] = [
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
     ("derivatives", include_str!("derivatives.rs")),
+    ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
+    ("exactly", include_str!("exactly.rs")),
     ("joints", include_str!("joints.rs")),
     ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
@@ -74,6 +76,7 @@ pub const C_PARTS: [(&str, &str); 42] = [
     ("groebot/batch.h", include_str!("../c/groebot/batch.h")),
     ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
     ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
+    ("groebot/described.h", include_str!("../c/groebot/described.h")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),

@@ -31,6 +31,8 @@ pub const PIVOT: f64 = 1e-9;
 pub const NEGLIGIBLE: f64 = 1e-290;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
 pub const POLISH_STEPS: usize = 32;
+/// Least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
+pub const FITTING_STEPS: usize = 16;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration. The last is
 /// for an answer that is singular twice: there one direction's derivative is rounding, which leads the plain step astray, and another's falls
 /// with the square root of the miss, so that the other shares outweigh it while the miss is still more than an answer may have.

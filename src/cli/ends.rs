@@ -1,15 +1,17 @@
-//! `--base`, `--tip`, `--task`, `--plane`, `--direction`, `--given`, `--snap` and `--exact`: which chain of a URDF, and what is asked of it.
+//! `--base`, `--tip`, `--task`, `--plane`, `--axis`, `--direction`, `--given`, `--snap` and `--exact`: which chain of a URDF, and what is asked of it.
 
 use crate::derive::Ends;
-use crate::kinematics::{Chain, ExactVector, Plane, Task};
+use crate::kinematics::{BaseAxis, Chain, ExactVector, Plane, Task};
 use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
-/// The tasks that need no plane.
+/// The tasks that need no plane and no axis.
 const TASKS: [Task; 6] =
     [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation, Task::PositionPitchRoll];
 /// Those that need one.
 const PLANAR: [fn(Plane) -> Task; 2] = [|plane| Task::PlanarPosition { plane }, |plane| Task::PlanarPose { plane }];
+/// Those that ask for the angle about an axis.
+const ABOUT: [fn(BaseAxis) -> Task; 1] = [|axis| Task::PositionYaw { axis }];
 /// The planes.
 const PLANES: [Plane; 3] = [Plane::Xy, Plane::Xz, Plane::Yz];
 
@@ -22,14 +24,18 @@ pub struct EndArguments {
     /// URDF: the link where the chain ends (default: the only leaf)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// What is asked of the tip: pose, position, ray, direction, rotation, position_pitch_roll, planar_position or planar_pose (default: as
-    /// described; of a URDF, pose)
+    /// What is asked of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose
+    /// (default: as described; of a URDF, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
     task: Option<AskedTask>,
     /// The plane of the base frame in which a planar task moves: xy, xz or yz
     #[arg(long, value_name = "PLANE", value_parser = plane)]
     plane: Option<Plane>,
-    /// The direction in the tip frame that `ray` and `direction` aim, such as 1,0,0 (default: z)
+    /// The axis of the base frame about which `position_yaw` asks for the angle: x, y or z (default: z)
+    #[arg(long, value_name = "AXIS", value_parser = axis)]
+    axis: Option<BaseAxis>,
+    /// The direction in the tip frame that `ray`, `direction` and `position_yaw` aim, such as 1,0,0 (default: z; of
+    /// `position_yaw` x, whose angle about z is counted from x)
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
     /// A joint whose value is given with each target (repeatable; default: as described, else one of the planner's choice where the
@@ -74,11 +80,12 @@ impl IdealEndArguments {
     }
 }
 
-/// A task, or one that wants a plane.
+/// A task, or one that wants a plane, or an axis.
 #[derive(Clone, Copy)]
 enum AskedTask {
     Spatial(Task),
     Planar(fn(Plane) -> Task),
+    About(fn(BaseAxis) -> Task),
 }
 
 /// Three exact numbers, as one value of an option.
@@ -89,7 +96,7 @@ impl EndArguments {
     /// The same as plain data.
     ///
     /// # Errors
-    /// [`ErrorKind::MissingKey`] for a planar task without a plane; [`ErrorKind::BadValue`] for a plane without a planar task.
+    /// [`ErrorKind::MissingKey`] for a planar task without a plane; [`ErrorKind::BadValue`] for a plane or an axis without a task that has one.
     pub fn ends(&self) -> Result<Ends> {
         Ok(Ends {
             base: self.base.clone(),
@@ -104,7 +111,12 @@ impl EndArguments {
     }
 
     fn task(&self) -> Result<Option<Task>> {
+        if self.axis.is_some() && !matches!(self.task, Some(AskedTask::About(_))) {
+            let text = "--axis belongs to the task position_yaw; give --task position_yaw, or leave it out";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
         match (self.task, self.plane) {
+            (Some(AskedTask::About(task)), None) => Ok(Some(task(self.axis.unwrap_or(BaseAxis::Z)))),
             (Some(AskedTask::Planar(task)), Some(plane)) => Ok(Some(task(plane))),
             (Some(AskedTask::Planar(_)), None) => {
                 let text = "a planar task moves in a plane of the base frame; give it by --plane xy, xz or yz";
@@ -124,7 +136,8 @@ impl EndArguments {
 fn task(text: &str) -> std::result::Result<AskedTask, String> {
     let spatial = TASKS.into_iter().map(|task| (task.name(), AskedTask::Spatial(task)));
     let planar = PLANAR.into_iter().map(|task| (task(Plane::Xy).name(), AskedTask::Planar(task)));
-    let known: Vec<_> = spatial.chain(planar).collect();
+    let about = ABOUT.into_iter().map(|task| (task(BaseAxis::Z).name(), AskedTask::About(task)));
+    let known: Vec<_> = spatial.chain(about).chain(planar).collect();
     let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
     let found = known.iter().find(|(name, _)| *name == text).map(|(_, task)| *task);
     found.ok_or_else(|| format!("give one of {}", names.join(", ")))
@@ -132,6 +145,10 @@ fn task(text: &str) -> std::result::Result<AskedTask, String> {
 
 fn plane(text: &str) -> std::result::Result<Plane, String> {
     PLANES.into_iter().find(|plane| plane.name() == text).ok_or_else(|| "give xy, xz or yz".to_owned())
+}
+
+fn axis(text: &str) -> std::result::Result<BaseAxis, String> {
+    BaseAxis::ALL.into_iter().find(|axis| axis.name() == text).ok_or_else(|| "give x, y or z".to_owned())
 }
 
 fn number(text: &str) -> std::result::Result<BigRational, String> {

@@ -142,6 +142,7 @@ fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
         Task::Position => "a position has 3 numbers (x, y, z)",
         Task::Ray => "a ray has 6 numbers (x, y, z and the direction's x, y, z)",
         Task::PositionPitchRoll => "a position with pitch and roll has 5 numbers (x, y, z, pitch, roll)",
+        Task::PositionYaw { .. } => "a position with yaw has 4 numbers (x, y, z, yaw)",
         Task::Direction => "a direction has 3 numbers (x, y, z, of any length)",
         Task::Rotation => "a rotation has 3 numbers (roll, pitch, yaw) or 4 (qx, qy, qz, qw)",
         Task::PlanarPosition { .. } => "a planar position has 2 numbers",
@@ -163,6 +164,9 @@ fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
         }
         (Task::PositionPitchRoll, 5, &[x, y, z, pitch, roll]) => {
             Target::PositionPitchRoll { point: [x, y, z].into(), pitch: radians(pitch), roll: radians(roll) }
+        }
+        (Task::PositionYaw { .. }, 4, &[x, y, z, yaw]) => {
+            Target::PositionYaw { point: [x, y, z].into(), yaw: radians(yaw) }
         }
         (Task::Direction, 3, &[i, j, k]) => Target::Direction(unit(Vector3::new(i, j, k))),
         (Task::Rotation, 3, &[roll, pitch, yaw]) => Target::Rotation(euler([roll, pitch, yaw])),

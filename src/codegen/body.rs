@@ -4,7 +4,7 @@ use super::language::Expressions;
 use super::names::Names;
 use super::printer::Printer;
 use super::samples::Table;
-use crate::solver::{Demand, Following, Layout, Operand, ParameterDemand, Program, Rule};
+use crate::solver::{Demand, Following, Instruction, Layout, Operand, ParameterDemand, Program, Rule};
 
 /// What all bodies of one file share.
 pub(super) struct Scene<'a> {
@@ -24,7 +24,16 @@ impl Scene<'_> {
 
     /// Code of the checks in a language of its own as far as `rows` ask for it, and the rows themselves as lists of expressions.
     pub fn checks(&self, language: &dyn Expressions, rows: &[&[Operand]]) -> (Vec<String>, Vec<Vec<String>>) {
-        let code = &self.program.checks.code;
+        self.equations(language, &self.program.checks.code, rows)
+    }
+
+    /// The same of other code over the same parameters and unknowns.
+    pub fn equations(
+        &self,
+        language: &dyn Expressions,
+        code: &[Instruction],
+        rows: &[&[Operand]],
+    ) -> (Vec<String>, Vec<Vec<String>>) {
         let demand = Demand::of_code(code, rows.iter().copied().flatten());
         let mut printer = Printer::new(language, &self.names, demand, 0);
         let name =

@@ -136,6 +136,31 @@ const PLANAR_POSE: Type = Type {
     usage: "x y angle",
 };
 
+/// By coordinate of the axis about which the angle is asked.
+const ABOUT: [Type; 3] = [
+    Type {
+        name: "TranslationYAxisAngleXNorm4D",
+        code: "0x4400000f",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about x, counted from y, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+    Type {
+        name: "TranslationZAxisAngleYNorm4D",
+        code: "0x44000010",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about y, counted from z, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+    Type {
+        name: "TranslationXAxisAngleZNorm4D",
+        code: "0x4400000e",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about z, counted from x, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+];
+
 /// The type of a program, and the joint that the user gives.
 struct Kind {
     ikfast: &'static Type,
@@ -180,6 +205,10 @@ fn ikfast_type(program: &Program, own: usize) -> Option<&'static Type> {
         ([Condition::Unit(3)], 3, 3) if numbers => Some(&RAY),
         ([Condition::Unit(0)], 0, 3) if numbers => Some(&DIRECTION),
         ([], 3, 0) => Some(&TRANSLATION),
+        ([], 3, 1) if rest == [Unit::Radian] => {
+            let about = ["yaw_x", "yaw_y", "yaw"].iter().position(|name| program.inputs[3].name == *name)?;
+            Some(&ABOUT[about])
+        }
         ([], 2, 0) if in_xy => Some(&PLANAR),
         ([], 2, 1) if in_xy && rest == [Unit::Radian] => Some(&PLANAR_POSE),
         _ => None,

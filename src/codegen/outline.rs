@@ -11,7 +11,9 @@ use super::samples::Table;
 use super::six_axes;
 use super::walk::{self, Function, reads};
 use crate::document::word;
-use crate::solver::{Case, Demand, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit};
+use crate::solver::{
+    Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit,
+};
 
 /// Everything that the skeletons name.
 #[derive(Serialize)]
@@ -39,6 +41,9 @@ pub(super) struct Outline {
     tip: Option<Body>,
     /// The equations' values, where they are not all what the tip is compared with.
     values: Option<Body>,
+    /// The values as described, where the equations are those of the ideal mechanism, and the tolerance.
+    described: Option<Body>,
+    within: Option<String>,
     sizes: Body,
     /// The derivatives, where the run time does not find them from the values.
     jacobian: Option<Body>,
@@ -101,6 +106,10 @@ impl Outline {
             let (lines, rows) = scene.checks(language, rows);
             Body::new(lines, rows, &parameters)
         };
+        let described = |described: &Described| {
+            let (lines, rows) = scene.equations(dialect, &described.code, &[&described.residuals]);
+            Body::new(lines, rows, &parameters)
+        };
         let checks = &program.checks;
         let rows = |rows: &[Vec<Operand>]| text(plain, &rows.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let forward = program.forward().filter(|forward| !forward.inputs.is_empty());
@@ -144,6 +153,8 @@ impl Outline {
             target_lines,
             functions: walk::functions(&scene, dialect).into_iter().map(function).collect(),
             tip,
+            described: program.described.as_ref().map(described),
+            within: facts.within.map(|within| dialect.literal(within)),
             sizes: text(dialect, &[&facts.sizes]),
             jacobian: (!facts.are_affine).then(|| rows(&checks.jacobian)),
             short: program.nearby.then(short),

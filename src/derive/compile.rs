@@ -47,6 +47,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         capacity,
         isolated,
         nearby: false,
+        described: None,
     }
     .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;

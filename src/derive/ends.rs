@@ -97,7 +97,9 @@ impl Ends {
         page += &self.snap.as_ref().map(|snap| format!("snap = {}\n", quoted(&snap.to_string()))).unwrap_or_default();
         if let Some(task) = self.task {
             let plane = task.plane().map(Plane::name).map(|plane| format!("plane = {}\n", quoted(plane)));
-            page += &format!("\n[task]\nkind = {}\n{}", quoted(task.name()), plane.unwrap_or_default());
+            let axis = task.axis().map(|axis| format!("axis = {}\n", quoted(axis.name())));
+            let of = plane.or(axis).unwrap_or_default();
+            page += &format!("\n[task]\nkind = {}\n{of}", quoted(task.name()));
         }
         if let Some(direction) = &self.direction {
             let numbers = direction.each_ref().map(|entry| quoted(&entry.to_string()));
@@ -151,11 +153,15 @@ impl Ends {
         }
         let task = self.task.unwrap_or(chain.task());
         if self.direction.is_some() && !task.aims() {
-            let text =
-                format!("the task `{}` aims no direction; leave it out, or ask for `ray` or `direction`", task.name());
+            let text = format!(
+                "the task `{}` aims no direction; leave it out, or ask for `ray`, `direction` or `position_yaw`",
+                task.name()
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let direction = self.direction.clone().unwrap_or_else(|| chain.direction().clone());
+        let keeps = task.axis().is_none() || task == chain.task();
+        let usual = || if keeps { chain.direction().clone() } else { task.usual_direction() };
+        let direction = self.direction.clone().unwrap_or_else(usual);
         let given = if self.given.is_empty() { chain.parts().given.clone() } else { self.given.clone() };
         chain.with_task(task, direction, given)
     }

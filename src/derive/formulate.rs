@@ -27,7 +27,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
-    if matches!(task, Task::Pose | Task::Ray | Task::Direction | Task::Rotation | Task::PositionPitchRoll) {
+    if task.plane().is_none() && task != Task::Position {
         let text = format!(
             "the `{}` task is read and checked but not derived yet: its orientation parameters are related and need \
              blocks of joints; give `position`, `planar_position` or `planar_pose`",

@@ -5,7 +5,7 @@ use super::eigenvalue::{DerivedSixAxes, fits};
 use super::sequential::{self, Derived};
 use super::{Derivation, Source, certificate};
 use crate::kinematics::Chain;
-use crate::kinematics::ideal::Report;
+use crate::kinematics::ideal::{Report, TOLERANCE};
 use crate::solver::{About, Program};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -56,9 +56,9 @@ impl Proved {
     /// that is another. It is one joint at a time, or where that is impossible by one eigenvalue problem of six joints.
     ///
     /// # Errors
-    /// As [`Derived::of_chain`].
+    /// As [`Derived::of_chain`] and [`Chain::check_task`].
     pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
-        Proved::of_ideal(chain, &chain.ideal(), watch)
+        Proved::of_ideal(chain, &chain.ideal_within(TOLERANCE)?, watch)
     }
 
     fn of_ideal(chain: &Chain, ideal: &(Chain, Report), watch: &Watch) -> Result<Self> {

@@ -27,7 +27,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for no or more than 12 joints, an axis of zero, inverted or infinite limits, a
-    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task, a
+    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task by more than 0.1 rad, a
     /// direction of zero, values given of all joints, an incomplete order, an empty name, or a symbol that is not 1 to 16
     /// ASCII letters and digits;
     /// [`crate::ErrorKind::DuplicateName`] for joint names, symbols, given joints or unknowns of `order` named twice;
@@ -141,10 +141,11 @@ impl Chain {
     /// The task in words: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
     pub fn asked(&self) -> String {
         let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
+        let axis = self.task().axis().map(|axis| format!(" about {}", axis.name())).unwrap_or_default();
         let aimed = if self.task().aims() { format!(" of {}", show(self.direction())) } else { String::new() };
         let given = &self.parts.given;
         let given = if given.is_empty() { String::new() } else { format!(", {} given", given.join(", ")) };
-        format!("{}{plane}{aimed}{given}", self.task().name())
+        format!("{}{plane}{axis}{aimed}{given}", self.task().name())
     }
 }
 

@@ -4,9 +4,11 @@
 
 use std::path::Path;
 
-use super::parts::{along_z, show};
+use super::parts::show;
 use super::validate::{Fault, Part, check_count};
-use super::{Chain, ChainParts, Choice, ExactVector, Joint, JointKind, Placement, Plane, Root, Task, Tip, Turn};
+use super::{
+    BaseAxis, Chain, ChainParts, Choice, ExactVector, Joint, JointKind, Placement, Plane, Root, Task, Tip, Turn,
+};
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::model::toml::{Units, read_mimic, read_units};
 use crate::{Error, ErrorKind, Result};
@@ -15,6 +17,8 @@ const ROOT_KEYS: [&str; 11] =
     ["name", "description", "source", "length_unit", "angle_unit", "order", "given", "choice", "task", "joint", "tip"];
 const JOINT_KEYS: [&str; 8] = ["name", "symbol", "type", "axis", "point", "origin", "limits", "mimic"];
 const PLANES: [(&str, Plane); 3] = [("xy", Plane::Xy), ("xz", Plane::Xz), ("yz", Plane::Yz)];
+/// The axes of the base.
+const AXES: [(&str, BaseAxis); 3] = [("x", BaseAxis::X), ("y", BaseAxis::Y), ("z", BaseAxis::Z)];
 
 impl Chain {
     /// The chain that the file at `path` describes.
@@ -205,19 +209,20 @@ fn read_tip(table: Table<'_>, form: Form, last: &Placement) -> Result<Tip> {
     Ok(Tip { point: placement.origin, rotation: placement.rotation.matrix() })
 }
 
-/// A task that is complete, or one that wants a plane.
+/// A task that is complete, or one that wants a plane, or an axis of the base.
 #[derive(Clone)]
 enum TaskKind {
     Spatial(Task),
     Planar(fn(Plane) -> Task),
+    About(fn(BaseAxis) -> Task),
 }
 
 /// The task, and the direction in the tip frame that it aims.
 pub(crate) fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
-    table.deny_unknown(&["kind", "plane", "direction"])?;
+    table.deny_unknown(&["kind", "plane", "axis", "direction"])?;
     let task = read_kind(table)?;
     match table.optional("direction") {
-        None => Ok((task, along_z())),
+        None => Ok((task, task.usual_direction())),
         Some(node) if task.aims() => Ok((task, node.exact_vector()?)),
         Some(node) => {
             let message = format!("the task `{}` aims no direction; leave it out or choose `ray`", task.name());
@@ -236,15 +241,23 @@ fn read_kind(table: Table<'_>) -> Result<Task> {
         ("direction", TaskKind::Spatial(Task::Direction)),
         ("rotation", TaskKind::Spatial(Task::Rotation)),
         ("position_pitch_roll", TaskKind::Spatial(Task::PositionPitchRoll)),
+        ("position_yaw", TaskKind::About(|axis| Task::PositionYaw { axis })),
     ];
-    match (table.required("kind")?.one_of(&kinds)?, table.optional("plane")) {
-        (TaskKind::Spatial(task), None) => Ok(task),
-        (TaskKind::Planar(task), _) => Ok(task(table.required("plane")?.one_of(&PLANES)?)),
-        (TaskKind::Spatial(task), Some(node)) => {
-            let message = format!("the task `{}` has no plane; leave it out or choose a planar task", task.name());
-            Err(node.error(ErrorKind::BadValue, message))
-        }
+    let (plane, axis) = (table.optional("plane"), table.optional("axis"));
+    let task = match table.required("kind")?.one_of(&kinds)? {
+        TaskKind::Spatial(task) => task,
+        TaskKind::Planar(task) => task(table.required("plane")?.one_of(&PLANES)?),
+        TaskKind::About(task) => task(axis.map_or(Ok(BaseAxis::Z), |node| node.one_of(&AXES))?),
+    };
+    if let Some(node) = plane.filter(|_| task.plane().is_none()) {
+        let message = format!("the task `{}` has no plane; leave it out or choose a planar task", task.name());
+        return Err(node.error(ErrorKind::BadValue, message));
     }
+    if let Some(node) = axis.filter(|_| task.axis().is_none()) {
+        let message = format!("the task `{}` has no axis; leave it out or choose `position_yaw`", task.name());
+        return Err(node.error(ErrorKind::BadValue, message));
+    }
+    Ok(task)
 }
 
 /// The names under `given`; none without it.

@@ -167,6 +167,7 @@ impl Task {
             Task::Ray => [v.as_slice(), &across()].concat(),
             Task::Direction => across().to_vec(),
             Task::Rotation => w.as_slice().to_vec(),
+            Task::PositionYaw { axis } => [v.as_slice(), &[w[axis.coordinate()]]].concat(),
             Task::PositionPitchRoll => [v.as_slice(), &[w.x, w.y]].concat(),
         }
     }

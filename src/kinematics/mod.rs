@@ -14,6 +14,7 @@ pub mod geometry;
 pub mod ideal;
 mod inverse;
 pub mod jacobian;
+mod kept;
 mod mimic;
 pub mod numeric;
 pub mod oracle;
@@ -35,7 +36,7 @@ pub use inverse::{InverseKinematics, Solution};
 pub use parts::{ChainParts, Choice, Joint, JointKind, Meant, Root, Tip, along_z};
 pub use path::LinkPath;
 pub use target::Target;
-pub use task::{Plane, Task};
+pub use task::{BaseAxis, Plane, Task};
 
 pub use crate::model::{LengthUnit, Mimic};
 pub(crate) use crate::spatial::exact::serde as exact_serde;

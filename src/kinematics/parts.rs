@@ -9,6 +9,8 @@ use crate::number::BigRational;
 
 /// What holds within this is meant, unless another tolerance is asked for: radians, and shares of the reach.
 pub const TOLERANCE: f64 = 1e-6;
+/// The greatest tolerance that may be asked for.
+pub const WIDEST: f64 = 0.1;
 
 /// How a joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -40,6 +40,13 @@ pub enum Target {
         /// The roll.
         roll: f64,
     },
+    /// The position of the tip, and the angle \[rad\] about the task's axis at which its direction points.
+    PositionYaw {
+        /// The position.
+        point: Point3<f64>,
+        /// The angle.
+        yaw: f64,
+    },
 }
 
 impl Target {
@@ -60,6 +67,10 @@ impl Target {
             Task::PositionPitchRoll => {
                 let (pitch, roll) = pitch_and_roll(&pose.rotation);
                 Target::PositionPitchRoll { point: tip.into(), pitch, roll }
+            }
+            Task::PositionYaw { axis } => {
+                let [a, b] = axis.across();
+                Target::PositionYaw { point: tip.into(), yaw: aimed()[b].atan2(aimed()[a]) }
             }
             Task::PlanarPosition { plane } => Target::PlanarPosition(plane.coordinates().map(|i| tip[i])),
             Task::PlanarPose { plane } => {
@@ -85,6 +96,7 @@ impl Target {
             (Task::PositionPitchRoll, &[x, y, z, pitch, roll]) => {
                 Target::PositionPitchRoll { point: [x, y, z].into(), pitch, roll }
             }
+            (Task::PositionYaw { .. }, &[x, y, z, yaw]) => Target::PositionYaw { point: [x, y, z].into(), yaw },
             (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
             (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
             (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
@@ -110,12 +122,13 @@ impl Target {
             Target::Direction(direction) => list(direction),
             Target::Rotation(rotation) => rows(rotation),
             Target::PositionPitchRoll { point, pitch, roll } => [list(&point.coords), vec![*pitch, *roll]].concat(),
+            Target::PositionYaw { point, yaw } => [list(&point.coords), vec![*yaw]].concat(),
             Target::PlanarPosition(at) => at.to_vec(),
             Target::PlanarPose(at) => at.to_vec(),
         }
     }
 
-    /// Whether a number of this kind of target is called `name` in a derived solver: `px`, `r11`, `d1`, `phi`, `pitch`.
+    /// Whether a number of this kind of target is called `name` in a derived solver: `px`, `r11`, `d1`, `phi`, `pitch`, `yaw`.
     pub fn has(&self, name: &str) -> bool {
         let (position, rest) =
             (name.starts_with('p') && name.len() == 2, name.chars().skip(1).all(|c| c.is_ascii_digit()));
@@ -126,6 +139,7 @@ impl Target {
             Target::Ray { .. } => position || name.starts_with('d'),
             Target::Direction(_) => name.starts_with('d'),
             Target::PositionPitchRoll { .. } => position || ["pitch", "roll"].contains(&name),
+            Target::PositionYaw { .. } => position || name.starts_with("yaw"),
             Target::PlanarPose(_) => position || name == "phi",
         }
     }
@@ -144,6 +158,7 @@ impl Target {
                 | (Target::Direction(_), Task::Direction)
                 | (Target::Rotation(_), Task::Rotation)
                 | (Target::PositionPitchRoll { .. }, Task::PositionPitchRoll)
+                | (Target::PositionYaw { .. }, Task::PositionYaw { .. })
                 | (Target::PlanarPosition(_), Task::PlanarPosition { .. })
                 | (Target::PlanarPose(_), Task::PlanarPose { .. })
         );
@@ -208,6 +223,9 @@ impl Target {
                 Target::PositionPitchRoll { point, pitch, roll },
                 Target::PositionPitchRoll { point: to, pitch: other, roll: rolled },
             ) => (list(point - to), list(vertical(*pitch, *roll) - vertical(*other, *rolled))),
+            (Target::PositionYaw { point, yaw }, Target::PositionYaw { point: to, yaw: other }) => {
+                (list(point - to), vec![angle::difference(*yaw, *other)])
+            }
             (Target::Direction(a), Target::Direction(b)) => (Vec::new(), list(a - b)),
             (Target::Rotation(a), Target::Rotation(b)) => (Vec::new(), turn(a, b)),
             (Target::PlanarPosition(a), Target::PlanarPosition(b)) => (vec![a[0] - b[0], a[1] - b[1]], Vec::new()),

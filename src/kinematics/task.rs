@@ -1,6 +1,10 @@
 //! What is asked of the tip of a chain. Main type: [`Task`].
 
+use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
+
+use super::ExactVector;
+use crate::number::BigRational;
 
 /// A coordinate plane of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +47,38 @@ impl Plane {
     }
 }
 
+/// A coordinate axis of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BaseAxis {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+impl BaseAxis {
+    /// All of them.
+    pub const ALL: [BaseAxis; 3] = [BaseAxis::X, BaseAxis::Y, BaseAxis::Z];
+
+    /// Its coordinate: 0, 1, 2 for x, y, z.
+    pub fn coordinate(self) -> usize {
+        self as usize
+    }
+
+    /// The coordinate axis from which an angle about this one is counted, and the one to which a quarter turn leads.
+    pub fn across(self) -> [usize; 2] {
+        [1, 2].map(|step| (self.coordinate() + step) % 3)
+    }
+
+    /// `x`, `y` or `z`.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z"][self.coordinate()]
+    }
+}
+
 /// What is asked of the tip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -69,6 +105,12 @@ pub enum Task {
     Rotation,
     /// The position, and pitch and roll of the tip, whatever its yaw, in R = Rz(yaw) Ry(pitch) Rx(roll): five numbers.
     PositionPitchRoll,
+    /// The position, and the angle about an axis of the base at which [`super::Chain::direction`] points: four numbers, of a tip that turns about that axis
+    /// only and a direction at right angles to it. The angle is counted from x about z, from y about x, from z about y.
+    PositionYaw {
+        /// The axis.
+        axis: BaseAxis,
+    },
 }
 
 impl Task {
@@ -76,10 +118,22 @@ impl Task {
     pub fn plane(self) -> Option<Plane> {
         match self {
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => Some(plane),
-            Task::Position | Task::Pose | Task::Ray | Task::Direction | Task::Rotation | Task::PositionPitchRoll => {
-                None
-            }
+            _ => None,
         }
+    }
+
+    /// The axis of a position with the angle about it.
+    pub fn axis(self) -> Option<BaseAxis> {
+        match self {
+            Task::PositionYaw { axis } => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// The direction in the tip frame that is aimed when none is named: z, or the axis from which an angle about an axis is counted.
+    pub fn usual_direction(self) -> ExactVector {
+        let along = self.axis().map_or(2, |axis| axis.across()[0]);
+        std::array::from_fn(|i| if i == along { BigRational::one() } else { BigRational::zero() })
     }
 
     /// The most joints that it determines: its number of independent values.
@@ -87,6 +141,7 @@ impl Task {
         match self {
             Task::Pose => 6,
             Task::Ray | Task::PositionPitchRoll => 5,
+            Task::PositionYaw { .. } => 4,
             Task::Position | Task::PlanarPose { .. } | Task::Rotation => 3,
             Task::PlanarPosition { .. } | Task::Direction => 2,
         }
@@ -95,7 +150,7 @@ impl Task {
     /// How many of its numbers are lengths; they come first.
     pub fn lengths(self) -> usize {
         match self {
-            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll => 3,
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
             Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
             Task::Direction | Task::Rotation => 0,
         }
@@ -103,11 +158,11 @@ impl Task {
 
     /// Whether it aims a direction of the tip frame.
     pub fn aims(self) -> bool {
-        matches!(self, Task::Ray | Task::Direction)
+        matches!(self, Task::Ray | Task::Direction | Task::PositionYaw { .. })
     }
 
     /// Its name in a file: `position`, `planar_position`, `planar_pose`, `pose`, `ray`, `direction`, `rotation` or
-    /// `position_pitch_roll`.
+    /// `position_pitch_roll`, `position_yaw`.
     pub fn name(self) -> &'static str {
         match self {
             Task::Position => "position",
@@ -118,6 +173,7 @@ impl Task {
             Task::Direction => "direction",
             Task::Rotation => "rotation",
             Task::PositionPitchRoll => "position_pitch_roll",
+            Task::PositionYaw { .. } => "position_yaw",
         }
     }
 }

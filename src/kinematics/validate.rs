@@ -3,7 +3,7 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::parts::{ChainParts, Joint, JointKind, TOLERANCE, Tip, show};
+use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST, show};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
@@ -45,7 +45,7 @@ pub fn check(parts: &ChainParts) -> Checked {
         check_joint(index, joint)?;
         check_unique(index, &parts.joints)?;
         if let Some(plane) = parts.task.plane() {
-            check_plane(index, joint, plane)?;
+            check_plane(index, joint, plane, WIDEST)?;
         }
     }
     check_tip(&parts.tip)?;
@@ -150,14 +150,14 @@ fn check_unique(index: usize, joints: &[Joint]) -> Checked {
     Ok(())
 }
 
-/// In a planar task revolute axes are normal to the plane and prismatic axes lie in it, up to what is taken for meant.
-fn check_plane(index: usize, joint: &Joint, plane: Plane) -> Checked {
+/// In a planar task revolute axes are normal to the plane and prismatic axes lie in it, as far as a description may be off (`within`, in radians).
+pub(super) fn check_plane(index: usize, joint: &Joint, plane: Plane, within: f64) -> Checked {
     let normal = ["x", "y", "z"][plane.normal()];
-    let stays = match joint.kind {
-        JointKind::Revolute => sine(&joint.axis, &normal_of(plane)) <= TOLERANCE,
-        JointKind::Prismatic => cosine(&joint.axis, &normal_of(plane)) <= TOLERANCE,
+    let off = match joint.kind {
+        JointKind::Revolute => sine(&joint.axis, &normal_of(plane)),
+        JointKind::Prismatic => cosine(&joint.axis, &normal_of(plane)),
     };
-    if stays {
+    if off <= within {
         return Ok(());
     }
     let allowed = match joint.kind {
@@ -165,9 +165,14 @@ fn check_plane(index: usize, joint: &Joint, plane: Plane) -> Checked {
         JointKind::Prismatic => format!("a prismatic axis must have {normal} = 0"),
     };
     let message = format!(
-        "axis {} moves the tip out of the {} plane of the task; {allowed}",
+        "axis {} moves the tip out of the {} plane of the task; {allowed}{}",
         shown(&show(&joint.axis)),
-        plane.name()
+        plane.name(),
+        if off <= WIDEST {
+            format!("; it is {off:.1e} rad off: a wider tolerance, `--snap`, takes it for that")
+        } else {
+            String::new()
+        }
     );
     Err(joint_fault(index, joint, "axis", ErrorKind::BadValue, &message))
 }

@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::demand::Demand;
 use super::forward::{Forward, Reached};
-use super::instruction::{Operand, Operation};
+use super::instruction::{Instruction, Operand, Operation};
 use super::layout::Layout;
 use super::mirror;
-use super::program::{Block, Case, Condition, Program, Step, square};
+use super::program::{Block, Case, Condition, Described, Program, Step, square};
 use super::rule::Rule;
 
 /// The most candidates that wait to be measured together.
@@ -47,6 +47,7 @@ pub(crate) struct Facts {
     /// A kind and its numbers.
     pub reached: Vec<(&'static str, Vec<usize>)>,
     pub nearby: bool,
+    pub within: Option<f64>,
     /// The place, and whether the greatest value is preferred.
     pub preference: Option<(usize, bool)>,
 }
@@ -74,7 +75,7 @@ impl Facts {
             places: places.len(),
             has_extras: !layout.extra.is_empty(),
             equations: program.checks.residuals.len(),
-            are_affine: are_affine(program),
+            are_affine: are_affine(program, &program.checks.code, &program.checks.residuals),
             size_of: program.checks.scales.iter().map(size_of).collect(),
             shorts: if program.nearby { program.checks.short.len() } else { 0 },
             compared: compared.unwrap_or_default(),
@@ -91,8 +92,9 @@ impl Facts {
             isolated: program.isolated,
             freed: program.freed().collect(),
             conditions: program.conditions.iter().map(condition).collect(),
-            reached: forward.map_or_else(Vec::new, |forward| reached(&forward)),
+            reached: forward.map_or_else(Vec::new, |forward| reached(program, &forward)),
             nearby: program.nearby,
+            within: program.described.as_ref().map(|described| described.within),
             preference: program.preference.and_then(|preference| {
                 let place = places.iter().position(|&unknown| unknown == preference.unknown)?;
                 Some((place, preference.greatest))
@@ -114,15 +116,14 @@ fn once(operands: &[Operand]) -> Vec<Operand> {
 }
 
 /// Whether each equation is affine in the numbers of each joint, by the form of its code: no product of two values that read one joint.
-fn are_affine(program: &Program) -> bool {
-    let checks = &program.checks;
-    let demand = Demand::of_code(&checks.code, &checks.residuals);
-    let mut read: Vec<u32> = vec![0; checks.code.len()];
+fn are_affine(program: &Program, code: &[Instruction], residuals: &[Operand]) -> bool {
+    let demand = Demand::of_code(code, residuals);
+    let mut read: Vec<u32> = vec![0; code.len()];
     let joints = |unknown: usize| {
         let own = program.joints.iter().position(|joint| joint.value.unknowns().contains(&unknown));
         own.map_or(0, |joint| 1 << joint)
     };
-    checks.code.iter().filter(|line| demand.register(line.target) > 0).all(|line| {
+    code.iter().filter(|line| demand.register(line.target) > 0).all(|line| {
         let of = |operand: Operand| match operand {
             Operand::Unknown(unknown) => joints(unknown),
             Operand::Register(register) => read[register],
@@ -139,6 +140,13 @@ fn are_affine(program: &Program) -> bool {
     })
 }
 
+impl Described {
+    /// Whether each equation is affine in the numbers of each joint of `program`.
+    pub(crate) fn is_affine(&self, program: &Program) -> bool {
+        are_affine(program, &self.code, &self.residuals)
+    }
+}
+
 fn condition(condition: &Condition) -> (&'static str, usize) {
     match *condition {
         Condition::Rotation(first) => ("Rotation", first),
@@ -146,15 +154,24 @@ fn condition(condition: &Condition) -> (&'static str, usize) {
     }
 }
 
-fn reached(forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
-    let compares = |value: Operand| move |other: &Option<(Operand, usize)>| other.is_some_and(|other| other.0 == value);
-    let at = |value| forward.equations.iter().position(compares(value)).expect("an equation compares what is reached");
-    let input = |input: &Reached| match *input {
-        Reached::Value(value) => ("Value", vec![at(value)]),
-        Reached::Angle { cosine, sine } => ("Angle", vec![at(cosine), at(sine)]),
+fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
+    // Two equations may have one value; as described they have two.
+    let is_own =
+        |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
+    let at = |value: Operand, rule: &dyn Fn() -> Rule| {
+        let compares = |other: &Option<(Operand, usize)>| {
+            other.is_some_and(|(other, parameter)| other == value && is_own(parameter, rule()))
+        };
+        forward.equations.iter().position(compares).expect("an equation compares what is reached")
+    };
+    let input = |(index, input): (usize, &Reached)| match *input {
+        Reached::Value(value) => ("Value", vec![at(value, &|| Rule::Input(index))]),
+        Reached::Angle { cosine, sine } => {
+            ("Angle", vec![at(cosine, &|| Rule::Cosine(index)), at(sine, &|| Rule::Sine(index))])
+        }
         Reached::Joint(joint) => ("Joint", vec![joint]),
     };
-    forward.inputs.iter().map(input).collect()
+    forward.inputs.iter().enumerate().map(input).collect()
 }
 
 /// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.
@@ -175,6 +192,7 @@ pub(crate) fn is_solved_abreast(program: &Program) -> bool {
     let is_known = |rule: &Rule| matches!(rule, Rule::Input(_) | Rule::Root { .. });
     let fits = |candidates: usize| candidates <= MOST && program.isolated.is_none_or(|most| candidates <= most);
     program.compares_tip()
+        && program.described.is_none()
         && program.preference.is_none()
         && only_roots
         && program.parameters.iter().all(|parameter| is_known(&parameter.rule))

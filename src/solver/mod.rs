@@ -31,7 +31,7 @@ pub(crate) use layout::Layout;
 pub use pairs::Pairs;
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
-pub use program::{Block, Case, Checks, Condition, Guard, Input, Pivot, Preference, Program, Short, Step};
+pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};
 
 pub use groebot_runtime::tolerances::{

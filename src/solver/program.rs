@@ -204,6 +204,21 @@ pub struct Program {
     /// next to each other, or of none, they may propose one double one.
     #[serde(default, skip_serializing_if = "is_false")]
     pub nearby: bool,
+    /// The mechanism as described, where blocks and equations are those of the ideal one that it means, and the task asks for more than the joints can do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub described: Option<Described>,
+}
+
+/// A mechanism as described, beside the ideal one that decides which answers a target has.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Described {
+    /// Code over parameters and unknowns, from register 0.
+    pub code: Vec<Instruction>,
+    /// The equations' values, in the order of [`Checks::residuals`]: each is affine in the numbers of each joint.
+    pub residuals: Vec<Operand>,
+    /// A target is one that the ideal mechanism reaches if it misses each equation by at most this share of its size.
+    pub within: f64,
 }
 
 fn is_false(value: &bool) -> bool {

@@ -2,7 +2,7 @@
 
 use super::instruction::{Instruction, Operand};
 use super::joint::JointValue;
-use super::program::{Block, Case, Checks, Condition, Program, Short, Step};
+use super::program::{Block, Case, Checks, Condition, Described, Program, Short, Step};
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
 use crate::{Error, ErrorKind, Result, roots};
@@ -30,6 +30,7 @@ impl Program {
         context.parameters()?;
         context.blocks(&self.blocks)?;
         context.checks(&self.checks)?;
+        self.described.as_ref().map_or(Ok(()), |described| context.described(described))?;
         let branches = self.blocks.iter().map(Block::branches).try_fold(1usize, usize::checked_mul);
         ensure(branches.is_some_and(|branches| branches <= MOST_BRANCHES), "too many branches")?;
         let least = usize::from(self.cases().any(|case| !case.open));
@@ -216,6 +217,23 @@ impl Context<'_> {
                 }
             }
         }
+    }
+
+    fn described(&mut self, described: &Described) -> Result<()> {
+        self.registers = 0;
+        self.code(&described.code, "described")?;
+        described.residuals.iter().try_for_each(|&operand| self.operand(operand, "described"))?;
+        let is_whole = described.residuals.len() == self.program.checks.residuals.len() && !self.program.nearby;
+        ensure(
+            is_whole && described.within.is_finite() && described.within >= 0.0,
+            "described: equations or tolerance",
+        )?;
+        ensure(
+            described.is_affine(self.program),
+            "described: equations that are not affine in the numbers of each joint",
+        )?;
+        let reached = self.program.forward().is_some_and(|forward| !forward.inputs.is_empty());
+        ensure(reached, "described: the equations do not compare the tip with the target")
     }
 
     fn checks(&mut self, checks: &Checks) -> Result<()> {

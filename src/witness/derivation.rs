@@ -12,6 +12,8 @@ const CHAIN: Options = Options { targets: 240, oracle: 2, exact: 20, seed: 1 };
 /// How much is checked of a described robot on which the answers of the ideal one are polished, and how much of that ideal one.
 const POLISHED: Options = Options { targets: 120, oracle: 2, exact: 0, seed: 1 };
 const IDEAL: Options = Options { targets: 40, oracle: 0, exact: 20, seed: 2 };
+/// How many times the tolerance of a target an answer may miss it by: so far is the target from what the ideal robot reaches, and this from the described one.
+const MISSES: f64 = 2.0;
 /// How much is checked of chains that share actuators.
 const COUPLED: Options = Options { targets: 60, oracle: 1, exact: 6, seed: 1 };
 
@@ -47,6 +49,13 @@ fn check_both(
     (ideal, own, bound): (&Chain, &Program, Option<usize>),
     watch: &Watch,
 ) -> Result<Report> {
-    let report = chain::Check::run(described, polished, None, &POLISHED, watch)?;
+    let report = match &polished.described {
+        // What a search finds reaches the target, and answers need only come near.
+        Some(told) => {
+            let options = Options { oracle: 0, ..POLISHED };
+            chain::Check::run_within(described, polished, None, (&options, MISSES * told.within), watch)?
+        }
+        None => chain::Check::run(described, polished, None, &POLISHED, watch)?,
+    };
     Ok(report.with_ideal(chain::Check::run(ideal, own, bound, &IDEAL, watch)?))
 }

@@ -41,7 +41,7 @@ fn targets(program: &Program, count: usize) -> Vec<Vec<f64>> {
 
 /// The printed file's batches in lanes of every width against its single targets, and the printed answers against those of the program, bit for bit;
 /// `None` when the compiler is missing.
-fn check(program: &Program, count: usize) -> Option<()> {
+pub fn check(program: &Program, count: usize) -> Option<()> {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("5_solver.rs", &rust::emit(program));

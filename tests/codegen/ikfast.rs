@@ -129,7 +129,17 @@ fn compare(stored: &Stored, count: usize) -> Option<usize> {
 /// The tasks of IKFast's types: pose, position with a given joint, planar, rotation; and seven joints with a given one.
 #[test]
 fn a_plugin_answers_like_the_program() {
-    let names = ["puma", "ur5", "iiwa14", "nao_left_arm_position", "planar_2r", "scara", "wrist_rotation", "nao_head"];
+    let names = [
+        "puma",
+        "ur5",
+        "iiwa14",
+        "nao_left_arm_position",
+        "planar_2r",
+        "scara",
+        "scara_yaw",
+        "wrist_rotation",
+        "nao_head",
+    ];
     for stored in named(&names) {
         if emit(&stored.program, &Options::default()).is_err() {
             continue;

@@ -4,6 +4,7 @@ mod batch;
 pub mod builder;
 mod coupled;
 mod derivations;
+mod described;
 mod dynamics;
 mod forward;
 mod frames;

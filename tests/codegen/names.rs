@@ -52,6 +52,7 @@ fn named(names: &[String]) -> Program {
         capacity: 1,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

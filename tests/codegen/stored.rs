@@ -76,6 +76,10 @@ pub fn reached(chain: &Chain, q: &[f64]) -> Vec<f64> {
             let (roll, pitch, _) = tip.rotation.euler_angles();
             position.into_iter().chain([pitch, roll]).collect()
         }
+        Task::PositionYaw { axis } => {
+            let [a, b] = axis.across();
+            position.into_iter().chain([aim[b].atan2(aim[a])]).collect()
+        }
         Task::PlanarPosition { plane } => plane.coordinates().map(|k| position[k]).to_vec(),
         Task::PlanarPose { plane } => {
             let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);

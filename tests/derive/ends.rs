@@ -5,7 +5,7 @@ use std::fs;
 use groebot::ErrorKind;
 use groebot::derive::ends::TASK_NAME;
 use groebot::derive::{Ends, InputFile};
-use groebot::kinematics::{Plane, Task};
+use groebot::kinematics::{BaseAxis, Plane, Task};
 
 use crate::document::assert_error;
 
@@ -53,7 +53,8 @@ fn the_command_overrides_the_folder() {
 
 #[test]
 fn every_task_file_is_read_as_it_was_written() {
-    let tasks = [Task::Pose, Task::Direction, Task::Rotation, Task::PlanarPose { plane: Plane::Xz }];
+    let yaw = Task::PositionYaw { axis: BaseAxis::Y };
+    let tasks = [Task::Pose, Task::Direction, Task::Rotation, yaw, Task::PlanarPose { plane: Plane::Xz }];
     for task in tasks {
         let snap = Some(groebot::number::parse_rational("1e-5").unwrap());
         let ends = Ends { base: Some("a \"b\" \\".into()), task: Some(task), snap, ..Ends::default() };

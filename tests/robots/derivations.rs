@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use groebot::derive::InputFile;
-use groebot::kinematics::{Chain, Geometry, Joint, LengthUnit, Task};
+use groebot::kinematics::{BaseAxis, Chain, Geometry, Joint, LengthUnit, Task};
 use groebot::robots;
 
 /// Every folder's name and chain, but for the two that state equations or millimetres of the NAO chapter.
@@ -81,6 +81,7 @@ fn tasks_are_as_promised() {
             "nao_head" => (Task::Direction, &[]),
             "wrist_rotation" => (Task::Rotation, &[]),
             "upright_arm" => (Task::PositionPitchRoll, &[]),
+            "scara_yaw" => (Task::PositionYaw { axis: BaseAxis::Z }, &[]),
             "polar" | "rrp" | "rh0_arm" => (Task::Position, &[]),
             "iiwa14" => (Task::Pose, &[2]),
             "gen3_like" => (Task::Pose, &[6]),

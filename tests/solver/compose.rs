@@ -56,6 +56,7 @@ fn slide() -> Program {
         capacity: 1,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

@@ -140,6 +140,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         capacity: 1,
         isolated: None,
         nearby: false,
+        described: None,
     };
     program.validate().unwrap();
     program.solve_numbers(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()

@@ -364,12 +364,93 @@ static void gb_keep_pairs(gb_sink_1 *c)
     }
 }
 
+#ifdef GB_WITHIN
+/* Whether two rows of joint values are within a tolerance, joints left out that are free. */
+static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_real tolerance)
+{
+    for (size_t i = 0; i < GB_JOINTS; i++) {
+        gb_real way = a[i] - b[i], span = R(1.0);
+        if (gb_joints[i].is_angle) {
+            way = way > GB_PI ? way - GB_TAU : way < -GB_PI ? way + GB_TAU : way;
+        } else {
+            span = gb_larger(GB_SCALE, gb_magnitude(a[i]));
+        }
+        if (!(free >> i & 1) && !(gb_magnitude(way) <= tolerance * span)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Keeps a candidate that comes nearer to the target than those before. */
+static void gb_take_closest(gb_answers *all, const gb_real *q, const gb_fit *fit)
+{
+    if (!(all->has_nearest && fit->relative >= all->nearest_fit.relative)) {
+        all->has_nearest = true;
+        all->nearest_fit = *fit;
+        memcpy(all->nearest, q, GB_JOINTS * sizeof *q);
+    }
+}
+
+/* Adds a candidate within the tolerance that is far from all answers. */
+static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+{
+    bool is_new = found->free == 0 && fit->relative <= gb_larger(GB_WITHIN, GB_ACCEPT) && c->all.count < GB_CAPACITY;
+    for (size_t i = 0; is_new && i < c->all.count; i++) {
+        is_new = !gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR);
+    }
+    if (is_new) {
+        gb_solution *out = &c->out[c->all.count++];
+        memcpy(out->q, q, sizeof out->q);
+        out->residual = fit->residual;
+        out->relative = fit->relative;
+        out->branch = found->branch;
+        out->chosen = false;
+        out->free = 0;
+    }
+}
+
+/* Brings the candidates that wait nearest to the target, which the joints may miss, and hands them on until one is there. */
+static void gb_fit_waiting(gb_sink_1 *c)
+{
+    gb_answers *all = &c->all;
+    /* Every case of a stratum runs. */
+    all->unsound = all->candidates;
+    for (size_t k = 0; k < c->waiting; k++) {
+        gb_real q[GB_MAX_JOINTS];
+        if (c->sought == GB_CLOSEST && all->has_nearest && all->nearest_fit.relative <= GB_POLISHED) {
+            return;
+        }
+        for (int i = 0; i < GB_JOINTS; i++) {
+            const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
+            q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
+        }
+        const gb_fit fit = gb_fitted(&all->problem, q, c->found[k].free);
+        if (!(gb_magnitude(fit.residual) <= GB_GREATEST)) {
+            continue;
+        }
+        if (c->sought == GB_CLOSEST) {
+            gb_take_closest(all, q, &fit);
+        } else {
+            gb_take_other(c, &c->found[k], q, &fit);
+        }
+    }
+}
+#endif
+
 /* Keeps what is an answer of the candidates that wait. */
 static GB_APART void gb_flush(gb_sink_1 *c)
 {
     for (int i = 0; c->waiting % 2 == 1 && i < GB_PLACES; i++) {
         c->at[i][c->waiting] = c->at[i][c->waiting - 1];
     }
+#ifdef GB_WITHIN
+    if (c->sought != GB_ANSWERS) {
+        gb_fit_waiting(c);
+        c->waiting = 0;
+        return;
+    }
+#endif
     if (c->pairs) {
         gb_keep_pairs(c);
     } else {

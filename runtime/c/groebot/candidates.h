@@ -3,12 +3,16 @@
 #if GB_WIDTH == 1
 
 /* The answers to a target, and by place the numbers of candidates that wait to be measured together, and how each was found. */
+enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_OTHERS };
 struct gb_sink_1 {
     gb_answers all;
     gb_solution *out;
     /* Where pairs are written instead, or null, and whether all candidates so far can be. */
     gb_pairs *pairs;
     bool is_usual;
+    /* Whether only the candidate is wanted that comes nearest to the target, which the joints may miss, or those beside `known` answers. */
+    enum gb_sought sought;
+    size_t known;
     /* Whether usual cases alone have run. */
     bool is_ordinary;
     size_t waiting;

@@ -22,10 +22,10 @@ static void gb_sizes_of(const gb_real *p, const gb_real *at, gb_real *sizes)
     gb_sizes_1(p, at, sizes);
 }
 
-#ifndef GB_JACOBIAN
+#if !defined(GB_JACOBIAN) || defined(GB_WITHIN)
 /* The derivative of each equation by each joint: the equations are affine in the numbers of each, and have the values at the numbers' derivatives less
    those at zeros. */
-static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
+GB_INLINE void gb_derive_affine(void (*values)(const gb_real *, const gb_real *, gb_real *), const gb_real *p, const gb_real *at, gb_real *rows)
 {
     for (int j = 0; j < GB_JOINTS; j++) {
         const gb_joint joint = gb_joints[j];
@@ -34,14 +34,21 @@ static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
         for (int i = 0; i < 2; i++) {
             moved[joint.places[i]] = R(0.0);
         }
-        gb_values_1(p, moved, without);
+        values(p, moved, without);
         moved[joint.places[0]] = joint.is_angle ? -at[joint.places[1]] : R(1.0);
         moved[joint.places[1]] = joint.is_angle ? at[joint.places[0]] : R(1.0);
-        gb_values_1(p, moved, along);
+        values(p, moved, along);
         for (int i = 0; i < GB_EQUATIONS; i++) {
             rows[i * GB_JOINTS + j] = along[i] - without[i];
         }
     }
+}
+#endif
+
+#ifndef GB_JACOBIAN
+static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
+{
+    gb_derive_affine(gb_values_1, p, at, rows);
 }
 #endif
 

@@ -40,17 +40,18 @@ static void gb_reflect(gb_triangle *triangle)
     }
 }
 
-/* The triangle of a step's equations, damped; joints that are `held` stay. */
-static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+/* Room for a mechanism's triangle, all zeros. */
+static void gb_clear_triangle(const gb_mechanism *m, gb_triangle *triangle)
 {
-    const gb_mechanism *m = problem->mechanism;
-    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], size = R(0.0);
     triangle->rows = m->equations + m->joints;
     triangle->joints = m->joints;
     memset(triangle->numbers, 0, (m->joints + 1) * triangle->rows * sizeof *triangle->numbers);
-    gb_place(problem, q, at);
-    m->jacobian(problem->p, at, rows);
-    m->values(problem->p, at, gb_column(triangle, m->joints));
+}
+
+/* The triangle of equations with these derivatives, their values in the last column; joints that are `held` stay. */
+static void gb_fill_triangle(const gb_mechanism *m, const gb_real *rows, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    gb_real size = R(0.0);
     for (size_t i = 0; i < m->joints; i++) {
         gb_real *column = gb_column(triangle, i), square = R(0.0);
         for (size_t k = 0; !gb_is_in(held, i) && k < m->equations; k++) {
@@ -63,6 +64,39 @@ static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_rea
         gb_column(triangle, i)[m->equations + i] = gb_is_in(held, i) ? R(1.0) : gb_square_root(damping * size);
     }
     gb_reflect(triangle);
+}
+
+/* The triangle of a step's equations, damped. */
+static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
+    gb_clear_triangle(m, triangle);
+    gb_place(problem, q, at);
+    m->jacobian(problem->p, at, rows);
+    m->values(problem->p, at, gb_column(triangle, m->joints));
+    gb_fill_triangle(m, rows, damping, held, triangle);
+}
+
+/* The same with the equations as shares of their sizes. */
+static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], sizes[GB_MAX_SIZES];
+    gb_clear_triangle(m, triangle);
+    gb_real *right = gb_column(triangle, m->joints);
+    gb_place(problem, q, at);
+    m->jacobian(problem->p, at, rows);
+    m->values(problem->p, at, right);
+    m->measures(problem->p, at, sizes);
+    for (size_t i = 0; i < m->equations; i++) {
+        const gb_real size = gb_larger(GB_LEAST_POSITIVE, sizes[m->size_of[i]]);
+        right[i] = right[i] / size;
+        for (size_t k = 0; k < m->joints; k++) {
+            rows[i * m->joints + k] = rows[i * m->joints + k] / size;
+        }
+    }
+    gb_fill_triangle(m, rows, damping, held, triangle);
 }
 
 /* Solves the triangular system; false for a zero or non-finite pivot. */
@@ -310,4 +344,58 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
         fit = gb_measure(problem, middle);
     }
     return fit.relative <= bound;
+}
+
+/* The sum of the squares of what the equations are missed by, as shares of their sizes. */
+static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real at[GB_MAX_PLACES], values[GB_MAX_EQUATIONS], sizes[GB_MAX_SIZES], sum = R(0.0);
+    gb_place(problem, q, at);
+    m->values(problem->p, at, values);
+    m->measures(problem->p, at, sizes);
+    for (size_t i = 0; i < m->equations; i++) {
+        const gb_real share = values[i] / gb_larger(GB_LEAST_POSITIVE, sizes[m->size_of[i]]);
+        sum += share * share;
+    }
+    return sum;
+}
+
+/* Takes the least damped step that lowers the sum of squares, and tells how long it is; false where none does. */
+static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uint32_t held, gb_real *longest)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_triangle triangle;
+    gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
+    for (size_t k = 0; k < GB_LENGTH_OF(gb_dampings); k++) {
+        gb_make_shares(problem, q, gb_dampings[k], held, &triangle);
+        if (!gb_substitute(&triangle, step)) {
+            continue;
+        }
+        *longest = gb_longest(m, step);
+        if (!(*longest <= GB_BLUR)) {
+            continue;
+        }
+        gb_stepped(m, q, step, next);
+        const gb_real fallen = gb_squares(problem, next);
+        if (fallen < *squares) {
+            gb_copy(q, next, m->joints);
+            *squares = fallen;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Damped Gauss-Newton steps from q to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is taken
+ * only if it falls. Joints that are `held` stay. */
+GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held)
+{
+    gb_real squares = gb_squares(problem, q), longest = INFINITY;
+    for (int i = 0; i < GB_FITTING_STEPS && longest > GB_SHORT; i++) {
+        if (squares <= GB_POLISHED * GB_POLISHED || !gb_fall(problem, q, &squares, held, &longest)) {
+            break;
+        }
+    }
+    return gb_measure(problem, q);
 }

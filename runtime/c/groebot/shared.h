@@ -98,8 +98,10 @@
 
 /* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
 #define GB_ACCEPT GB_EITHER(1e-12, 3e-5)
+#define GB_MERGE GB_EITHER(1e-7, 2e-3)
 #define GB_BLUR GB_EITHER(5e-2, 3e-2)
 #define GB_ROUNDING GB_EITHER(1e-14, 5e-6)
+#define GB_POLISHED GB_EITHER(1e-15, 2e-7)
 #define GB_MEETING GB_EITHER(1e-5, 1e-2)
 #define GB_TANGENT GB_EITHER(1e-10, 1e-4)
 #define GB_GRAZING GB_EITHER(1e-6, 1e-4)
@@ -241,6 +243,7 @@ GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, co
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
+GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held);
 GB_LINKAGE void gb_settle(gb_answers *all);
 GB_LINKAGE size_t gb_count_turns(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits);
 GB_LINKAGE void gb_turn(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits, size_t index, gb_real *out);

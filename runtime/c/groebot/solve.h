@@ -21,7 +21,7 @@ static int gb_conform(const gb_real *target, gb_real *conforming)
 }
 
 /* Walks through the program to the answers to a target with these parameters; 0, or a code below. */
-static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs)
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought)
 {
     gb_real conforming[GB_INPUTS] = {0};
     const int code = gb_conform(target, conforming);
@@ -34,9 +34,11 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.problem.extras = NULL;
     c->all.out = c->out = out;
     c->all.room = GB_CAPACITY;
-    c->all.count = c->all.candidates = c->all.unsound = c->waiting = 0;
+    c->all.count = sought == GB_OTHERS ? c->known : 0;
+    c->all.candidates = c->all.unsound = c->waiting = 0;
     c->all.is_open = c->all.has_nearest = false;
     c->pairs = pairs;
+    c->sought = sought;
     c->is_usual = c->is_ordinary = true;
     gb_walk_1(p, c);
     gb_flush(c);
@@ -53,11 +55,12 @@ GB_INLINE bool gb_are_settled(const gb_sink_1 *c)
     return are_sorted;
 }
 
-int GB_PUBLIC(solve)(const gb_real *target, gb_solution *out)
+/* All joint values with which the equations hold, or a code below zero. */
+GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out)
 {
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, out, NULL);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
     if (code < 0) {
         return code;
     }
@@ -67,13 +70,25 @@ int GB_PUBLIC(solve)(const gb_real *target, gb_solution *out)
     return (int)c.all.count;
 }
 
+int GB_PUBLIC(solve)(const gb_real *target, gb_solution *out)
+{
+#ifdef GB_WITHIN
+    return gb_solve_described(target, out, NULL);
+#else
+    return gb_solve_ideal(target, out);
+#endif
+}
+
 int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solution *nearest)
 {
-    gb_sink_1 c;
-    gb_real p[GB_PARAMETERS];
     memset(nearest, 0, sizeof *nearest);
     nearest->residual = nearest->relative = INFINITY;
-    const int code = gb_walk_through(&c, target, p, out, NULL);
+#ifdef GB_WITHIN
+    return gb_solve_described(target, out, nearest);
+#else
+    gb_sink_1 c;
+    gb_real p[GB_PARAMETERS];
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
     if (code < 0) {
         return code;
     }
@@ -84,6 +99,7 @@ int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solu
         nearest->relative = c.all.nearest_fit.relative;
     }
     return (int)c.all.count;
+#endif
 }
 
 /* A solution by cosines and sines. */
@@ -111,9 +127,12 @@ static GB_COLD int gb_solve_by_angles(const gb_real *target, gb_pairs *out)
 
 int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
 {
+#ifdef GB_WITHIN
+    return gb_solve_by_angles(target, out);
+#else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, NULL, out);
+    const int code = gb_walk_through(&c, target, p, NULL, out, GB_ANSWERS);
     if (code < 0) {
         return code;
     }
@@ -128,6 +147,7 @@ int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
         }
     }
     return (int)c.all.count;
+#endif
 }
 
 /* All of one target, where there may be less room than solutions: then none is written. */
@@ -190,7 +210,11 @@ gb_real GB_PUBLIC(residual)(const gb_real *target, const gb_real *q)
     }
     gb_parameters_1(conforming, p);
     gb_place(&problem, q, at);
+#ifdef GB_WITHIN
+    gb_described_1(p, at, values);
+#else
     gb_values_of(p, at, values);
+#endif
     for (int i = 0; i < GB_EQUATIONS; i++) {
         if (isnan(values[i])) {
             return NAN;
@@ -207,7 +231,12 @@ bool GB_PUBLIC(forward)(const gb_real *q, gb_real *target)
     const gb_problem problem = {&gb_this, NULL, NULL};
     gb_real at[GB_PLACES], tip[GB_EQUATIONS];
     gb_place(&problem, q, at);
+#ifdef GB_WITHIN
+    const gb_real nothing[GB_PARAMETERS] = {0};
+    gb_described_1(nothing, at, tip);
+#else
     gb_tip_1(at, tip);
+#endif
     for (int i = 0; i < GB_INPUTS; i++) {
         const size_t first = reached[i].of[0], second = reached[i].of[1];
         if (reached[i].kind == GB_AS_JOINT) {
@@ -244,19 +273,23 @@ void GB_PUBLIC(turn)(const gb_real *q, const gb_real *limits, size_t index, gb_r
 int GB_PUBLIC(solve_within)(const gb_real *target, const gb_real *limits, gb_solution *out)
 {
     gb_real conforming[GB_INPUTS] = {0}, p[GB_PARAMETERS];
-    gb_answers all;
     const int count = GB_PUBLIC(solve)(target, out);
     if (count <= 0) {
         return count;
     }
-    memset(&all, 0, sizeof all);
     gb_conform(target, conforming);
     gb_parameters_1(conforming, p);
+#ifdef GB_WITHIN
+    return gb_bring_all_within(p, limits, out, count);
+#else
+    gb_answers all;
+    memset(&all, 0, sizeof all);
     all.problem.mechanism = &gb_this;
     all.problem.p = p;
     all.out = out;
     all.count = (size_t)count;
     return (int)gb_keep_within(&all, limits);
+#endif
 }
 
 int GB_PUBLIC(nearest)(const gb_solution *list, int count, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q)

@@ -80,6 +80,10 @@ impl<V: Clone> Target<V> {
             Task::Rotation => {
                 Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
             }
+            Task::PositionYaw { axis } => {
+                position.clone_from_slice(&parameters[..3]);
+                Turn::Matrix(about(axis.coordinate(), &parameters[3], &parameters[4], arithmetic))
+            }
             Task::PlanarPose { plane } => {
                 plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
                 Turn::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))

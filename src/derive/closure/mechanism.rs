@@ -4,7 +4,7 @@ use super::coupling::Coupling;
 use super::relation::Relation;
 use super::vector;
 use crate::kinematics::upright::Upright;
-use crate::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
+use crate::kinematics::{BaseAxis, Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
@@ -127,9 +127,9 @@ impl Mechanism {
             }
         }
         let task = chain.task();
-        // The angle of a planar pose is counted from the zero configuration, and so is the turn about a ray.
+        // The angle of a planar pose is counted from the zero configuration, and so are the turns about a ray and about an axis.
         let tip_rotation = match task {
-            Task::PlanarPose { .. } | Task::Ray => vector::identity(),
+            Task::PlanarPose { .. } | Task::Ray | Task::PositionYaw { .. } => vector::identity(),
             _ => chain.tip().rotation.clone(),
         };
         let tip_point = chain.tip().point.clone();
@@ -207,7 +207,7 @@ impl Mechanism {
         &self.tip_point
     }
 
-    /// The rotation of the tip at zero, base_from_tip; for a planar pose and a ray, whose turn is counted from there, the identity.
+    /// The rotation of the tip at zero, base_from_tip; for a planar pose, a ray and an angle about an axis, whose turns are counted from there, the identity.
     pub fn tip_rotation(&self) -> &ExactMatrix {
         &self.tip_rotation
     }
@@ -281,7 +281,12 @@ impl Mechanism {
 
     /// The names of the numbers of the target that the user gives.
     pub fn inputs(&self) -> Vec<String> {
-        numbers(self.task)
+        match self.task {
+            Task::PositionYaw { axis } => {
+                ["px", "py", "pz"].map(str::to_owned).into_iter().chain(yaw_names(axis).map(|(_, name)| name)).collect()
+            }
+            task => numbers(task),
+        }
     }
 }
 
@@ -301,8 +306,15 @@ fn numbers(task: Task) -> Vec<String> {
         Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
         Task::Direction => coordinates('d', &[0, 1, 2]),
         Task::Rotation => rotation().collect(),
+        Task::PositionYaw { .. } => position().into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
         Task::PositionPitchRoll => position().into_iter().chain(["pitch".to_owned(), "roll".to_owned()]).collect(),
     }
+}
+
+/// The names of an angle about `axis`, and of its cosine and its sine: `yaw`, `yaw_x`, `yaw_y`.
+pub fn yaw_names(axis: BaseAxis) -> [(String, String); 2] {
+    let yaw = if axis == BaseAxis::Z { "yaw".to_owned() } else { format!("yaw_{}", axis.name()) };
+    ["c", "s"].map(|letter| (yaw.clone(), format!("{letter}{yaw}")))
 }
 
 /// A symbol that no joint has.
@@ -317,7 +329,9 @@ fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
     let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));
     let about_aim = joint(JointKind::Revolute, aim);
     match task {
-        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll => Vec::new(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => {
+            Vec::new()
+        }
         Task::Position | Task::PlanarPosition { .. } => every(JointKind::Revolute).collect(),
         Task::Direction => every(JointKind::Prismatic).chain([about_aim]).collect(),
         Task::Rotation => every(JointKind::Prismatic).collect(),

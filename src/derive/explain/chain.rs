@@ -57,6 +57,9 @@ fn task(task: Task) -> &'static str {
         Task::Ray => "the position of the tip and a direction for it to point in",
         Task::Direction => "a direction for the tip to point in",
         Task::Rotation => "the rotation of the tip, by rows",
+        Task::PositionYaw { .. } => {
+            "the position of the tip and the angle about an axis of the base at which a direction of it points; the relations have the turn since the zero configuration"
+        }
         Task::PositionPitchRoll => "the position of the tip, its pitch and its roll, whatever its yaw",
     }
 }

@@ -52,7 +52,7 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
     };
     let [run, tail] = relation.cancelled(mechanism);
     // What the task does not see of the tip stands behind the last joint.
-    let partly = !matches!(mechanism.seen(), Task::Pose | Task::PlanarPose { .. });
+    let partly = !matches!(mechanism.seen(), Task::Pose | Task::PlanarPose { .. } | Task::PositionYaw { .. });
     let at_tip = relation.right.0.last() == Some(&Letter::Target);
     vec![line(&relation.fixed, &run, false), line(&relation.moved, &tail, partly && at_tip)]
 }

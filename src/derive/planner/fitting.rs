@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 use super::{joints_to_give, plan};
 use crate::Watch;
 use crate::derive::closure::Mechanism;
-use crate::kinematics::{Chain, ExactVector, Plane, Task};
+use crate::kinematics::{BaseAxis, Chain, ExactVector, Plane, Task};
 use crate::number::BigRational;
 
 /// The options of `groebot derive` for a task that the joints of `chain` can do anywhere in their workspace, one joint at a time: as many numbers
@@ -27,7 +27,11 @@ fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
     let plain = |task: Task| (task, along(2));
     match free {
         5 => aimed(Task::Ray).into_iter().chain([plain(Task::PositionPitchRoll)]).collect(),
-        4 => vec![plain(Task::Position)],
+        4 => {
+            let about = |axis: BaseAxis| axis.across().map(|aim| (Task::PositionYaw { axis }, along(aim)));
+            let axes = [BaseAxis::Z, BaseAxis::X, BaseAxis::Y];
+            axes.into_iter().flat_map(about).chain([plain(Task::Position)]).collect()
+        }
         3 => {
             let planar = planes.map(|plane| plain(Task::PlanarPose { plane }));
             planar.into_iter().chain([plain(Task::Position), plain(Task::Rotation)]).collect()
@@ -44,6 +48,9 @@ fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
 fn is_solved(chain: &Chain, task: Task, direction: &ExactVector) -> bool {
     let ask = |given: Vec<String>| chain.with_task(task, direction.clone(), given);
     let Ok(asked) = ask(chain.parts().given.clone()) else { return false };
+    if asked.check_task().is_err() {
+        return false;
+    }
     let watch = Watch::none();
     let given = joints_to_give(&asked, &watch)
         .map(|choice| choice.map_or_else(|| asked.parts().given.clone(), |choice| choice.given));
@@ -57,7 +64,8 @@ fn along(axis: usize) -> ExactVector {
 
 fn words(task: Task, direction: &ExactVector) -> String {
     let plane = task.plane().map(|plane| format!(" --plane {}", plane.name())).unwrap_or_default();
+    let axis = task.axis().map(|axis| format!(" --axis {}", axis.name())).unwrap_or_default();
     let aimed = direction.each_ref().map(ToString::to_string).join(",");
     let aimed = if task.aims() { format!(" --direction {aimed}") } else { String::new() };
-    format!("--task {}{plane}{aimed}", task.name())
+    format!("--task {}{plane}{axis}{aimed}", task.name())
 }

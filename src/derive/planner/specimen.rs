@@ -127,6 +127,10 @@ fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modu
         Task::Direction => aim.to_vec(),
         Task::Rotation => rotation.collect(),
         Task::PlanarPosition { plane } => plane.coordinates().map(|k| position[k]).to_vec(),
+        Task::PositionYaw { axis } => {
+            let [a, b] = axis.across();
+            position.into_iter().chain([columns[a][a], columns[a][b]]).collect()
+        }
         Task::PlanarPose { plane } => {
             let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);
             let turned = [columns[a][a], columns[a][b]];

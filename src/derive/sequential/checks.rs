@@ -9,7 +9,7 @@ use super::emit::{Emitted, Emitter};
 use super::layout::Layout;
 use crate::derive::assemble::{Assembler, of_least_work};
 use crate::derive::closure::{Arithmetic, Mechanism, ScrewJoint};
-use crate::kinematics::{ExactVector, Plane, Task};
+use crate::kinematics::{BaseAxis, ExactVector, Plane, Task};
 use crate::number::BigRational;
 use crate::solver::{Checks, JointValue, Operand, Short};
 
@@ -151,7 +151,9 @@ impl<'a> Forward<'a> {
         });
         let size = self.emitter.0.add(Operand::Constant(reach), self.shifts);
         match task {
-            Task::Pose | Task::Position | Task::Ray | Task::PositionPitchRoll => self.at(&tip, &[0, 1, 2], 0, size),
+            Task::Pose | Task::Position | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => {
+                self.at(&tip, &[0, 1, 2], 0, size);
+            }
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => self.at(&tip, &plane.coordinates(), 0, size),
             Task::Direction | Task::Rotation => {}
         }
@@ -162,6 +164,7 @@ impl<'a> Forward<'a> {
             Task::Direction => self.aimed(mechanism, 0),
             Task::PlanarPose { plane } => self.tilted(&columns, plane),
             Task::PositionPitchRoll => self.upright(&columns),
+            Task::PositionYaw { axis } => self.pointing(mechanism, axis),
             Task::Position | Task::PlanarPosition { .. } => {}
         }
         match task {
@@ -238,13 +241,28 @@ impl<'a> Forward<'a> {
 
     /// The direction that the tip aims, as a unit vector, against the one asked for.
     fn aimed(&mut self, mechanism: &Mechanism, first: usize) {
-        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
-        let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
-        let aim = self.turned(mechanism.aim()).map(|entry| entry.times(unit));
+        let aim = self.aim(mechanism);
         let rates = self.rates(&aim);
         for k in 0..3 {
             let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
             self.equation(&aim[k], Operand::Parameter(first + k), Operand::Constant(1.0), row);
+        }
+    }
+
+    /// The direction that the tip aims, as a unit vector.
+    fn aim(&mut self, mechanism: &Mechanism) -> Vector {
+        let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+        let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
+        self.turned(mechanism.aim()).map(|entry| entry.times(unit))
+    }
+
+    /// Where the direction that the tip aims points across an axis: the cosine and the sine of its angle.
+    fn pointing(&mut self, mechanism: &Mechanism, axis: BaseAxis) {
+        let aim = self.aim(mechanism);
+        let rates = self.rates(&aim);
+        for (index, k) in axis.across().into_iter().enumerate() {
+            let row = rates.iter().map(|rate| self.emitter.operand(&rate[k])).collect();
+            self.equation(&aim[k], Operand::Parameter(3 + index), Operand::Constant(1.0), row);
         }
     }
 

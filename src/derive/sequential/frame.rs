@@ -31,6 +31,7 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
         capacity: 1,
         isolated: None,
         nearby: false,
+        described: None,
         blocks: Vec::new(),
         preference: None,
     }

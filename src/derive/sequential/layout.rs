@@ -6,9 +6,9 @@ use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
 use crate::derive::assemble::Assembler;
-use crate::derive::closure::{self, Assignment, Mechanism, ScrewJoint, Standing, Target};
+use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Standing, Target, yaw_names};
 use crate::kinematics::upright::GIVEN;
-use crate::kinematics::{JointKind, LengthUnit, Task};
+use crate::kinematics::{BaseAxis, JointKind, LengthUnit, Task};
 use crate::number::BigRational;
 use crate::solver::{
     Condition, Following, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
@@ -142,6 +142,8 @@ impl Layout {
     fn target(&mut self, mechanism: &Mechanism, length: Unit) {
         let names = mechanism.inputs();
         let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
+        let turn = mechanism.task().axis().map(yaw_names);
+        let is_yaw = |name: &str, which: usize| turn.as_ref().is_some_and(|names| names[which].1 == name);
         for name in names {
             let input = self.inputs.len();
             if mechanism.standing().is_some() && input >= PITCH {
@@ -151,11 +153,16 @@ impl Layout {
             let rule = match name.as_str() {
                 "cphi" if planar => Rule::Cosine(input),
                 "sphi" if planar => Rule::Sine(input - 1),
+                cosine if is_yaw(cosine, 0) => Rule::Cosine(input),
+                sine if is_yaw(sine, 1) => Rule::Sine(input - 1),
                 _ => Rule::Input(input),
             };
             match rule {
                 Rule::Sine(_) => {}
-                Rule::Cosine(_) => self.inputs.push(Input { name: "phi".to_owned(), unit: Unit::Radian }),
+                Rule::Cosine(_) => {
+                    let name = turn.as_ref().map_or_else(|| "phi".to_owned(), |names| names[0].0.clone());
+                    self.inputs.push(Input { name, unit: Unit::Radian });
+                }
                 _ => {
                     let unit = if name.starts_with('p') { length } else { Unit::One };
                     self.inputs.push(Input { name: name.clone(), unit });
@@ -204,7 +211,11 @@ impl Layout {
                     if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
                 let parameter = |index| Operand::Parameter(self.first + index);
                 let value = |index| Emitted::code(parameter(index)).times(factor);
-                (0..mechanism.parameters().len()).map(value).collect()
+                let values: Vec<Emitted> = (0..mechanism.parameters().len()).map(value).collect();
+                match mechanism.task() {
+                    Task::PositionYaw { axis } => turned_since_zero(mechanism, axis, values, emitter),
+                    _ => values,
+                }
             }
         };
         let target = Target::new(mechanism, &parameters, emitter)?;
@@ -254,6 +265,23 @@ impl Layout {
         let joints = joints.collect();
         Ok(Assignment { joints, target })
     }
+}
+
+/// The numbers of a position and an angle about `axis`, with the cosine and the sine of the turn since the zero configuration in place of the angle's own.
+fn turned_since_zero(
+    mechanism: &Mechanism,
+    axis: BaseAxis,
+    values: Vec<Emitted>,
+    emitter: &mut Emitter<'_>,
+) -> Vec<Emitted> {
+    let [across, up] = axis.across().map(|k| mechanism.aim()[k].to_f64().unwrap_or(0.0));
+    let length = across.hypot(up);
+    let [position @ .., c, s] = &values[..] else { return values };
+    let turns = [(across, c, up, s), (across, s, -up, c)].map(|(a, x, b, y)| {
+        let (first, second) = (x.times(a / length), y.times(b / length));
+        emitter.add(&first, &second)
+    });
+    position.iter().cloned().chain(turns).collect()
 }
 
 /// The numbers of the pose that a closed loop has for a target: the identity.

@@ -106,7 +106,9 @@ impl Derived {
         Derived::of_plan(chain, &mechanism, plan, watch).map_err(told)
     }
 
-    /// This solver, of an ideal chain, for the chain `truth` that means it: `report` of [`Chain::ideal`] tells how they differ. Every answer of the closed form is polished by Newton's method on `truth`, and measured there.
+    /// This solver, of an ideal chain, for the chain `truth` that means it: `report` of [`Chain::ideal`] tells how they differ. Every answer of the closed
+    /// form is polished by Newton's method on `truth`, and measured there. Where the task asks for more than the joints can do, the ideal chain decides which
+    /// answers there are.
     ///
     /// # Errors
     /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
@@ -115,8 +117,13 @@ impl Derived {
         let parts = Parts { plan, steps, form_bases, half_angles };
         let mechanism = Mechanism::new(&chain)?;
         let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.deviation()))?;
-        derived.program.checks = program::checks_on(&chain, truth)?;
-        derived.program.nearby = true;
+        match program::described_by(&mechanism, truth, &report, &derived.program)? {
+            None => {
+                derived.program.checks = program::checks_on(&chain, truth)?;
+                derived.program.nearby = true;
+            }
+            described => derived.program.described = described,
+        }
         derived.truth = Some((truth.clone(), report));
         derived.unpolished = Some(Box::new(unpolished));
         Ok(derived)

@@ -1,7 +1,7 @@
 //! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
 
 use super::cases::{Place, Sized, cases, quartic, tell_spread};
-use super::checks::polishing;
+use super::checks::{checks, polishing};
 use super::context::Context;
 use super::form_basis::{Form, FormBasis};
 use super::frame::{framed, given, reach};
@@ -14,8 +14,9 @@ use super::symbols::Symbols;
 use super::{Parts, ProvedStep, standing};
 use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
-use crate::kinematics::Chain;
-use crate::solver::{Block, Checks, Guard, NEAR, Operand, Program};
+use crate::kinematics::ideal::Report;
+use crate::kinematics::{Chain, Task};
+use crate::solver::{Block, Checks, Described, Guard, NEAR, Operand, Program};
 use crate::{Error, ErrorKind, Result};
 
 /// Two linear equations are nearly dependent when their determinant is below this share of its size.
@@ -75,6 +76,40 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
         standing::close(standing, &mut layout, &mut Vec::new(), reach(chain));
     }
     Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
+}
+
+/// The chain `truth` beside its ideal, that of `mechanism` and `program`, where the task asks for more than the joints can do: then the chain as described has
+/// no answer where the ideal one has several, or only the one that made the target. None where it is left to polishing.
+///
+/// # Errors
+/// As [`Mechanism::of_chain`].
+pub(super) fn described_by(
+    mechanism: &Mechanism,
+    truth: &Chain,
+    report: &Report,
+    program: &Program,
+) -> Result<Option<Described>> {
+    let layout = Layout::new(mechanism, truth.length_unit());
+    if !asks_for_more(mechanism) || mechanism.standing().is_some() {
+        return Ok(None);
+    }
+    let Checks { code, residuals, .. } = Checks {
+        scales: Vec::new(),
+        jacobian: Vec::new(),
+        ..checks(&Mechanism::of_chain(truth)?, &layout, reach(truth))
+    }
+    .pruned();
+    let described = Described { code, residuals, within: 2.0 * report.bound() };
+    let fits = described.is_affine(program) && program.forward().is_some_and(|forward| !forward.inputs.is_empty());
+    Ok(fits.then_some(described))
+}
+
+/// Whether the equations say more than the joints can do: for a planar pose that the chain stays in its plane, for an angle about an axis that the tip does not
+/// tilt.
+fn asks_for_more(mechanism: &Mechanism) -> bool {
+    let freedoms = mechanism.seen().freedoms();
+    matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. })
+        || freedoms > mechanism.unknown().len()
 }
 
 fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {

@@ -299,6 +299,7 @@ impl<'a> Common<'a> {
             capacity: 1,
             isolated: None,
             nearby: false,
+            described: None,
             scale,
         }
         .prefixed(self.sides[0].prefix);

@@ -27,6 +27,10 @@ impl Derived {
                 let (pitch, roll) = pitch_and_roll(&base_from_tip.rotation);
                 position.iter().copied().chain([pitch, roll]).collect()
             }
+            Task::PositionYaw { axis } => {
+                let [a, b] = axis.across();
+                position.iter().copied().chain([aim()[b].atan2(aim()[a])]).collect()
+            }
             Task::PlanarPosition { plane } | Task::PlanarPose { plane } => {
                 plane.coordinates().iter().map(|&k| position[k]).collect::<Vec<f64>>()
             }

@@ -10,7 +10,7 @@ mod meeting;
 mod places;
 mod report;
 
-pub use super::parts::TOLERANCE;
+pub use super::parts::{TOLERANCE, WIDEST};
 use super::{Chain, ChainParts, Joint, JointKind, Task, Tip};
 use crate::{Error, ErrorKind, Result};
 use report::moved;
@@ -18,8 +18,6 @@ pub use report::{Moved, Relation, RelationKind, Report};
 
 use crate::spatial::exact::vector::Line;
 
-/// The greatest tolerance.
-pub const WIDEST: f64 = 0.1;
 /// Where answers are polished anyway, lengths are rounded to decimals within this share of the tolerance.
 const GRAIN: f64 = 1e-3;
 /// Numbers this near to one another are the same in doubles: radians, and shares of the reach.
@@ -39,7 +37,7 @@ impl Chain {
     /// The same within `tolerance`, in radians and shares of the reach; with zero each digit is taken at its word.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a tolerance that is not in \[0, 0.1\].
+    /// [`ErrorKind::BadValue`] for a tolerance that is not in \[0, 0.1\]; as [`Chain::check_task`].
     pub fn ideal_within(&self, tolerance: f64) -> Result<(Chain, Report)> {
         if !(0.0..=WIDEST).contains(&tolerance) {
             let text = format!(
@@ -49,13 +47,16 @@ impl Chain {
         }
         let told = ChainParts { meant: None, ..self.parts().clone() };
         if tolerance == 0.0 {
-            return Ok((Chain::new(told)?, Report::of_exact(self, tolerance)));
+            let chain = Chain::new(told)?;
+            chain.check_task()?;
+            return Ok((chain, Report::of_exact(self, tolerance)));
         }
         let meant = match self.parts().meant.as_deref().cloned() {
             Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..told })?,
             None => Chain::new(told)?,
         };
         let chain = self.chosen(&meant, tolerance)?;
+        chain.check_task()?;
         let report = Report::new(self, &chain, tolerance);
         Ok((chain, report))
     }

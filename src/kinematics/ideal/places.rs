@@ -164,6 +164,13 @@ impl Placing {
 /// The direction that a task aims, in the frame of `tip`: along the last axis, or perpendicular to it, when it almost is.
 fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVector {
     let own = chain.direction();
+    if let Some(axis) = chain.task().axis() {
+        // At right angles to the axis about which its angle is asked, when it almost is.
+        let normal = tip.rotation[axis.coordinate()].clone();
+        let upright = cosine(own, &normal);
+        let is_near = upright > 0.0 && upright <= tolerance;
+        return if is_near { sub(own, &scale(&normal, &dot(own, &normal))) } else { own.clone() };
+    }
     let Some(last) = placing.lines.last().filter(|_| chain.task().aims()) else { return own.clone() };
     let axis: ExactVector =
         std::array::from_fn(|i| (0..3).map(|k| &tip.rotation[k][i] * &last.line.direction[k]).sum());

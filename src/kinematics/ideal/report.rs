@@ -87,6 +87,14 @@ impl Report {
         self.moved.iter().map(|moved| moved.deviation(self.reach)).fold(0.0, f64::max)
     }
 
+    /// How far the tips of the two robots can be from one another at the same joint values, whatever these are: radians, and shares of the reach.
+    ///
+    /// A joint whose axis is turned by `a` and shifted by `d` moves what it carries as the ideal one does but for a rigid motion before and its inverse behind:
+    /// the angle differs by `2 a` at most, and the place by `2 (a r + d)`, `r` being the reach. The chain's tip is off by the sum over the joints, and its own.
+    pub fn bound(&self) -> f64 {
+        self.moved.iter().map(|moved| 2.0 * (moved.angle + moved.distance / self.reach)).sum()
+    }
+
     /// Whether the ideal robot is the described one in doubles.
     pub fn is_same(&self) -> bool {
         self.deviation() <= SAME

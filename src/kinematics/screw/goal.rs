@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::reduced::{Goal, Member, Reduced};
+use super::reduced::{Goal, LOOSE, Member, Reduced};
+use super::values::Reach;
 use crate::Result;
 use crate::kinematics::{Chain, Plane, Target, Task};
 use crate::spatial::Pose;
@@ -35,8 +36,16 @@ impl Target {
                 let at = Translation3::from(in_plane(&from, plane, &[*x, *y]).coords);
                 Goal::Pose(Pose::from_parts(at, rotation) * tip.inverse())
             }
+            (Target::PositionYaw { point, yaw }, Task::PositionYaw { axis }) => {
+                let (aim, [a, b]) = (tip.rotation * chain.aim().into_inner(), axis.across());
+                let normal = Unit::new_unchecked(Vector3::ith(axis.coordinate(), 1.0));
+                let rotation = UnitQuaternion::from_axis_angle(&normal, yaw - aim[b].atan2(aim[a])) * tip.rotation;
+                Goal::Pose(Pose::from_parts(point.coords.into(), rotation) * tip.inverse())
+            }
             // A position with pitch and roll is asked of the loop that stands for it; a planar target has a plane.
-            (Target::PositionPitchRoll { point, .. }, _) => Goal::Point { from, to: *point },
+            (Target::PositionPitchRoll { point, .. } | Target::PositionYaw { point, .. }, _) => {
+                Goal::Point { from, to: *point }
+            }
             (Target::PlanarPosition(_) | Target::PlanarPose(_), _) => Goal::Point { from, to: from },
         };
         Ok(goal)
@@ -68,5 +77,5 @@ fn in_plane(tip: &Point3<f64>, plane: Plane, at: &[f64; 2]) -> Point3<f64> {
 /// The loop of all joints.
 pub(super) fn whole(screws: &[crate::spatial::Screw], goal: Goal) -> Reduced {
     let row = screws.iter().enumerate().map(|(joint, &screw)| Member { joint, screw }).collect();
-    Reduced { row, goal }
+    Reduced { row, goal, loose: Reach::Within(LOOSE) }
 }

@@ -47,10 +47,15 @@ impl Chain {
 
     /// Whether two answers are one.
     fn are_one(&self, a: &[f64], b: &[f64]) -> bool {
+        self.are_within(a, b, MERGE)
+    }
+
+    /// Whether joints differ by this much at most \[rad, or reaches\].
+    fn are_within(&self, a: &[f64], b: &[f64], most: f64) -> bool {
         let differ = |(screw, (a, b)): (&Screw, (&f64, &f64))| match screw {
             Screw::Revolute(_) => angle::difference(*a, *b).abs(),
             Screw::Prismatic(_) => (a - b).abs() / self.scale(),
         };
-        self.screws().iter().zip(a.iter().zip(b)).map(differ).all(|difference| difference <= MERGE)
+        self.screws().iter().zip(a.iter().zip(b)).map(differ).all(|difference| difference <= most)
     }
 }

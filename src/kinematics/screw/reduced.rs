@@ -9,7 +9,12 @@ use std::borrow::Cow;
 use nalgebra::Point3;
 use smallvec::SmallVec;
 
+use super::values::Reach;
 use crate::spatial::{Half, Pose, Screw};
+
+/// How far a step lets its target be out of reach, relative to the size of its subproblem: rounding in the joints solved
+/// before adds up, a robot as described is off the ideal one by up to 1e-6, and forward kinematics judges every answer in the end.
+pub(super) const LOOSE: f64 = 1e-5;
 
 /// A joint that is still unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,12 +47,14 @@ pub(super) enum Goal {
 pub(super) struct Reduced {
     pub row: Row,
     pub goal: Goal,
+    /// How far steps let their targets be out of reach.
+    pub loose: Reach,
 }
 
 impl Clone for Reduced {
     /// Copies the row as a whole, which a small vector's own `clone` does not.
     fn clone(&self) -> Self {
-        Reduced { row: Row::from_slice(&self.row), goal: self.goal }
+        Reduced { row: Row::from_slice(&self.row), goal: self.goal, loose: self.loose }
     }
 }
 

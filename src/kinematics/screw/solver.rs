@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use super::model::Model;
 use super::order::{Order, Orders, samples};
 use super::plan::Plan;
-use super::reduced::{Goal, Reduced};
+use super::reduced::{Goal, LOOSE, Reduced};
 use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
 use super::search::scale_of;
+use super::values::Reach;
 use super::{ACCEPT, MERGE, upright};
 use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::upright::Upright;
@@ -17,6 +18,10 @@ use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Ta
 use crate::spatial::{Axis, Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
+/// How many times as far as an answer may be off the goal a step's target may be out of reach.
+const LEVER: f64 = 30.0;
+/// Answers that differ by more are far from each other \[rad, or reaches\].
+const APART: f64 = 5e-2;
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
 
@@ -35,6 +40,8 @@ pub struct ScrewSolver {
     reach: f64,
     /// The loop that stands for the task `position_pitch_roll`, and its solver.
     upright: Option<Box<(Upright, ScrewSolver)>>,
+    /// The solver of the ideal robot, where the task asks for more than the joints can do: it decides which answers there are.
+    ideally: Option<Box<Ideally>>,
 }
 
 /// A partial answer on the way through the steps.
@@ -51,6 +58,8 @@ struct Trail {
 /// What the steps of one order find for a goal.
 struct Visit<'a> {
     order: &'a Order,
+    /// How far an answer may be from the goal: shares of the reach, and radians.
+    accept: f64,
     /// What answers are measured by: the goal of the chain as described.
     goal: &'a Goal,
     found: &'a mut Vec<Solution>,
@@ -79,15 +88,25 @@ impl ScrewSolver {
             let upright = ideal.upright()?;
             let inner = ScrewSolver::within(&upright.chain, 0.0)?;
             let parts = Some(Box::new((upright, inner.clone())));
-            return Ok(ScrewSolver { chain: chain.clone(), ideal, upright: parts, ..inner });
+            return Ok(ScrewSolver { chain: chain.clone(), ideal, upright: parts, ideally: None, ..inner });
         }
         let mut model = Model::of(&ideal)?;
         model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
         let samples = samples(&ideal, &model)?;
         let scale = scale_of(&samples[0].start, model.reach);
         let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(&ideal)) };
-        let described = if report.is_same() { None } else { Some(Model::of(chain)?) };
-        Ok(ScrewSolver { reach: scale.length, chain: chain.clone(), ideal, model, described, orders, upright: None })
+        let (described, reach) = (if report.is_same() { None } else { Some(Model::of(chain)?) }, scale.length);
+        let parts = (ideal.clone(), ideal.clone(), model.clone(), orders.clone());
+        let solver =
+            ScrewSolver { chain: chain.clone(), ideal, model, described, orders, reach, upright: None, ideally: None };
+        Ok(if solver.described.is_some() && asks_for_more(chain) {
+            let (chain, ideal, model, orders) = parts;
+            let inner =
+                ScrewSolver { chain, ideal, model, described: None, orders, reach, upright: None, ideally: None };
+            ScrewSolver { ideally: Some(Box::new(Ideally { solver: inner, within: 2.0 * report.bound() })), ..solver }
+        } else {
+            solver
+        })
     }
 
     /// The order of subproblems. Others are taken as well where one of its steps degenerates and the chain does not, or no answer is
@@ -127,22 +146,64 @@ impl ScrewSolver {
             let found = inner.solve_given(&closed, &values)?;
             return Ok(upright::on_chain(&self.chain, upright, target, found));
         }
+        if let Some(ideally) = &self.ideally {
+            target.check(&self.chain)?;
+            let answers = ideally.solve(target, given)?;
+            return self.described_answers(target, answers);
+        }
+        self.solve_within(target, given, ACCEPT)
+    }
+
+    /// The same as far as the steps lead: all joint values that miss the target by `accept` at most.
+    pub(super) fn solve_within(&self, target: &Target, given: &[f64], accept: f64) -> Result<Vec<Solution>> {
         let given = &self.chain.given_values(given)[..];
-        let start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
+        let mut start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
+        start.loose = Reach::Within(LOOSE.max(LEVER * accept));
         let goal = target.goal(if self.described.is_some() { &self.chain } else { &self.ideal })?;
         let mut found = Vec::with_capacity(self.plan().most_solutions());
-        let doubtful = self.visit(&self.orders.first, &start, &goal, given, &mut found);
+        let doubtful = self.visit(&self.orders.first, &start, (&goal, accept), given, &mut found);
         let none = found.is_empty();
         let degenerate = (0..self.orders.first.steps.len()).filter(|at| none || doubtful >> at & 1 == 1);
         for order in degenerate.filter_map(|at| self.orders.without(at)) {
-            self.visit(order, &start, &goal, given, &mut found);
+            self.visit(order, &start, (&goal, accept), given, &mut found);
         }
         found.retain(|answer| self.chain.strays(&answer.q) <= MERGE);
         Ok(found)
     }
 
+    /// Answers of the ideal robot where the described one comes nearest to the target, each once.
+    fn described_answers(&self, target: &Target, answers: Vec<Solution>) -> Result<Vec<Solution>> {
+        let Model { screws, tip, joints, .. } = self.described.as_ref().unwrap_or(&self.model);
+        let (goal, mut found): (Goal, Vec<Solution>) = (target.goal(&self.chain)?, Vec::new());
+        for answer in answers {
+            let mut values: [f64; MOST_JOINTS] = std::array::from_fn(|i| answer.q.get(i).copied().unwrap_or(0.0));
+            let mut motions: Vec<Pose> = screws.iter().zip(values).map(|(screw, q)| screw.exp(q)).collect();
+            if let Some(ray) = screws.get(*joints) {
+                values[*joints] = turn_about(ray, &motions[..*joints], &goal);
+                motions[*joints] = ray.exp(values[*joints]);
+            }
+            let fixed = std::array::from_fn(|i| answer.free.contains(&i) || self.model.given.contains(&i));
+            let start = (values, Miss::of(&motions, &goal, tip), &fixed);
+            let (values, _) = refine(screws, &goal, tip, self.reach, start, ENOUGH);
+            let wrapped = |(q, screw): (f64, &Screw)| if screw.axis().is_some() { angle::wrap(q) } else { q };
+            let q: Vec<f64> = values.into_iter().zip(screws).take(*joints).map(wrapped).collect();
+            if !found.iter().any(|other| self.chain.are_one(&q, &other.q)) {
+                let [position, rotation] = target.missed(&self.chain, &q);
+                found.push(Solution { q, residual: position.max(rotation), ..answer });
+            }
+        }
+        Ok(found)
+    }
+
     /// Solves by one order, and tells its doubtful steps.
-    fn visit(&self, order: &Order, start: &Reduced, goal: &Goal, given: &[f64], found: &mut Vec<Solution>) -> u32 {
+    fn visit(
+        &self,
+        order: &Order,
+        start: &Reduced,
+        (goal, accept): (&Goal, f64),
+        given: &[f64],
+        found: &mut Vec<Solution>,
+    ) -> u32 {
         let mut trail = Trail {
             q: [Half::new(0.0); MOST_JOINTS],
             motions: [Pose::identity(); MOST_JOINTS],
@@ -154,7 +215,7 @@ impl ScrewSolver {
             trail.q[joint] = Half::new(value);
             trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
         }
-        let mut visit = Visit { order, goal, found, doubtful: 0 };
+        let mut visit = Visit { order, accept, goal, found, doubtful: 0 };
         self.descend(0, start, &mut trail, &mut visit);
         visit.doubtful
     }
@@ -206,7 +267,7 @@ impl ScrewSolver {
         let miss = Miss::of(&motions[..screws.len()], goal, tip);
         let fixed = std::array::from_fn(|i| trail.free[i] || given.contains(&i));
         let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
-        let reaches = miss.size(self.reach) <= ACCEPT;
+        let reaches = miss.size(self.reach) <= visit.accept;
         let free =
             trail.freeing != 0 && reaches && moves_freely(screws, &q, goal, tip, self.reach, (&trail.free, given));
         if !free {
@@ -231,6 +292,47 @@ impl ScrewSolver {
             });
         }
     }
+}
+
+/// The ideal robot of a chain whose task asks for more than its joints can do.
+#[derive(Clone, Debug)]
+struct Ideally {
+    solver: ScrewSolver,
+    /// A target is one that the ideal robot reaches if it misses it by no more: shares of the reach, and radians.
+    within: f64,
+}
+
+impl Ideally {
+    /// The answers to the target next to this one that the ideal robot reaches.
+    fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+        let near = self.solver.solve_within(target, given, self.within.max(ACCEPT))?;
+        let Some(best) = near.iter().min_by(|a, b| a.residual.total_cmp(&b.residual)) else { return Ok(Vec::new()) };
+        let reached = Target::reached(&self.solver.chain, &best.q)?;
+        let mut answers = self.solver.solve_within(&reached, given, ACCEPT)?;
+        // Where the ideal robot reaches one pose in more ways than most, these part by as much as the target is off.
+        for other in near {
+            let is_far = |answer: &Solution| !self.solver.chain.are_within(&answer.q, &other.q, APART);
+            if other.free.is_empty() && answers.iter().all(is_far) {
+                answers.push(other);
+            }
+        }
+        Ok(answers)
+    }
+}
+
+/// The turn about the axis `ray`, behind these motions, that is left to a pose.
+fn turn_about(ray: &Screw, motions: &[Pose], goal: &Goal) -> f64 {
+    let (Some(axis), Goal::Pose(pose)) = (ray.axis(), goal) else { return 0.0 };
+    let rotation = motions.iter().fold(UnitQuaternion::identity(), |turned, motion| turned * motion.rotation);
+    let turn = rotation.inverse() * pose.rotation;
+    2.0 * turn.imag().dot(&axis.direction()).atan2(turn.scalar())
+}
+
+/// Whether a task asks for more than the joints of `chain` can do: a planar one that the chain stays in its plane, an angle about an axis that the tip does
+/// not tilt.
+fn asks_for_more(chain: &Chain) -> bool {
+    let is_held = chain.task().plane().is_some() || chain.task().axis().is_some();
+    is_held || chain.joints().len() - chain.given().len() < chain.task().freedoms()
 }
 
 /// What is there, and what would be needed.

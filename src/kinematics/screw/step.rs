@@ -21,10 +21,6 @@ use crate::spatial::{Axis, Pose, Screw, angle};
 
 use smallvec::SmallVec;
 
-/// How far a step lets its target be out of reach, relative to the size of its subproblem: rounding in the joints solved
-/// before adds up, a robot as described is off the ideal one by up to 1e-6, and forward kinematics judges every answer in the end.
-const LOOSE: Reach = Reach::Within(1e-5);
-
 /// Values for the joints that a step solves, in the order of [`Step::solved`]; `None` when every value does it.
 pub(super) type Answer = [Option<f64>; 6];
 pub(super) type Answers = SmallVec<[Answer; 2]>;
@@ -91,12 +87,12 @@ impl Step {
                     Goal::Pose(pose) => pose * p,
                     Goal::Point { to, .. } => to,
                 };
-                Some(carry_point(rest, &p, &k))
+                Some(carry_point(rest, &p, &k, reduced.loose))
             }
             Kind::ToDirection(line) => {
                 let Object::Direction(x) = Feature::Direction(*line).locate(tail, &reduced.goal)? else { return None };
                 let Goal::Pose(pose) = reduced.goal else { return None };
-                Some(turn_direction(&self.pick(rest), &x, &(pose.rotation * x)))
+                Some(turn_direction(&self.pick(rest), &x, &(pose.rotation * x), reduced.loose))
             }
             Kind::ToPlane(line) => {
                 let Object::Plane(n, c) = Feature::Component(*line).locate(tail, &reduced.goal)? else { return None };
@@ -112,20 +108,20 @@ impl Step {
             }
             Kind::ThreePairs => {
                 let Goal::Pose(pose) = reduced.goal else { return None };
-                let found = parallel_pairs::solve(&reduced.row, &pose, LOOSE);
+                let found = parallel_pairs::solve(&reduced.row, &pose, reduced.loose);
                 Some(found.iter().map(|q| q.map(Some)).collect())
             }
             Kind::Between(relation) => {
                 let (a, b) = relation.locate(rest, tail, &reduced.goal)?;
                 let before = self.unknown[0] < relation.start;
-                Some(answers(between(&rest[self.unknown[0]].screw, &a, &b, &reduced.goal, before)))
+                Some(answers(between(&rest[self.unknown[0]].screw, &a, &b, reduced, before)))
             }
             Kind::Around(relations) => {
                 let Goal::Pose(pose) = reduced.goal else { return None };
                 let screws = [&rest[self.unknown[0]].screw, &rest[self.unknown[1]].screw];
                 let pairs =
                     [relations[0].locate(rest, tail, &reduced.goal)?, relations[1].locate(rest, tail, &reduced.goal)?];
-                around(screws, &pairs, &pose)
+                around(screws, &pairs, &pose, reduced.loose)
             }
         }
     }
@@ -152,18 +148,18 @@ fn answers(values: Values) -> Answers {
 }
 
 /// `p` to `k` by all joints of `rest`.
-fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>) -> Answers {
+fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>, loose: Reach) -> Answers {
     match rest {
         [one] => answers(match &one.screw {
-            Screw::Revolute(axis) => rotate_to_point(axis, p, k, LOOSE),
-            Screw::Prismatic(direction) => translate_to_point(direction, p, k, LOOSE),
+            Screw::Revolute(axis) => rotate_to_point(axis, p, k, loose),
+            Screw::Prismatic(direction) => translate_to_point(direction, p, k, loose),
         }),
         [first, second] => {
-            let found = two_screws_to_point(&first.screw, &second.screw, p, k, LOOSE);
+            let found = two_screws_to_point(&first.screw, &second.screw, p, k, loose);
             found.iter().map(|q| answer(*q)).collect()
         }
         [first, second, third] => {
-            let found = three_screws_to_point([&first.screw, &second.screw, &third.screw], p, k, LOOSE);
+            let found = three_screws_to_point([&first.screw, &second.screw, &third.screw], p, k, loose);
             found.iter().map(|q| answer(*q)).collect()
         }
         _ => Answers::new(),
@@ -171,15 +167,15 @@ fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>) -> Answers {
 }
 
 /// The direction `x` to `y` by the rotations of one or two joints.
-fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64>>) -> Answers {
+fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64>>, loose: Reach) -> Answers {
     let (p, k) = (Point3::from(x.into_inner()), Point3::from(y.into_inner()));
     let central = |screw: &Screw| screw.axis().map(Axis::through_origin);
     match screws {
-        [one] => central(one).map_or_else(Answers::new, |axis| answers(rotate_to_point(&axis, &p, &k, LOOSE))),
+        [one] => central(one).map_or_else(Answers::new, |axis| answers(rotate_to_point(&axis, &p, &k, loose))),
         [first, second] => match (central(first), central(second)) {
             (Some(first), Some(second)) => {
                 let (first, second) = (Screw::Revolute(first), Screw::Revolute(second));
-                let found = two_screws_to_point(&first, &second, &p, &k, LOOSE);
+                let found = two_screws_to_point(&first, &second, &p, &k, loose);
                 found.iter().map(|q| answer(*q)).collect()
             }
             _ => Answers::new(),
@@ -201,38 +197,39 @@ fn last(screw: &Screw, pose: &Pose) -> Answers {
 
 /// The one joint `screw` that is left, behind the run (`E b` is to lie to a as `T b` does) or before it (`E a` is to lie to
 /// `T b` as a to b).
-fn between(screw: &Screw, a: &Object, b: &Object, goal: &Goal, before: bool) -> Values {
-    let target = match goal {
+fn between(screw: &Screw, a: &Object, b: &Object, reduced: &Reduced, before: bool) -> Values {
+    let loose = reduced.loose;
+    let target = match &reduced.goal {
         Goal::Pose(pose) => b.moved(pose),
         Goal::Point { to, .. } => Object::Point(*to),
     };
     let (moving, fixed, value) = if before { (a, &target, a.measure(b)) } else { (b, a, a.measure(&target)) };
     let Some(value) = value else { return Values::None };
     match (screw, moving, fixed) {
-        (Screw::Revolute(axis), Object::Point(p), Object::Point(k)) => rotate_to_distance(axis, p, k, value, LOOSE),
-        (Screw::Prismatic(v), Object::Point(p), Object::Point(k)) => translate_to_distance(v, p, k, value, LOOSE),
+        (Screw::Revolute(axis), Object::Point(p), Object::Point(k)) => rotate_to_distance(axis, p, k, value, loose),
+        (Screw::Prismatic(v), Object::Point(p), Object::Point(k)) => translate_to_distance(v, p, k, value, loose),
         (Screw::Revolute(axis), Object::Point(p), Object::Plane(n, c)) => {
-            rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE)
+            rotate_to_plane(axis, p, n, &(c + n.scale(value)), loose)
         }
         (Screw::Prismatic(v), Object::Point(p), Object::Plane(n, c)) => {
-            translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE)
+            translate_to_plane(v, p, n, &(c + n.scale(value)), loose)
         }
         (Screw::Revolute(axis), Object::Plane(n, c), Object::Point(p)) => {
-            rotate_to_plane(axis, p, n, &(c + n.scale(value)), LOOSE).negated()
+            rotate_to_plane(axis, p, n, &(c + n.scale(value)), loose).negated()
         }
         (Screw::Prismatic(v), Object::Plane(n, c), Object::Point(p)) => {
-            translate_to_plane(v, p, n, &(c + n.scale(value)), LOOSE).negated()
+            translate_to_plane(v, p, n, &(c + n.scale(value)), loose).negated()
         }
         (Screw::Revolute(axis), Object::Direction(x), Object::Direction(y)) => {
             let (axis, p) = (axis.through_origin(), Point3::from(x.into_inner()));
-            rotate_to_plane(&axis, &p, y, &Point3::from(y.scale(value)), LOOSE)
+            rotate_to_plane(&axis, &p, y, &Point3::from(y.scale(value)), loose)
         }
         _ => Values::None,
     }
 }
 
 /// The joints before (first) and behind (second) the run: `E1 a` lies to `T b` as a to `E2 b`, for two pairs of objects.
-fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose) -> Option<Answers> {
+fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose, loose: Reach) -> Option<Answers> {
     let mut rows = [[0.0; 5]; 2];
     for (row, (a, b)) in rows.iter_mut().zip(pairs) {
         let target = b.moved(pose);
@@ -243,7 +240,7 @@ fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose) -> Op
     let (x, z) = (Vector3::x(), Vector3::z_axis());
     let part = |i: usize, j: usize| Vector3::new(rows[i][j], rows[i][j + 1], 0.0);
     let found =
-        four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], rows[0][4], rows[1][4], LOOSE);
+        four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], rows[0][4], rows[1][4], loose);
     Some(found.iter().map(|q| answer(*q)).collect())
 }
 

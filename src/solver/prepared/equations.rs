@@ -4,7 +4,7 @@ use groebot_runtime::storage::Array;
 use groebot_runtime::{Number, With};
 
 use super::code::{Assembler, Code, Line, Memory};
-use crate::solver::{Demand, Layout, Operand};
+use crate::solver::{Demand, Instruction, Layout, Operand};
 
 /// Values that code computes from parameters and from what the equations read of joints.
 #[derive(Clone, Debug, Default)]
@@ -17,8 +17,16 @@ pub(super) struct Equations {
 impl Equations {
     /// Those of the checks' code with these results.
     pub fn new<'a>(layout: &Layout<'_>, results: impl IntoIterator<Item = &'a Operand> + Clone) -> Self {
+        Equations::of_code(layout, &layout.program.checks.code, results)
+    }
+
+    /// Those of this code.
+    pub fn of_code<'a>(
+        layout: &Layout<'_>,
+        code: &[Instruction],
+        results: impl IntoIterator<Item = &'a Operand> + Clone,
+    ) -> Self {
         let program = layout.program;
-        let code = &program.checks.code;
         let places = layout.places();
         let place_of = |unknown| places.iter().position(|&other| other == unknown).unwrap_or(0);
         let place_of = (0..program.unknowns.len()).map(place_of).collect();

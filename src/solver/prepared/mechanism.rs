@@ -34,6 +34,7 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
             conditions: &self.kinds.conditions,
             reached: &self.kinds.reached,
             nearby: facts.nearby.then_some(facts.shorts),
+            within: facts.within,
             preference: facts.preference.map(|(place, greatest)| Preference { place, greatest }),
         }
     }
@@ -67,6 +68,13 @@ impl<S: Storage + 'static> Mechanism for Shaped<S> {
         f64: With<N>,
     {
         self.values.row(p.as_ref(), at.as_ref())
+    }
+
+    fn described<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Equations<Self, N>
+    where
+        f64: With<N>,
+    {
+        self.described.row(p.as_ref(), at.as_ref())
     }
 
     fn sizes<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Sizes<Self, N>

@@ -34,6 +34,8 @@ pub(super) struct Shaped<S> {
     pub(super) blocks: Blocks,
     pub(super) tip: Equations,
     pub(super) values: Equations,
+    /// The values as described, where the equations are those of the ideal mechanism.
+    pub(super) described: Equations,
     pub(super) sizes: Equations,
     /// The derivatives, where the run time does not find them from the values.
     pub(super) jacobian: Option<Equations>,
@@ -106,6 +108,9 @@ impl<S: Storage + 'static> Shaped<S> {
             blocks: Blocks::new(layout),
             tip: Equations::new(layout, &tip(layout)),
             values: Equations::new(layout, &checks.residuals),
+            described: program.described.as_ref().map_or_else(Equations::default, |described| {
+                Equations::of_code(layout, &described.code, &described.residuals)
+            }),
             sizes: Equations::new(layout, &facts.sizes),
             jacobian: (!facts.are_affine).then(|| Equations::new(layout, checks.jacobian.iter().flatten())),
             short: Equations::new(layout, &short),

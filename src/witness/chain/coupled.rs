@@ -6,7 +6,7 @@
 use nalgebra::DMatrix;
 
 use super::count::Counter;
-use super::model::{Configuration, Model};
+use super::model::{Configuration, Model, RESIDUAL};
 use super::rational::Rationals;
 use super::targets::{Target, Targets};
 use super::{Check, Solver};
@@ -34,6 +34,7 @@ pub fn check(derived: &DerivedCoupled, options: &Options, watch: &Watch) -> Resu
         solver: &derived.program,
         bound: Some(derived.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
+        tolerance: RESIDUAL,
         options: Options { oracle: if derived.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };

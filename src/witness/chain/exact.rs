@@ -185,7 +185,7 @@ fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
             [points(last.map_or(&tip.point, |joint| &joint.point)), columns()].concat()
         }
         // What a task sees from the tip is not counted.
-        Task::Ray | Task::PositionPitchRoll => [points(&tip.point), aim()].concat(),
+        Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => [points(&tip.point), aim()].concat(),
         Task::Direction => aim(),
         Task::Rotation => columns(),
     }

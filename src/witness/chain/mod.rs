@@ -70,6 +70,8 @@ pub struct Check<'a> {
     bound: Option<usize>,
     screws: Option<Box<dyn Solver + 'a>>,
     options: Options,
+    /// How far answers may miss their targets, which ask for more than the joints can do: shares of the reach, and radians.
+    tolerance: f64,
     watch: &'a Watch,
 }
 
@@ -87,6 +89,21 @@ impl<'a> Check<'a> {
         options: &Options,
         watch: &Watch,
     ) -> Result<Report> {
+        Check::run_within(chain, solver, bound, (options, RESIDUAL), watch)
+    }
+
+    /// The same of a chain as described, whose answers may miss their targets by `tolerance` (shares of the reach, radians): the chain that it means decides
+    /// which there are.
+    ///
+    /// # Errors
+    /// As [`Check::run`].
+    pub fn run_within(
+        chain: &Chain,
+        solver: &dyn Solver,
+        bound: Option<usize>,
+        (options, tolerance): (&Options, f64),
+        watch: &Watch,
+    ) -> Result<Report> {
         let model = Model::new(chain);
         let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
@@ -95,7 +112,7 @@ impl<'a> Check<'a> {
         let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
         let is_counted = !follows && chain.task() != Task::PositionPitchRoll;
         let exact = if is_counted { options.exact } else { 0 };
-        let check = Check { model: &model, solver, bound, screws, options: *options, watch };
+        let check = Check { model: &model, solver, bound, screws, options: *options, tolerance, watch };
         let rows = check.rows(&mut |number| rationals.in_place_of(&model, targets.draw(number), exact, watch))?;
         Ok(Report {
             inputs: model.input_names(),
@@ -173,7 +190,7 @@ impl<'a> Check<'a> {
             self.model.is_well_formed(&answer.q).then(|| {
                 let residual = self.model.residual(&target, &answer.q);
                 let is_too_free = !answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR;
-                Judged { told: residual, is_missed: residual > RESIDUAL, is_too_free }
+                Judged { told: residual, is_missed: residual > self.tolerance, is_too_free }
             })
         })
     }

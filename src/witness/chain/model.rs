@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::singular::smallest_singular_value;
 use crate::Result;
 use crate::kinematics::oracle::{Oracle, Unknown};
-use crate::kinematics::{Chain, JointKind, Solution, Task};
+use crate::kinematics::{BaseAxis, Chain, JointKind, Solution, Task};
 use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 
 /// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
@@ -63,6 +63,10 @@ impl<'a> Model<'a> {
             Task::Ray => [position(&[0, 1, 2]), aim].concat(),
             Task::Direction => aim,
             Task::Rotation => rotation,
+            Task::PositionYaw { axis } if axis == BaseAxis::Z => {
+                [position(&[0, 1, 2]), vec!["yaw".to_owned()]].concat()
+            }
+            Task::PositionYaw { axis } => [position(&[0, 1, 2]), vec![format!("yaw_{}", axis.name())]].concat(),
             Task::PositionPitchRoll => [position(&[0, 1, 2]), vec!["pitch".to_owned(), "roll".to_owned()]].concat(),
         };
         names.extend(self.chain.given_inputs().iter().map(|&joint| self.chain.joints()[joint].name.clone()));
@@ -72,7 +76,7 @@ impl<'a> Model<'a> {
     /// The number of a target's numbers that are lengths, all in front.
     pub fn lengths(&self) -> usize {
         match self.chain.task() {
-            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll => 3,
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
             Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
             Task::Direction | Task::Rotation => 0,
         }
@@ -110,6 +114,10 @@ impl<'a> Model<'a> {
             Task::Ray => [point, aim()].concat(),
             Task::Direction => aim(),
             Task::Rotation => rotation(),
+            Task::PositionYaw { axis } => {
+                let (aim, [a, b]) = (aim(), axis.across());
+                [point, vec![aim[b].atan2(aim[a])]].concat()
+            }
             Task::PositionPitchRoll => {
                 let (pitch, roll) = pitch_and_roll(&pose.rotation);
                 [point, vec![pitch, roll]].concat()
@@ -122,10 +130,14 @@ impl<'a> Model<'a> {
         let seen = self.compared(&self.seen(&self.forward(q)));
         let target = &self.compared(target)[..];
         let size = self.size(q);
-        let planar = matches!(self.chain.task(), Task::PlanarPose { .. });
+        let turn = match self.chain.task() {
+            Task::PlanarPose { .. } => Some(2),
+            Task::PositionYaw { .. } => Some(3),
+            _ => None,
+        };
         let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
             index if index < self.lengths() => (seen - wanted) / size,
-            2 if planar => angle::difference(*seen, *wanted),
+            index if turn == Some(index) => angle::difference(*seen, *wanted),
             _ => seen - wanted,
         };
         let misses = seen.iter().zip(target).enumerate().map(miss);

@@ -283,6 +283,10 @@ impl<'a> Targets<'a> {
                 v.copy_from_slice(&rows[..3]);
                 w.copy_from_slice(&rows[3..]);
             }
+            Task::PositionYaw { axis } => {
+                v.copy_from_slice(&rows[..3]);
+                w[axis.coordinate()] = rows[3];
+            }
             Task::Rotation => w.copy_from_slice(rows),
             Task::Ray | Task::Direction | Task::PositionPitchRoll => return None,
         }

@@ -46,6 +46,7 @@ pub fn program() -> Program {
         capacity: 6,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

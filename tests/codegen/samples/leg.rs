@@ -32,6 +32,7 @@ pub fn program() -> Program {
         capacity: 2,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

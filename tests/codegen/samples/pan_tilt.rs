@@ -33,6 +33,7 @@ pub fn program() -> Program {
         capacity: 3,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

@@ -35,6 +35,7 @@ pub fn program() -> Program {
         capacity: 5,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

@@ -82,6 +82,7 @@ pub fn program(gap: bool) -> Program {
         capacity: 4,
         isolated: None,
         nearby: false,
+        described: None,
     }
 }
 

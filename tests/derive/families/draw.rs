@@ -135,7 +135,9 @@ pub fn moves_freely(chain: &Chain) -> bool {
     let seen = match chain.task() {
         Task::Position | Task::PlanarPosition { .. } => twists.rows(0, 3).into_owned(),
         Task::Direction | Task::Rotation => twists.rows(3, 3).into_owned(),
-        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll => twists.rows(0, 6).into_owned(),
+        Task::Pose | Task::PlanarPose { .. } | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => {
+            twists.rows(0, 6).into_owned()
+        }
     };
     let values = seen.singular_values();
     seen.nrows() >= seen.ncols() && values.min() > 1e-9 * values.max()

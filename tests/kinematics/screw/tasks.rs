@@ -53,6 +53,9 @@ fn miss(chain: &Chain, q: &[f64], target: &Target) -> f64 {
             let differ = |a: f64, b: f64| groebot::spatial::angle::difference(a, b).abs();
             at(point).max(differ(pitched, *pitch)).max(differ(rolled, *roll))
         }
+        Target::PositionYaw { point, yaw } => {
+            at(point).max(groebot::spatial::angle::difference(aimed.y.atan2(aimed.x), *yaw).abs())
+        }
         Target::PlanarPosition(_) | Target::PlanarPose(_) => 0.0,
     }
 }

@@ -1,0 +1,23 @@
+//! All joint values with which the equations of a mechanism hold: [`solve_ideal`].
+
+use crate::answers::Answers;
+use crate::conditions::conform;
+use crate::mechanism::{Inputs, Mechanism};
+use crate::problem::Problem;
+use crate::solution::{Error, Solution};
+
+/// All joint values with which the equations hold.
+#[inline]
+pub(crate) fn solve_ideal<M: Mechanism>(
+    mechanism: &M,
+    target: &Inputs<M>,
+    out: &mut [Solution<M>],
+) -> Result<usize, Error> {
+    let mut target = target.clone();
+    conform(mechanism.facts().conditions, target.as_mut())?;
+    let p = mechanism.parameters(&target);
+    let mut answers = Answers::new(Problem::new(mechanism, &p), out, None);
+    answers.find()?;
+    answers.conclude();
+    Ok(answers.count)
+}
