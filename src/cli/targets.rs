@@ -6,6 +6,8 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
+use super::columns::{Columns, Found};
+use crate::document::is_stdin;
 use crate::{Error, ErrorKind, Result};
 
 /// How errors call standard input.
@@ -22,12 +24,14 @@ pub fn parse(names: &[&str], text: &str) -> Result<Vec<f64>> {
 }
 
 fn numbers<'t>(names: &[&str], cells: impl Iterator<Item = &'t str>) -> Result<Vec<f64>> {
-    cells.enumerate().map(|(index, cell)| number(names, index, cell)).collect()
+    let name = |index: usize| names.get(index).copied().unwrap_or_default();
+    cells.enumerate().map(|(index, cell)| number(name(index), index, cell)).collect()
 }
 
-fn number(names: &[&str], index: usize, cell: &str) -> Result<f64> {
+/// The number of a cell: that of `name`, where it has one.
+fn number(name: &str, index: usize, cell: &str) -> Result<f64> {
     cell.parse().map_err(|_| {
-        let name = names.get(index).map(|name| format!(" (`{name}`)")).unwrap_or_default();
+        let name = if name.is_empty() { String::new() } else { format!(" (`{name}`)") };
         let text = format!(
             "cell {}{name} is `{}`, which is no number; give a decimal number such as 12.5 or -3e2",
             index + 1,
@@ -43,6 +47,18 @@ pub fn shown(text: &str) -> String {
     if text.chars().nth(SHOWN).is_some() { escaped + "..." } else { escaped }
 }
 
+/// Fails where standard input, from which a table would be read, already holds `description`; `option` is what gives values instead.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`].
+pub fn is_free(description: &Path, option: &str) -> Result<()> {
+    if !is_stdin(description) {
+        return Ok(());
+    }
+    let text = format!("standard input holds the description, and can hold no table as well; give values by {option}");
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
 /// One target with its line, counted from 1.
 pub struct Row {
     /// The line where it stands.
@@ -53,32 +69,26 @@ pub struct Row {
 
 /// The rows of a CSV: one a line, empty lines left out.
 pub struct Reader<'a, R> {
-    /// The names of each form that a row may have.
-    forms: Vec<Vec<&'a str>>,
+    columns: Columns,
     lines: Enumerate<Lines<R>>,
-    /// Once the first row is read: the form of its names and which column each is in, when the row has names.
-    columns: Option<(usize, Vec<usize>)>,
+    /// Once the first row is read: where the numbers are, when it has names.
+    found: Option<Found>,
     is_first: bool,
     /// How errors call the input.
     file: &'a Path,
 }
 
 impl<'a, R: BufRead> Reader<'a, R> {
-    /// Reads values of `names` from `input`, which is `file`.
-    pub fn new(names: Vec<&'a str>, input: R, file: &'a Path) -> Self {
-        Reader::of_forms(vec![names], input, file)
-    }
-
-    /// Reads values of any of these lists of names from `input`, which is `file`.
-    pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R, file: &'a Path) -> Self {
-        Reader { forms, lines: input.lines().enumerate(), columns: None, is_first: true, file }
+    /// Reads the numbers of `columns` from `input`, which is `file`.
+    pub fn new(columns: Columns, input: R, file: &'a Path) -> Self {
+        Reader { columns, lines: input.lines().enumerate(), found: None, is_first: true, file }
     }
 
     /// The next target; a first row of names is taken note of.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input, [`ErrorKind::Io`],
-    /// [`ErrorKind::Syntax`]: all with file and line.
+    /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input or has one that is not known,
+    /// [`ErrorKind::Io`], [`ErrorKind::Syntax`]: all with file and line.
     pub fn next(&mut self) -> Option<Result<Row>> {
         loop {
             let (index, text) = self.lines.next()?;
@@ -95,48 +105,24 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
     }
 
-    /// The target of a row; none for the row of names.
+    /// The target of a row; none for the row of names, and for one that is passed over.
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {
-            self.columns = Some(self.named(record)?);
+            self.found = Some(self.columns.find(record)?);
             return Ok(None);
         }
-        let Some((form, columns)) = &self.columns else {
-            let form = self.forms.iter().find(|names| names.len() == record.len()).unwrap_or(&self.forms[0]);
-            return numbers(form, record.iter()).map(Some);
+        let Some(found) = &self.found else {
+            let names = self.columns.names(self.columns.form_of(record.len()));
+            return numbers(&names, record.iter()).map(Some);
         };
-        let cells = columns.iter().map(|&column| record.get(column).unwrap_or(""));
-        numbers(&self.forms[*form], cells).map(Some)
-    }
-
-    /// The first form whose names a row has, and their columns.
-    fn named(&self, record: &StringRecord) -> Result<(usize, Vec<usize>)> {
-        let found = |(form, names): (usize, &Vec<&str>)| columns(names, record).ok().map(|columns| (form, columns));
-        match self.forms.iter().enumerate().find_map(found) {
-            Some(found) => Ok(found),
-            None => {
-                let fewest = (0..self.forms.len()).min_by_key(|form| self.forms[*form].len()).unwrap_or(0);
-                columns(&self.forms[fewest], record).map(|columns| (fewest, columns))
-            }
+        if found.is_unsolved(record) {
+            return Ok(None);
         }
+        let names = self.columns.names(found.form);
+        let cells = found.cells(record).zip(&names).map(|((column, cell), name)| number(name, column, cell));
+        Ok(Some(found.scaled(cells.collect::<Result<_>>()?)))
     }
-}
-
-/// The column of each name in a row of names.
-fn columns(names: &[&str], record: &StringRecord) -> Result<Vec<usize>> {
-    let column = |name: &&str| {
-        record.iter().position(|cell| cell == *name).ok_or_else(|| {
-            let found: Vec<String> = record.iter().take(8).map(shown).collect();
-            let text = format!(
-                "the first row (`{}`) is neither numbers nor names of the inputs: `{name}` is missing; {} are allowed",
-                found.join(","),
-                names.join(", ")
-            );
-            Error::new(ErrorKind::UnknownName, text)
-        })
-    };
-    names.iter().map(column).collect()
 }
 
 /// The cells of a line.

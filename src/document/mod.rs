@@ -29,24 +29,24 @@ pub(crate) use json::JsonFormat;
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = 1_000_000;
 
-/// The text of `path`, which must be UTF-8, not empty and at most `limit` bytes long.
+/// Whether `path` is `-`: standard input, in place of a file.
+pub fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// The text of `path`, or of standard input for `-`, which must be UTF-8, not empty and at most `limit` bytes long. Standard input can be read
+/// once: after that it is empty.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] for a missing file, a directory or a failed read; [`ErrorKind::BadValue`] for a file that is
 /// too long; [`ErrorKind::Syntax`] for an empty file or one that is not UTF-8 (with its line). All name the file.
 pub fn read_text(path: &Path, limit: u64) -> Result<String> {
     let fail = |kind, message: String| Err(Error::new(kind, message).in_file(path));
-    let io = |error: std::io::Error| Error::io(path, &error);
-    let file = File::open(path).map_err(io)?;
-    if file.metadata().map_err(io)?.is_dir() {
-        return fail(ErrorKind::Io, "this is a directory; give a text file".into());
-    }
-    let mut bytes = Vec::new();
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
-    if bytes.len() as u64 > limit {
-        return fail(ErrorKind::BadValue, format!("the file is too long; at most {limit} bytes are read"));
-    }
+    let bytes = read_bytes(path, limit)?;
     match String::from_utf8(bytes) {
+        Ok(text) if text.trim().is_empty() && is_stdin(path) => {
+            fail(ErrorKind::Syntax, "standard input is empty, or was read before; give a description, once".into())
+        }
         Ok(text) if text.trim().is_empty() => fail(ErrorKind::Syntax, "the file is empty; give a description".into()),
         Ok(text) => Ok(text),
         Err(error) => {
@@ -55,6 +55,26 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String> {
             fail(ErrorKind::Syntax, "the text is not UTF-8; save the file as UTF-8".into()).map_err(|e| e.at_line(line))
         }
     }
+}
+
+/// The bytes of `path`, or of standard input, at most `limit` of them.
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    let io = |error: std::io::Error| Error::io(path, &error);
+    let mut bytes = Vec::new();
+    if is_stdin(path) {
+        std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+    } else {
+        let file = File::open(path).map_err(io)?;
+        if file.metadata().map_err(io)?.is_dir() {
+            return Err(Error::new(ErrorKind::Io, "this is a directory; give a text file").in_file(path));
+        }
+        file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+    }
+    if bytes.len() as u64 > limit {
+        let text = format!("the file is too long; at most {limit} bytes are read");
+        return Err(Error::new(ErrorKind::BadValue, text).in_file(path));
+    }
+    Ok(bytes)
 }
 
 /// A parsed TOML document, borrowing its text.
