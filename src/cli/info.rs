@@ -61,7 +61,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
                 Description::Robot(tree) => notes(tree, &ends)?,
                 _ => Vec::new(),
             };
-            let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
+            let path = input.path(&ends)?;
+            let tip = path.as_ref().map(TipLink::of_path);
+            notes.extend(
+                chain.check_base(input.carrier(path.as_ref()).as_deref()).err().map(|far| far.message().to_owned()),
+            );
             notes.extend(tip.as_ref().and_then(TipLink::note));
             notes.extend(DhTable::doubt_of(&input.text));
             let (ideal, report) = ends.ideal(&chain)?;

@@ -84,7 +84,7 @@ impl InputFile {
     }
 
     /// The link on a path that carries its first joint that moves.
-    fn carrier(&self, path: Option<&LinkPath>) -> Option<String> {
+    pub(crate) fn carrier(&self, path: Option<&LinkPath>) -> Option<String> {
         let Description::Robot(robot) = &self.description else { return None };
         path.map(|path| robot.carrier(path).to_owned())
     }
@@ -243,11 +243,11 @@ impl Source {
         checked.map_err(|error| error.in_file(&self.path))
     }
 
-    /// `error`, and that the table of this source may be of the other convention, where neighbouring axes say so.
+    /// `error`, after a remark that the table of this source may be of the other convention, where neighbouring axes say so.
     #[must_use]
     pub fn advised(&self, error: Error) -> Error {
         match DhTable::doubt_of(&self.text) {
-            Some(doubt) => Error::new(error.kind(), format!("{}; {doubt}", error.message())),
+            Some(doubt) => Error::new(error.kind(), format!("{doubt}; {}", error.message())),
             None => error,
         }
     }

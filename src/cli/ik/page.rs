@@ -72,8 +72,8 @@ impl Page<'_> {
         for (index, answer) in answers.iter().enumerate() {
             let mut row = vec![(index + 1).to_string()];
             row.extend(chain.joints().iter().zip(&answer.q).map(|(joint, value)| match joint.kind {
-                JointKind::Revolute => format!("{:.6}", value.to_degrees() + 0.0),
-                JointKind::Prismatic => format!("{value:.9}"),
+                JointKind::Revolute => unsigned_zero(&format!("{:.6}", value.to_degrees())),
+                JointKind::Prismatic => unsigned_zero(&format!("{value:.9}")),
             }));
             row.extend(self.target.missed(chain, &answer.q).map(|miss| format!("{miss:.1e}")));
             row.push(notes(chain, answer));
@@ -174,6 +174,12 @@ impl Question<'_> {
         cells.extend(["position_residual", "rotation_residual", "free", "outside_limits"].map(str::to_owned));
         csv_line(&cells)
     }
+}
+
+/// A number's text; what rounds to zero has no sign.
+fn unsigned_zero(text: &str) -> String {
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
+    (if is_zero { text.trim_start_matches('-') } else { text }).to_owned()
 }
 
 fn names(chain: &Chain) -> Vec<&str> {

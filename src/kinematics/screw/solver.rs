@@ -252,7 +252,7 @@ fn unsolved(chain: &Chain) -> Error {
          place among them, and finds all answers; a search (`groebot ik --numeric`) may find some",
         chain.name(),
         chain.joints().len(),
-        chain.task().name()
+        chain.asked()
     );
     Error::new(ErrorKind::Unsupported, text)
 }
