@@ -130,7 +130,7 @@ fn a_description_comes_from_standard_input() {
     for arguments in [&["fk", "--q", "0,-1,1,0,0.5,0"][..], &["ik", "--q", "0,-1,1,0,0.5,0"], &["info"], &["plan"]] {
         let (command, rest) = arguments.split_first().unwrap();
         let piped = pipe(&[&[command, "-"], rest].concat(), &robot);
-        assert_eq!(piped, succeed(&[&[command, &file], rest].concat()), "{command}");
+        assert_eq!(piped, succeed(&[&[command, file.as_str()], rest].concat()), "{command}");
     }
     let out = tempdir().unwrap();
     assert_eq!(pipe(&["derive", "-", "--quiet", "--out", text(out.path())], &chain), "");
