@@ -139,7 +139,7 @@ fn answers_are_turned_into_limits() {
     assert_eq!(found.len(), 8);
     for answer in &found {
         let q = numbers(&answer["q"]);
-        assert!((0.3927..=6.2832).contains(&q[0]), "{answer}");
+        assert!((22.5..=360.0).contains(&q[0].to_degrees()), "{answer}");
         let reached = |q: &[f64]| -> Value {
             serde_json::from_str(&succeed(&["fk", &robot, "--json", "--q", &joined(q)])).unwrap()
         };
