@@ -6,7 +6,7 @@
 
 use csv::StringRecord;
 
-use super::targets::shown;
+use crate::document::shown;
 use crate::kinematics::{Joint, JointKind};
 use crate::{Error, ErrorKind, Result};
 
