@@ -70,9 +70,10 @@ impl Error {
         self
     }
 
-    /// The same error, standing in `file` unless it already has one.
+    /// The same error, standing in `file` unless it already has one. The file `-` is standard input.
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {
+        let file = if file == Path::new("-") { Path::new("<stdin>") } else { file };
         self.place.file.get_or_insert_with(|| file.to_owned());
         self
     }

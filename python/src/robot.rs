@@ -35,8 +35,8 @@ pub struct Robot {
 
 #[pymethods]
 impl Robot {
-    /// Reads a URDF: a path, or the text itself. `base` and `tip` are the links between which `derive` takes the chain, by default the root and the only end.
-    /// What is wrong with a part that this chain does not need is told by `notes`; dynamics refuse it.
+    /// Reads a URDF: a path, or the text itself. `base` and `tip` are the links between which `derive` takes the chain, by default the root and the only leaf link,
+    /// else the only link named `tool0`, `flange`, `tcp` or `ee_link`, in that order. Faults of parts that this chain does not need are in `notes`; dynamics refuse them.
     #[staticmethod]
     #[pyo3(signature = (path_or_text, base=None, tip=None, *, floating=false, gravity=None))]
     fn from_urdf(

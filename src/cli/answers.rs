@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::columns::heading;
 use super::json::FORMAT;
-use crate::kinematics::Solution;
+use crate::kinematics::{Placed, Solution};
 use crate::solver::{Joint, Program, Unit};
 
 /// The unit of angles at the edge of the tool.
@@ -56,14 +57,13 @@ impl Answer<'_> {
         solution.free.iter().map(|&joint| self.program.joints[joint].name.as_str()).collect()
     }
 
-    /// The joints that no whole turns bring within their limits.
+    /// The joints that are outside their limits, whole turns apart.
     fn outside_names(&self, solution: &Solution) -> Vec<&str> {
-        let limits = self.program.about.iter().flat_map(|about| &about.limits);
-        let joints = self.program.joints.iter().zip(&solution.q).zip(limits).enumerate();
-        let outside = joints.filter(|(index, ((joint, value), limits))| {
-            !solution.free.contains(index) && limits.is_some_and(|limits| !is_within(joint.unit, **value, limits))
-        });
-        outside.map(|(_, ((joint, _), _))| joint.name.as_str()).collect()
+        let outside = |(index, _): &(usize, &Joint)| {
+            let placed = Placed::fixed(solution.q[*index], limits(self.program, *index));
+            !solution.free.contains(index) && !placed.is_within
+        };
+        self.program.joints.iter().enumerate().filter(outside).map(|(_, joint)| joint.name.as_str()).collect()
     }
 
     fn shown(&self, solution: &Solution) -> Vec<f64> {
@@ -78,14 +78,20 @@ pub fn exact(value: f64) -> String {
     if plain.len() <= 24 { plain } else { format!("{value:e}") }
 }
 
-/// Whether a joint can stand at `value`, or whole turns from there, within its limits.
-fn is_within(unit: Unit, value: f64, (low, high): (f64, f64)) -> bool {
-    /// Limits are rounded decimals.
-    const ROUNDED: f64 = 1e-9;
-    let turn = std::f64::consts::TAU;
-    let turns = if unit == Unit::Radian { ((low - ROUNDED - value) / turn).ceil() } else { 0.0 };
-    let moved = value + turns * turn;
-    low - ROUNDED <= moved && moved <= high + ROUNDED
+/// Least and greatest value of the joint with this index.
+fn limits(program: &Program, joint: usize) -> Option<(f64, f64)> {
+    program.about.as_ref().and_then(|about| about.limits.get(joint).copied().flatten())
+}
+
+/// The solutions with each angle turned into its joint's limits, where whole turns do that; given ones stay unchanged.
+pub fn turned(program: &Program, mut solutions: Vec<Solution>) -> Vec<Solution> {
+    let given = &program.inputs[program.given()];
+    let turns = |joint: &Joint| joint.unit == Unit::Radian && given.iter().all(|input| input.name != joint.name);
+    for (index, _) in program.joints.iter().enumerate().filter(|(_, joint)| turns(joint)) {
+        let limits = limits(program, index);
+        solutions.iter_mut().for_each(|solution| solution.q[index] = Placed::turned(solution.q[index], limits).value);
+    }
+    solutions
 }
 
 /// A table with both units of each angle.
@@ -214,17 +220,14 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
 }
 
 /// The names of the columns.
-pub fn csv_header(program: &Program) -> String {
-    let mut cells = answer_columns(program);
-    cells.splice(1..1, program.inputs.iter().map(|input| input.name.clone()));
+pub fn csv_header(program: &Program, angles: Angles) -> String {
+    let named = |name: &str, unit: Unit| heading(name, unit == Unit::Radian, angles == Angles::Degrees);
+    let mut cells = vec!["target".to_owned()];
+    cells.extend(program.inputs.iter().map(|input| named(&input.name, input.unit)));
+    cells.extend(["solutions".to_owned(), "branch".to_owned()]);
+    cells.extend(program.joints.iter().map(|joint| named(&joint.name, joint.unit)));
+    cells.extend(["residual", "chosen", "free", "outside_limits"].map(str::to_owned));
     csv_line(&cells)
-}
-
-/// The names of the columns beside those of the inputs.
-pub fn answer_columns(program: &Program) -> Vec<String> {
-    let joints = program.joints.iter().map(|joint| joint.name.as_str());
-    let names = ["target", "solutions", "branch"].into_iter().chain(joints);
-    names.chain(["residual", "chosen", "free", "outside_limits"]).map(str::to_owned).collect()
 }
 
 /// One row a solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets from 1.

@@ -161,7 +161,8 @@ fn numeric_checks(folder: &Path, source: &Source, derivation: &Proved) -> Result
     let checked = witness::check(source, derivation, &Watch::none())?;
     let path = folder.join(CHECKS);
     let stored = read_text(&path, LIMIT).and_then(|stored| same_table(&stored, &checked.to_csv()));
-    let verdict = refuse_failures(derivation, &checked, false).and(stored.map_err(|error| error.in_file(&path)));
+    let verdict =
+        refuse_failures(source, derivation, &checked, false).and(stored.map_err(|error| error.in_file(&path)));
     let summary = checked.summary();
     let verdict = verdict.map(|()| match summary.failed {
         0 => format!("{} targets solved again and right", summary.rows),

@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use nalgebra::Point3;
-
 use super::answers::exact;
 use super::console::{self, Paint};
-use super::ends::IdealEndArguments;
+use super::ends::{IdealEndArguments, TipLink};
 use super::files::{assemble_files, destination, refuse_overwriting};
 use super::info::near_words;
 use super::json::{self, Told};
@@ -16,9 +14,8 @@ use super::report::{Report, report};
 use super::{Halt, Outcome};
 use crate::derive::planner::{Choice, fitting_task};
 use crate::derive::{Ends, Proved, Source};
+use crate::document::shown;
 use crate::files::write_folder_atomically;
-use crate::kinematics::Chain;
-use crate::spatial::Screw;
 use crate::witness;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -36,7 +33,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file
+    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file; `-`: from standard input, with --out
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
@@ -77,7 +74,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let derivation = derive(&source, &session.watch)?;
     clock.lap("derive and prove");
     let checked = witness::check(&source, &derivation, &session.watch)?;
-    refuse_failures(&derivation, &checked, arguments.strict)?;
+    refuse_failures(&source, &derivation, &checked, arguments.strict)?;
     clock.lap("check numerically");
     let files = assemble_files(&source, &derivation, &checked, &folder)?;
     refuse_overwriting(&folder, &files)?;
@@ -112,12 +109,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         timings: &clock.laps,
     };
     let told = report(&told, Paint::of(&std::io::stdout()))?;
-    console::print(&(chosen.as_ref().map(told_choice).unwrap_or_default() + &told))?;
+    let tip = TipLink::line(TipLink::of_source(&source).as_ref());
+    console::print(&(chosen.as_ref().map(told_choice).unwrap_or_default() + &tip + &told))?;
     weak(&checked)
 }
 
 /// Which joints are given, and what else might be.
-fn told_choice(choice: &Choice) -> String {
+pub fn told_choice(choice: &Choice) -> String {
     let joints = choice.given.iter().map(|joint| format!("`{joint}`")).collect::<Vec<_>>().join(", ");
     if choice.candidates.is_empty() {
         return format!("Given with each target: the value of {joints}, which other joints of the chain follow.\n\n");
@@ -164,13 +162,13 @@ fn advised(source: &Source, error: Error) -> Error {
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
-pub fn refuse_failures(derivation: &Proved, checked: &witness::Report, strict: bool) -> Result<()> {
+pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::Report, strict: bool) -> Result<()> {
     let Some(row) = checked.failures().find(|row| strict || !row.is_weak_spot()) else { return Ok(()) };
     let target: Vec<String> = row.target.iter().map(|value| exact(*value)).collect();
     let text = format!(
         "{}{}; numeric check, row {} ({}), target {}",
         row.verdict.faults().iter().map(|fault| fault.sentence()).collect::<Vec<_>>().join("; "),
-        nearly_ideal(derivation),
+        nearly_ideal(source, derivation),
         row.number,
         row.kind,
         target.join(",")
@@ -184,13 +182,14 @@ pub fn refuse_failures(derivation: &Proved, checked: &witness::Report, strict: b
 }
 
 /// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
-fn nearly_ideal(derivation: &Proved) -> String {
+fn nearly_ideal(source: &Source, derivation: &Proved) -> String {
     let Proved::Chain(derived) = derivation else { return String::new() };
-    let far = farness(derived.measured());
+    let far = derived.measured().remoteness();
     if far > FAR {
+        let nearer = source.carrier.as_ref().map(|link| format!(", `{}`", shown(link))).unwrap_or_default();
         return format!(
-            "; the robot stands {far:.0} of its reaches from the base frame, where targets are rounded too much: derive it between nearer \
-             links (--base), and give the base's place at run time"
+            "; the robot is {far:.0} of its reaches from the base frame, where targets are rounded too much: choose a base link nearer to \
+             the arm{nearer} (--base), and add the place of that link at run time"
         );
     }
     let near = near_words(derived.measured());
@@ -198,12 +197,6 @@ fn nearly_ideal(derivation: &Proved) -> String {
         return String::new();
     }
     format!("; {}: `--snap TOLERANCE` takes the robot of which this does hold", near.join(", "))
-}
-
-/// How many reaches the first axis that turns is from the base frame's origin.
-fn farness(chain: &Chain) -> f64 {
-    let place = chain.screws().iter().find_map(Screw::axis).map(|axis| axis.distance_to(&Point3::origin()));
-    place.map_or(0.0, |distance| distance / chain.reach().max(f64::MIN_POSITIVE))
 }
 
 /// How long each stage took.

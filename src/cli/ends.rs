@@ -1,7 +1,10 @@
 //! `--base`, `--tip`, `--task`, `--plane`, `--axis`, `--direction`, `--given`, `--snap` and `--exact`: which chain of a URDF, and what is asked of it.
 
-use crate::derive::Ends;
-use crate::kinematics::{BaseAxis, Chain, ExactVector, Plane, Task};
+use serde::Serialize;
+
+use crate::derive::{Ends, Source};
+use crate::document::shown;
+use crate::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
 use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
@@ -21,7 +24,7 @@ pub struct EndArguments {
     /// URDF: the link where the chain starts (default: the root)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// URDF: the link where the chain ends (default: the only leaf)
+    /// URDF: the link where the chain ends (default: the only leaf link, else the only one named tool0, flange, tcp or ee_link, in that order)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
     /// What is asked of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose
@@ -77,6 +80,42 @@ impl IdealEndArguments {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         self.plain.ends()?.ask(chain)
+    }
+}
+
+/// The link where the chain of a robot ends, and how it was chosen.
+#[derive(Serialize)]
+pub struct TipLink {
+    name: String,
+    chosen_by: String,
+    #[serde(skip)]
+    is_given: bool,
+}
+
+impl TipLink {
+    /// The end of a path.
+    pub fn of_path(path: &LinkPath) -> Self {
+        TipLink::new(&path.tip, path.choice)
+    }
+
+    /// That of a source with links.
+    pub fn of_source(source: &Source) -> Option<Self> {
+        Some(TipLink::new(&source.links.as_ref()?[1], source.choice?))
+    }
+
+    fn new(name: &str, choice: TipChoice) -> Self {
+        TipLink { name: name.to_owned(), chosen_by: choice.to_string(), is_given: choice == TipChoice::Given }
+    }
+
+    /// One sentence where it was chosen by default.
+    pub fn note(&self) -> Option<String> {
+        let text = || format!("tip link `{}`: {}; --tip chooses another", shown(&self.name), self.chosen_by);
+        (!self.is_given).then(text)
+    }
+
+    /// That sentence as a line of its own.
+    pub fn line(tip: Option<&TipLink>) -> String {
+        tip.and_then(TipLink::note).map(|note| note + "\n").unwrap_or_default()
     }
 }
 

@@ -8,7 +8,7 @@ use crate::codegen::{self, c99::Pair};
 use crate::derive::ends::TASK_NAME;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Ends, Proved, Source, stages};
-use crate::document::{TEXT_LIMIT, read_text, word};
+use crate::document::{TEXT_LIMIT, is_stdin, read_text, word};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
@@ -68,6 +68,10 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
         Some(out) => out.to_owned(),
         None if input.is_dir() || named => file.parent().unwrap_or(Path::new("")).to_owned(),
         None if file.extension().is_some() => file.with_extension(""),
+        None if is_stdin(file) => {
+            let text = "standard input has no folder for the files; give one by --out";
+            return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
+        }
         None => {
             let text = "the files would go to a folder of this very name; give another one by --out";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::ends::EndArguments;
+use super::columns::{self, Columns};
+use super::ends::{EndArguments, TipLink};
 use super::json::FORMAT;
 use super::targets::{self, Row};
 use super::{Outcome, console};
-use crate::derive::InputFile;
-use crate::kinematics::{Chain, Joint, JointKind};
+use crate::derive::{Description, InputFile};
+use crate::kinematics::{Chain, Joint, JointKind, LengthUnit, Target};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
@@ -21,13 +22,14 @@ const EXAMPLES: &str = "Examples:
 
 Joint values stand in the order of the chain, base to tip; `groebot info` shows it. Angles are in radians, or in degrees with
 --degrees; lengths are in the unit of the description. A CSV may start with a line of the joints' names, which then says the order of
-its columns. A value outside its limits is told, and is no error.";
+its columns: A1_deg or A1_rad is A1 in that unit. What else `fk`, `ik` and `solve` write is passed over, and so are targets without a solution; another
+name is refused. A value outside its limits is told, and is no error.";
 
 /// Forward kinematics: the pose of the tip for joint values
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or a file: chain.toml, DH table or URDF
+    /// A mechanism's folder, or a file: chain.toml, DH table or URDF; `-`: from standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
@@ -51,18 +53,31 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let text = "this is a system of equations, or coupled chains; forward kinematics needs a chain (of coupled chains, give the file of one)";
         Error::new(ErrorKind::BadValue, text).in_file(&input.path)
     })?;
-    let edge = Edge { chain: &chain, degrees: arguments.degrees, notes: input.passed_over(&ends)? };
+    let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
+    let others = match &input.description {
+        Description::Robot(robot) => robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        _ => Vec::new(),
+    };
+    let notes = input.passed_over(&ends)?;
     if !arguments.json {
-        console::tell(&edge.notes);
+        console::tell(&notes);
     }
+    let edge = Edge { chain: &chain, degrees: arguments.degrees, tip: tip.as_ref(), others, notes };
     match arguments.q.as_slice() {
         [] if io::stdin().is_terminal() => {
             let text = "no joint values; give them by --q, or CSV on standard input";
             Err(Error::new(ErrorKind::MissingKey, text).into())
         }
-        [] => stream(&edge, arguments.json),
-        [dash] if dash == "-" => stream(&edge, arguments.json),
+        [] => arguments.stream(&edge),
+        [dash] if dash == "-" => arguments.stream(&edge),
         given => listed(&edge, given, arguments.json),
+    }
+}
+
+impl Arguments {
+    fn stream(&self, edge: &Edge<'_>) -> Outcome {
+        targets::is_free(&self.input, "--q")?;
+        stream(edge, self.json)
     }
 }
 
@@ -72,6 +87,10 @@ struct Edge<'a> {
     degrees: bool,
     /// What of the robot was passed over.
     notes: Vec<String>,
+    /// Where it ends, of a robot.
+    tip: Option<&'a TipLink>,
+    /// The joints of its robot, whose columns are passed over.
+    others: Vec<String>,
 }
 
 /// Joint values, as given, and the pose of the tip.
@@ -81,11 +100,30 @@ struct Answer {
     /// Roll, pitch and yaw \[rad\].
     rpy: [f64; 3],
     outside: Vec<String>,
+    /// The numbers of the task's target.
+    asked: Vec<f64>,
 }
 
 impl Edge<'_> {
     fn names(&self) -> Vec<&str> {
         self.chain.joints().iter().map(|joint| joint.name.as_str()).collect()
+    }
+
+    /// The columns of a table of joint values.
+    fn columns(&self) -> Columns {
+        Columns {
+            forms: vec![columns::of_joints(self.chain.joints())],
+            joints: self.others.clone(),
+            millimetres: self.chain.length_unit() == LengthUnit::Millimetre,
+            degrees: self.degrees,
+            skips_unsolved: true,
+        }
+    }
+
+    /// What the chain's task asks for and a pose does not tell, by name: where its direction points, or its angle \[rad\].
+    fn asked(&self) -> Vec<(usize, String)> {
+        let beyond = |(_, name): &(usize, String)| ["dx", "dy", "dz", "phi"].contains(&name.as_str());
+        self.chain.task().numbers().into_iter().enumerate().filter(beyond).collect()
     }
 
     fn turns(&self, joint: &Joint) -> bool {
@@ -120,7 +158,8 @@ impl Edge<'_> {
         let beyond =
             |(joint, value): &(&Joint, &f64)| joint.limits.is_some_and(|(low, high)| **value < low || **value > high);
         let outside = joints.iter().zip(&values).filter(beyond).map(|(joint, _)| joint.name.clone()).collect();
-        Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside })
+        let asked = Target::reached(self.chain, &values)?.numbers();
+        Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside, asked })
     }
 }
 
@@ -148,7 +187,7 @@ impl Answer {
 }
 
 fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
-    let mut page = String::new();
+    let mut page = if as_json { String::new() } else { TipLink::line(edge.tip) };
     for (index, text_of_q) in given.iter().enumerate() {
         let answer = targets::parse(&edge.names(), text_of_q)
             .and_then(|q| edge.answer(q))
@@ -167,8 +206,7 @@ fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
 fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let rows = targets::Reader::new(edge.names(), io::stdin().lock(), Path::new(targets::STDIN));
-    let mut rows = rows.passing_over_others();
+    let mut rows = targets::Reader::new(edge.columns(), io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
         write(&csv_header(edge))?;
     }
@@ -244,6 +282,9 @@ fn numbers(values: &[f64]) -> String {
 struct Page<'a> {
     format: u32,
     name: &'a str,
+    /// The link where the chain of a robot ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tip_link: Option<&'a TipLink>,
     unit: Units<'a>,
     joints: Vec<&'a str>,
     q: &'a [f64],
@@ -271,6 +312,7 @@ fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
     let page = Page {
         format: FORMAT,
         name: edge.chain.name(),
+        tip_link: edge.tip,
         unit: Units {
             joints: edge.chain.joints().iter().map(|joint| edge.unit(joint)).collect(),
             position: edge.chain.length_unit().symbol(),
@@ -292,10 +334,12 @@ fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
 /// The joints' names, then the pose with its units.
 fn csv_header(edge: &Edge<'_>) -> String {
     let (length, angle) = (edge.chain.length_unit().symbol(), edge.angle_unit());
-    let mut cells: Vec<String> = edge.names().into_iter().map(str::to_owned).collect();
+    let joint = |joint: &Joint| columns::heading(&joint.name, joint.kind == JointKind::Revolute, edge.degrees);
+    let mut cells: Vec<String> = edge.chain.joints().iter().map(joint).collect();
     cells.extend(["x", "y", "z"].map(|name| format!("{name}_{length}")));
     cells.extend(["qx", "qy", "qz", "qw"].map(str::to_owned));
     cells.extend(["roll", "pitch", "yaw"].map(|name| format!("{name}_{angle}")));
+    cells.extend(edge.asked().into_iter().map(|(_, name)| if name == "phi" { format!("phi_{angle}") } else { name }));
     cells.push("outside_limits".to_owned());
     super::answers::csv_line(&cells)
 }
@@ -305,6 +349,10 @@ fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
     values.extend(answer.position());
     values.extend(answer.quaternion());
     values.extend(answer.rpy.map(|angle| edge.angle(angle)));
+    values.extend(edge.asked().into_iter().map(|(place, name)| match answer.asked[place] {
+        phi if name == "phi" => edge.angle(phi),
+        number => number,
+    }));
     let mut cells: Vec<String> = values.iter().map(f64::to_string).collect();
     cells.push(answer.outside.join(" "));
     super::answers::csv_line(&cells)

@@ -4,14 +4,16 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use super::ends::IdealEndArguments;
+use super::columns::{Columns, Field, Measure};
+use super::ends::{IdealEndArguments, TipLink};
 use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
 use crate::derive::{Description, InputFile, Proved};
+use crate::document::is_stdin;
 use crate::dynamics::{Clearance, Model};
 use crate::files::write_atomically;
-use crate::kinematics::Chain;
+use crate::kinematics::{Chain, LengthUnit};
 use crate::model::Robot;
 use crate::motion::table::pose_of;
 use crate::motion::{Followed, Pace, follow};
@@ -41,7 +43,7 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
-    /// The poses, CSV
+    /// The poses, CSV; `-`: from standard input
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
     /// The time between two poses, where the file tells none; without it joints may be as fast as they like [s]
@@ -70,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if !arguments.quiet {
         console::tell(&input.passed_over(&ends)?);
     }
-    let (poses, times) = read_poses(&arguments.poses)?;
+    let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let solver = Proved::of_chain(&chain, &session.watch)?;
     let told =
@@ -100,7 +102,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Description::Robot(_) => "  links that touch were not looked for: parts of the robot have faults\n".to_owned(),
         _ => String::new(),
     };
-    console::print(&(summary(&chain, &followed) + &touches))
+    let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
+    console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + &touches))
 }
 
 /// The greatest speeds of the chain's joints, where the description has them.
@@ -111,14 +114,31 @@ fn speeds(description: &Description, chain: &Chain) -> Vec<Option<f64>> {
 }
 
 /// The poses of a file, and their times where it tells them.
-fn read_poses(file: &Path) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+fn read_poses(file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+    if is_stdin(file) {
+        return read_from(std::io::stdin().lock(), file, chain).map_err(|error| error.in_file(file));
+    }
     let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
-    read_from(BufReader::new(opened), file).map_err(|error| error.in_file(file))
+    read_from(BufReader::new(opened), file, chain).map_err(|error| error.in_file(file))
 }
 
-fn read_from(input: impl BufRead, file: &Path) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
-    let timed: Vec<&str> = ["time"].into_iter().chain(POSE).collect();
-    let mut reader = Reader::of_forms(vec![timed, POSE.to_vec()], input, file);
+/// The columns of poses, with times and without.
+fn columns(chain: &Chain) -> Columns {
+    let field = |name: &str| {
+        let measure = if ["x", "y", "z"].contains(&name) { Measure::Length } else { Measure::Plain };
+        Field { name: name.to_owned(), measure }
+    };
+    Columns {
+        forms: vec![["time"].into_iter().chain(POSE).map(field).collect(), POSE.map(field).to_vec()],
+        joints: chain.joints().iter().map(|joint| joint.name.clone()).collect(),
+        millimetres: chain.length_unit() == LengthUnit::Millimetre,
+        degrees: false,
+        skips_unsolved: false,
+    }
+}
+
+fn read_from(input: impl BufRead, file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+    let mut reader = Reader::new(columns(chain), input, file);
     let (mut poses, mut times) = (Vec::new(), Vec::new());
     while let Some(row) = reader.next() {
         let row = row?;

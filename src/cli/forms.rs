@@ -1,6 +1,7 @@
 //! In which forms a program's target may be written: its inputs, or each rotation among them as a quaternion.
 
-use crate::solver::{Condition, Program};
+use super::columns::{Columns, Field, Measure};
+use crate::solver::{Condition, Program, Unit};
 use crate::spatial::rotation::{UNIT, rows_of_quaternion};
 use crate::{Error, ErrorKind, Result};
 
@@ -40,6 +41,25 @@ impl Forms {
     pub fn names(&self) -> Vec<Vec<&str>> {
         let forms = if self.rotations.is_empty() { vec![&self.full] } else { vec![&self.full, &self.short] };
         forms.into_iter().map(|names| names.iter().map(String::as_str).collect()).collect()
+    }
+
+    /// The columns of a table of targets of `program`: either form, by its inputs' units.
+    pub fn columns(&self, program: &Program, degrees: bool) -> Columns {
+        let measure = |name: &str| match program.inputs.iter().find(|input| input.name == name).map(|input| input.unit)
+        {
+            Some(Unit::Metre | Unit::Millimetre) => Measure::Length,
+            Some(Unit::Radian) => Measure::Angle,
+            Some(Unit::One) | None => Measure::Plain,
+        };
+        let field = |name: &str| Field { name: name.to_owned(), measure: measure(name) };
+        let units = program.inputs.iter().map(|input| input.unit).chain(program.joints.iter().map(|joint| joint.unit));
+        Columns {
+            forms: self.names().into_iter().map(|names| names.into_iter().map(field).collect()).collect(),
+            joints: program.joints.iter().map(|joint| joint.name.clone()).collect(),
+            millimetres: units.into_iter().any(|unit| unit == Unit::Millimetre),
+            degrees,
+            skips_unsolved: false,
+        }
     }
 
     /// The inputs for numbers in either form.

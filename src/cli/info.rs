@@ -5,11 +5,11 @@ mod robot;
 use std::path::PathBuf;
 
 use super::console::{self, Paint};
-use super::ends::IdealEndArguments;
+use super::ends::{IdealEndArguments, TipLink};
 use super::{Halt, Outcome, json};
 use crate::derive::coupled::{Actuator, CoupledChains};
 use crate::derive::{Description, Ends, InputFile, formulate};
-use crate::kinematics::{Chain, ExactVector, Geometry, Joint, JointKind};
+use crate::kinematics::{Chain, DhTable, ExactVector, Geometry, Joint, JointKind};
 use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
 use num_traits::ToPrimitive;
@@ -23,7 +23,7 @@ const EXAMPLES: &str = "Examples:
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or an input file
+    /// A mechanism's folder, or an input file; `-`: from standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
@@ -61,9 +61,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
                 Description::Robot(tree) => notes(tree, &ends)?,
                 _ => Vec::new(),
             };
+            let path = input.path(&ends)?;
+            let tip = path.as_ref().map(TipLink::of_path);
+            notes.extend(
+                chain.check_base(input.carrier(path.as_ref()).as_deref()).err().map(|far| far.message().to_owned()),
+            );
+            notes.extend(tip.as_ref().and_then(TipLink::note));
+            notes.extend(DhTable::doubt_of(&input.text));
             let (ideal, report) = ends.ideal(&chain)?;
             if arguments.json {
-                return console::print(&json::text(&json::chain(&chain, &ideal, &report, &notes)));
+                return console::print(&json::text(&json::chain(&chain, (&ideal, &report), &notes, tip.as_ref())));
             }
             notes.extend(report.lines());
             notes.extend(near_words(&ideal));

@@ -6,6 +6,7 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde_json::{Value, json};
 
+use super::ends::TipLink;
 use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Candidate, Choice};
 use crate::derive::{Proved, Source, System};
@@ -43,6 +44,7 @@ impl Told<'_> {
             "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
             "given": self.choice.map(given),
             "notes": self.source.notes,
+            "tip_link": TipLink::of_source(self.source),
             "checked": checked(self.checked),
             "folder": self.folder.display().to_string(),
             "files": self.files,
@@ -51,7 +53,8 @@ impl Told<'_> {
     }
 }
 
-fn given(choice: &Choice) -> Value {
+/// The joints that the planner gives, and what else it might.
+pub fn given(choice: &Choice) -> Value {
     let candidate = |candidate: &Candidate| {
         let solutions = candidate.plan.map(|[_, count]| count);
         json!({ "joint": candidate.joint, "share": candidate.share, "solutions": solutions })
@@ -107,7 +110,7 @@ fn checked(report: &witness::Report) -> Value {
 }
 
 /// A chain with its axes, how these lie, and what the description was taken for; lengths in its unit, angles in radians.
-pub fn chain(described: &Chain, meant: &Chain, report: &Report, notes: &[String]) -> Value {
+pub fn chain(described: &Chain, (meant, report): (&Chain, &Report), notes: &[String], tip: Option<&TipLink>) -> Value {
     let joints = described.joints().iter().map(|joint| {
         let axis = joint.direction().into_inner();
         json!({
@@ -130,6 +133,7 @@ pub fn chain(described: &Chain, meant: &Chain, report: &Report, notes: &[String]
         "length_unit": described.length_unit().symbol(),
         "joints": joints.collect::<Vec<_>>(),
         "tip": doubles(&described.tip().point),
+        "tip_link": tip,
         "reach": described.reach(),
         "parallel": geometry.parallel.iter().map(row).collect::<Vec<_>>(),
         "meeting": meeting.collect::<Vec<_>>(),
@@ -144,7 +148,7 @@ pub fn coupled(coupled: &CoupledChains) -> Value {
     let actuators = actuators.map(|own| json!({ "name": own.name, "joints": coupled.moved(own) }));
     let chains = coupled.chains().iter().map(|member| {
         let (ideal, report) = member.chain.ideal();
-        json!({ "name": member.name, "prefix": member.prefix, "chain": chain(&member.chain, &ideal, &report, &[]) })
+        json!({ "name": member.name, "prefix": member.prefix, "chain": chain(&member.chain, (&ideal, &report), &[], None) })
     });
     json!({
         "format": FORMAT,
@@ -167,7 +171,7 @@ pub fn system(system: &System) -> Value {
 }
 
 /// The order of subproblems of a chain.
-pub fn plan(chain: &Chain, plan: &Plan) -> Value {
+pub fn plan(chain: &Chain, plan: &Plan, tip: Option<&TipLink>) -> Value {
     let steps = plan.steps.iter().map(|step| {
         let joints: Vec<&str> = step.joints.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect();
         json!({ "subproblem": step.subproblem.name(), "joints": joints, "answers": step.answers, "text": step.text })
@@ -176,6 +180,7 @@ pub fn plan(chain: &Chain, plan: &Plan) -> Value {
         "format": FORMAT,
         "name": chain.name(),
         "task": chain.asked(),
+        "tip_link": tip,
         "steps": steps.collect::<Vec<_>>(),
         "solutions": plan.most_solutions(),
     })

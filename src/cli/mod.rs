@@ -13,6 +13,7 @@ mod basis_question;
 mod chain_report;
 mod check;
 mod codegen;
+mod columns;
 mod console;
 mod derive;
 mod dynamics;

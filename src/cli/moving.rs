@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::derive::{Description, InputFile};
-use crate::document::{read_text, shown};
+use crate::document::{is_stdin, read_text, shown};
 use crate::model::{Meshes, Robot};
 use crate::motion::Trajectory;
 use crate::motion::table::TABLE_LIMIT;
@@ -57,7 +57,7 @@ pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, 
 
 /// As [`described`], with the names of the robots for what is neither.
 pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
-    if !name.exists() && name.to_str().and_then(robots::robot).is_none() {
+    if !is_stdin(name) && !name.exists() && name.to_str().and_then(robots::robot).is_none() {
         let text = format!(
             "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo",
             shown(&name.to_string_lossy())

@@ -2,12 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::ends::IdealEndArguments;
+use super::derive::told_choice;
+use super::ends::{IdealEndArguments, TipLink};
 use super::{Outcome, console, json};
-use crate::derive::InputFile;
+use crate::derive::planner::Choice;
+use crate::derive::{InputFile, Source};
+use crate::document::is_stdin;
 use crate::kinematics::Chain;
 use crate::kinematics::screw::ScrewSolver;
-use crate::{Error, ErrorKind, Result, robots};
+use crate::{Error, ErrorKind, Result, Watch, robots};
 
 const EXAMPLES: &str = "Examples:
   groebot plan puma                              a robot that comes with groebot
@@ -30,50 +33,100 @@ pub struct Arguments {
 /// Which chain.
 #[derive(clap::Args)]
 pub struct Mechanism {
-    /// A mechanism's folder, a file (chain.toml, DH table, URDF), or a robot that comes with groebot
+    /// A mechanism's folder, a file (chain.toml, DH table, URDF; `-`: from standard input), or a robot that comes with groebot
     #[arg(value_name = "DIR-FILE-or-ROBOT")]
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
 }
 
-impl Mechanism {
-    /// The screw solver of `chain`, which this names.
+/// A chain that is asked for.
+pub struct Asked {
+    /// Where it is from, with the joints whose values are given.
+    source: Source,
+    /// Which joints these are, where the planner chose.
+    pub choice: Option<Choice>,
+}
+
+impl Asked {
+    /// The chain.
     ///
     /// # Errors
-    /// As [`ScrewSolver::within`].
-    pub fn solver(&self, chain: &Chain) -> Result<ScrewSolver> {
-        let tolerance = self.ends.ends()?.tolerance();
-        ScrewSolver::within(chain, tolerance).map_err(|error| match error.kind() {
-            ErrorKind::Unsupported => Error::new(
-                ErrorKind::Unsupported,
-                format!("{}; `groebot info` shows how its axes lie", error.message()),
-            ),
-            _ => error,
+    /// [`ErrorKind::BadValue`] for a source without one.
+    pub fn chain(&self) -> Result<&Chain> {
+        self.source.chain.as_ref().ok_or_else(|| {
+            let text = "this is a system of equations, or coupled chains; screw theory needs a chain (of coupled chains, give the file of one)";
+            Error::new(ErrorKind::BadValue, text).in_file(&self.source.path)
         })
     }
 
-    /// The chain; what of a robot is passed over is told on standard error.
+    /// The link where it ends, of a robot.
+    pub fn tip(&self) -> Option<TipLink> {
+        TipLink::of_source(&self.source)
+    }
+
+    /// Its screw solver.
     ///
     /// # Errors
-    /// As [`InputFile::read`] and [`InputFile::chain`]; [`ErrorKind::UnknownName`] for what is neither a file nor a robot.
-    pub fn chain(&self) -> Result<Chain> {
+    /// As [`ScrewSolver::within`].
+    pub fn solver(&self) -> Result<ScrewSolver> {
+        ScrewSolver::within(self.chain()?, self.source.ends.tolerance()).map_err(|error| match error.kind() {
+            ErrorKind::Unsupported => {
+                let text = format!("{}; `groebot info` shows how its axes lie", error.message());
+                self.source.advised(Error::new(error.kind(), text))
+            }
+            _ => error,
+        })
+    }
+}
+
+impl Mechanism {
+    /// What is read.
+    pub fn input(&self) -> &Path {
+        &self.input
+    }
+
+    /// The chain, with as many given joints as its task leaves too many: those that are named, else as the planner chooses.
+    ///
+    /// # Errors
+    /// As [`InputFile::read`], [`Source::of`] and [`Source::choose_given`]; [`ErrorKind::UnknownName`] for what is neither a file nor a robot.
+    pub fn asked(&self) -> Result<Asked> {
+        let mut source = self.source()?;
+        let choice = source.choose_given(&Watch::none())?;
+        Ok(Asked { source, choice })
+    }
+
+    /// The same for a search, which needs no closed form: a joint too many that the planner can give none for stays.
+    ///
+    /// # Errors
+    /// As [`Mechanism::asked`].
+    pub fn searched(&self) -> Result<Asked> {
+        let mut source = self.source()?;
+        let choice = match source.choose_given(&Watch::none()) {
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            choice => choice?,
+        };
+        Ok(Asked { source, choice })
+    }
+
+    fn source(&self) -> Result<Source> {
+        let ends = self.ends.ends()?;
         if let Some(chain) = self.known_robot()? {
-            return self.ends.ask(chain);
+            return Source::of_chain(self.ends.ask(chain)?, &ends);
         }
-        let (input, ends) = (InputFile::read(&self.input)?, self.ends.ends()?);
-        let chain = input.chain(&ends)?.ok_or_else(|| {
-            let text = "this is a system of equations, or coupled chains; screw theory needs a chain (of coupled chains, give the file of one)";
-            Error::new(ErrorKind::BadValue, text).in_file(&input.path)
-        })?;
-        console::tell(&input.passed_over(&ends)?);
-        Ok(chain)
+        let source = Source::of(InputFile::read(&self.input)?, &ends)?;
+        console::tell(&source.notes);
+        Ok(source)
     }
 
     /// A robot of [`robots`], where no file has its name.
     fn known_robot(&self) -> Result<Option<Chain>> {
         let name = self.input.to_string_lossy();
-        if self.input.exists() || self.input.components().count() != 1 || self.input.extension().is_some() {
+        if is_stdin(&self.input)
+            || self.input.exists()
+            || self.input.components().count() != 1
+            || self.input.extension().is_some()
+        {
             return Ok(None);
         }
         let known = robots::by_name(&name);
@@ -89,11 +142,12 @@ impl Mechanism {
 
 /// Prints the plan.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let chain = arguments.mechanism.chain()?;
-    let solver = arguments.mechanism.solver(&chain)?;
+    let asked = arguments.mechanism.asked()?;
+    let (chain, solver, tip) = (asked.chain()?, asked.solver()?, asked.tip());
     if arguments.json {
-        return console::print(&json::text(&json::plan(&chain, solver.plan())));
+        return console::print(&json::text(&json::plan(chain, solver.plan(), tip.as_ref())));
     }
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
-    console::print(&format!("{}, task {}\n{about}\n{}\n", chain.name(), chain.task().name(), solver.plan()))
+    let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(told_choice).unwrap_or_default();
+    console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.asked(), solver.plan()))
 }

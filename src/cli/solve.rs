@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use super::answers::{Angles, Answer, answer_columns, csv_header, csv_rows, json, text};
+use super::answers::{Angles, Answer, csv_header, csv_rows, json, text, turned};
 use super::check::reprove;
 use super::files::is_derived;
 use super::forms::Forms;
@@ -23,17 +23,19 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
+  groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 
 Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
 one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
-the order of its columns; other columns are those of the command's own answers. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
+the order of its columns: x_m or x_mm is px in that unit, and so are phi_deg and A1_deg; what else `fk`, `ik` and `solve` write is passed over, another
+name is refused. Angles of answers are turned into their joint's limits where whole turns do that. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV); of chains that share actuators, text and JSON of a --target say which chain fails, and how.";
 
 /// Finds all solutions for targets with a derived solver
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or its 5_program.json
+    /// A folder that `groebot derive` wrote, or its 5_program.json; `-`: that file from standard input
     derivation: PathBuf,
     /// A target, numbers with commas between them (repeatable); `-`, or no target: CSV from standard input
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
@@ -55,9 +57,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let text = "no target; give one by --target, or CSV on standard input";
             Err(Error::new(ErrorKind::MissingKey, text).into())
         }
-        [] => stream(&program, angles, arguments.json),
-        [dash] if dash == "-" => stream(&program, angles, arguments.json),
+        [] => arguments.stream(&program, angles),
+        [dash] if dash == "-" => arguments.stream(&program, angles),
         given => listed(&program, given, angles, arguments),
+    }
+}
+
+impl Arguments {
+    fn stream(&self, program: &Program, angles: Angles) -> Outcome {
+        targets::is_free(&self.derivation, "--target")?;
+        stream(program, angles, self.json)
     }
 }
 
@@ -86,7 +95,7 @@ fn answer<'a>(
     angles: Angles,
 ) -> Result<Answer<'a>> {
     let target = forms.inputs(numbers)?;
-    let solutions = solver.solve_numbers(&angles.to_radians(program, &target))?;
+    let solutions = turned(program, solver.solve_numbers(&angles.to_radians(program, &target))?);
     Ok(Answer { program, target, solutions, reason: None, angles })
 }
 
@@ -134,10 +143,10 @@ fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
     let (solver, forms) = (program.solver(), Forms::new(program));
-    let rows = targets::Reader::of_forms(forms.names(), io::stdin().lock(), Path::new(targets::STDIN));
-    let mut rows = rows.passing_over(answer_columns(program));
+    let columns = forms.columns(program, angles == Angles::Degrees);
+    let mut rows = targets::Reader::new(columns, io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
-        write(&csv_header(program))?;
+        write(&csv_header(program, angles))?;
     }
     let mut index = 0;
     let outcome = loop {

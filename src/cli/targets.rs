@@ -5,6 +5,8 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
+use super::columns::{Columns, Found};
+use crate::document::is_stdin;
 use crate::{Error, ErrorKind, Result};
 
 /// How errors call standard input.
@@ -13,8 +15,6 @@ pub const STDIN: &str = "<stdin>";
 const SHOWN: usize = 40;
 /// The longest line, in bytes.
 const LONGEST: usize = 1_000_000;
-/// How many columns an error names.
-const NAMED: usize = 8;
 
 /// The numbers of `60,150`, which stand for `names`; how many there must be is left to who uses them.
 ///
@@ -25,12 +25,14 @@ pub fn parse(names: &[&str], text: &str) -> Result<Vec<f64>> {
 }
 
 fn numbers<'t>(names: &[&str], cells: impl Iterator<Item = &'t str>) -> Result<Vec<f64>> {
-    cells.enumerate().map(|(index, cell)| number(names, index, cell)).collect()
+    let name = |index: usize| names.get(index).copied().unwrap_or_default();
+    cells.enumerate().map(|(index, cell)| number(name(index), index, cell)).collect()
 }
 
-fn number(names: &[&str], index: usize, cell: &str) -> Result<f64> {
+/// The number of a cell: that of `name`, where it has one.
+fn number(name: &str, index: usize, cell: &str) -> Result<f64> {
     cell.parse().map_err(|_| {
-        let name = names.get(index).map(|name| format!(" (`{name}`)")).unwrap_or_default();
+        let name = if name.is_empty() { String::new() } else { format!(" (`{name}`)") };
         let text = format!(
             "cell {}{name} is `{}`, which is no number; give a decimal number such as 12.5 or -3e2",
             index + 1,
@@ -46,6 +48,18 @@ pub fn shown(text: &str) -> String {
     if text.chars().nth(SHOWN).is_some() { escaped + "..." } else { escaped }
 }
 
+/// Fails where standard input, from which a table would be read, already holds `description`; `option` is what gives values instead.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`].
+pub fn is_free(description: &Path, option: &str) -> Result<()> {
+    if !is_stdin(description) {
+        return Ok(());
+    }
+    let text = format!("standard input holds the description, and can hold no table as well; give values by {option}");
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
 /// One target with its line, counted from 1.
 pub struct Row {
     /// The line where it stands.
@@ -54,65 +68,29 @@ pub struct Row {
     pub target: Vec<f64>,
 }
 
-/// What a row of names says.
-struct Named {
-    /// The form whose names it has.
-    form: usize,
-    /// The column of each of them.
-    places: Vec<usize>,
-    /// How many columns there are.
-    count: usize,
-}
-
 /// The rows of a CSV: one a line, empty lines left out. Lines end in `\n`, `\r\n` or `\r`.
 pub struct Reader<'a, R> {
-    /// The names of each form that a row may have.
-    forms: Vec<Vec<&'a str>>,
+    columns: Columns,
     lines: Lines<R>,
-    /// Names of columns that are passed over; none where all others are.
-    passed: Option<Vec<String>>,
-    /// Once the first row is read, when it has names.
-    columns: Option<Named>,
+    /// Once the first row is read: where the numbers are, when it has names.
+    found: Option<Found>,
     is_first: bool,
     /// How errors call the input.
     file: &'a Path,
 }
 
 impl<'a, R: BufRead> Reader<'a, R> {
-    /// Reads values of `names` from `input`, which is `file`.
-    pub fn new(names: Vec<&'a str>, input: R, file: &'a Path) -> Self {
-        Reader::of_forms(vec![names], input, file)
-    }
-
-    /// Reads values of any of these lists of names from `input`, which is `file`.
-    pub fn of_forms(forms: Vec<Vec<&'a str>>, input: R, file: &'a Path) -> Self {
-        Reader {
-            forms,
-            lines: Lines { input, count: 0, follows_return: false },
-            passed: Some(Vec::new()),
-            columns: None,
-            is_first: true,
-            file,
-        }
-    }
-
-    /// Passes over columns of these names, too.
-    pub fn passing_over(mut self, names: Vec<String>) -> Self {
-        self.passed = Some(names);
-        self
-    }
-
-    /// Passes over all other columns.
-    pub fn passing_over_others(mut self) -> Self {
-        self.passed = None;
-        self
+    /// Reads the numbers of `columns` from `input`, which is `file`.
+    pub fn new(columns: Columns, input: R, file: &'a Path) -> Self {
+        let lines = Lines { input, count: 0, follows_return: false };
+        Reader { columns, lines, found: None, is_first: true, file }
     }
 
     /// The next target; a first row of names is taken note of.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input or has another column, [`ErrorKind::Io`],
-    /// [`ErrorKind::Syntax`]: all with file and line.
+    /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input or has one that is not known,
+    /// [`ErrorKind::Io`], [`ErrorKind::Syntax`]: all with file and line.
     pub fn next(&mut self) -> Option<Result<Row>> {
         loop {
             let text = self.lines.next(self.file)?;
@@ -129,61 +107,27 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
     }
 
-    /// The target of a row; none for the row of names.
+    /// The target of a row; none for the row of names, and for one that is passed over.
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {
-            self.columns = Some(self.named(record)?);
+            self.found = Some(self.columns.find(record)?);
             return Ok(None);
         }
-        let Some(Named { form, places, count }) = &self.columns else {
-            let form = self.forms.iter().find(|names| names.len() == record.len()).unwrap_or(&self.forms[0]);
-            return numbers(form, record.iter()).map(Some);
+        let Some(found) = &self.found else {
+            let names = self.columns.names(self.columns.form_of(record.len()));
+            return numbers(&names, record.iter()).map(Some);
         };
-        if record.len() > *count {
-            let text = format!("{} cells stand in the row; the first one has {count} names", record.len());
+        if record.len() > found.count {
+            let text = format!("the row has {} cells, and the first one {} names", record.len(), found.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let cells = places.iter().map(|&column| record.get(column).unwrap_or(""));
-        numbers(&self.forms[*form], cells).map(Some)
-    }
-
-    /// The form whose names a row has; of the others the one that lacks the least tells what is wrong.
-    fn named(&self, record: &StringRecord) -> Result<Named> {
-        let has = |name: &&&str| record.iter().any(|cell| cell == **name);
-        let missing = |form: &usize| self.forms[*form].len() - self.forms[*form].iter().filter(has).count();
-        let nearest =
-            (0..self.forms.len()).min_by_key(|form| (missing(form), std::cmp::Reverse(self.forms[*form].len())));
-        let form = nearest.unwrap_or(0);
-        let places = self.places(&self.forms[form], record)?;
-        Ok(Named { form, places, count: record.len() })
-    }
-
-    /// The column of each name in a row of names, which must hold no other.
-    fn places(&self, names: &[&str], record: &StringRecord) -> Result<Vec<usize>> {
-        let refused =
-            |text: String| Error::new(ErrorKind::UnknownName, format!("{text}; {} are allowed", names.join(", ")));
-        let place = |name: &&str| {
-            record.iter().position(|cell| cell == *name).ok_or_else(|| {
-                let found: Vec<String> = record.iter().take(NAMED).map(shown).collect();
-                let row = found.join(",");
-                refused(format!(
-                    "the first row (`{row}`) is neither numbers nor names of the inputs: `{name}` is missing"
-                ))
-            })
-        };
-        let places: Vec<usize> = names.iter().map(place).collect::<Result<_>>()?;
-        let is_strange = |(place, cell): &(usize, &str)| {
-            let passed = self.passed.as_ref().is_none_or(|names| names.iter().any(|name| name == cell));
-            !places.contains(place) && !passed
-        };
-        match record.iter().enumerate().find(is_strange) {
-            None => Ok(places),
-            Some((place, cell)) => {
-                let what = if names.contains(&cell) { "stands twice" } else { "is unknown" };
-                Err(refused(format!("column {} of the first row, `{}`, {what}", place + 1, shown(cell))))
-            }
+        if found.is_unsolved(record) {
+            return Ok(None);
         }
+        let names = self.columns.names(found.form);
+        let cells = found.cells(record).zip(&names).map(|((column, cell), name)| number(name, column, cell));
+        Ok(Some(found.scaled(cells.collect::<Result<_>>()?)))
     }
 }
 

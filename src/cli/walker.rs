@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::Point2;
 
 use crate::derive::{Description, InputFile, Proved};
-use crate::document::shown;
+use crate::document::{is_stdin, shown};
 use crate::gait::{Biped, LegSolver, Usual, Walker};
 use crate::model::{Meshes, Robot};
 use crate::robots::{self, Outline};
@@ -81,7 +81,7 @@ pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch)
 
 fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     let name = file.to_string_lossy();
-    if !file.exists() {
+    if !is_stdin(file) && !file.exists() {
         let text =
             format!("`{}` is neither a file nor a robot that walks; give a file, `nao`, `rh0` or `teo`", shown(&name));
         return Err(Error::new(ErrorKind::UnknownName, text));

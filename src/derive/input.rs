@@ -6,9 +6,11 @@ use super::coupled::CoupledChains;
 use super::ends::{Ends, TASK_NAME};
 use super::planner::{Choice, joints_to_give};
 use super::{System, formulate};
-use crate::document::{Document, TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
-use crate::kinematics::Chain;
+use crate::document::{
+    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
+};
 use crate::kinematics::ideal::Report;
+use crate::kinematics::{Chain, DhTable, LinkPath, TipChoice};
 use crate::model::Robot;
 use crate::model::urdf::URDF_LIMIT;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -47,7 +49,8 @@ pub struct InputFile {
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder or an input file, in a folder with its [`TASK_NAME`]. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
+    /// Reads a mechanism's folder, an input file or, as `-`, standard input; in a folder with its [`TASK_NAME`]. What standard input refers to, meshes
+    /// and the files of coupled chains, is looked for from the current folder. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
     /// a `[[link]]`; one with `[[chain]]` holds coupled chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
     ///
     /// # Errors
@@ -59,7 +62,7 @@ impl InputFile {
         let at_file = |error: Error| error.in_file(&file);
         let ends_in_xml =
             file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
-        let bytes = read_bytes(&file, if ends_in_xml { URDF_LIMIT } else { TEXT_LIMIT })?;
+        let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
         refuse_binary(&bytes).map_err(at_file)?;
         let is_xml = ends_in_xml || is_xml(&bytes);
         let (text, notes) = if is_xml {
@@ -81,15 +84,29 @@ impl InputFile {
         Ok(InputFile { path: file, name, text, description, ends })
     }
 
-    /// What of a robot is [passed over](Robot::passed_over), for its chain between `ends`; nothing of other inputs.
+    /// The path between the links of a robot that `ends` asks for, and for the rest the folder's task file; none for other descriptions.
     ///
     /// # Errors
     /// As [`Robot::path`], with the file.
+    pub fn path(&self, ends: &Ends) -> Result<Option<LinkPath>> {
+        let Description::Robot(robot) = &self.description else { return Ok(None) };
+        let ends = ends.or(&self.ends);
+        robot.path(ends.base.as_deref(), ends.tip.as_deref()).map(Some).map_err(|error| error.in_file(&self.path))
+    }
+
+    /// What of a robot is [passed over](Robot::passed_over), for its chain between `ends`; nothing of other inputs.
+    ///
+    /// # Errors
+    /// As [`InputFile::path`].
     pub fn passed_over(&self, ends: &Ends) -> Result<Vec<String>> {
         let Description::Robot(robot) = &self.description else { return Ok(Vec::new()) };
-        let ends = ends.or(&self.ends);
-        let path = robot.path(ends.base.as_deref(), ends.tip.as_deref()).map_err(|error| error.in_file(&self.path))?;
-        Ok(robot.passed_over(&path))
+        Ok(self.path(ends)?.map(|path| robot.passed_over(&path)).unwrap_or_default())
+    }
+
+    /// The link on a path that carries its first joint that moves.
+    pub(crate) fn carrier(&self, path: Option<&LinkPath>) -> Option<String> {
+        let Description::Robot(robot) = &self.description else { return None };
+        path.map(|path| robot.carrier(path).to_owned())
     }
 
     /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
@@ -167,6 +184,10 @@ pub struct Source {
     pub links: Option<[String; 2]>,
     /// What of the source was passed over.
     pub notes: Vec<String>,
+    /// How the link where the chain ends was chosen, when the source has links.
+    pub choice: Option<TipChoice>,
+    /// The link that carries the first joint that moves, when the source has links.
+    pub carrier: Option<String>,
 }
 
 impl Source {
@@ -184,36 +205,85 @@ impl Source {
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
-        let input = InputFile::read(path)?;
-        let (chain, notes) = (input.chain(ends)?, input.passed_over(ends)?);
-        let ends = ends.or(&input.ends);
+        Source::of(InputFile::read(path)?, ends)
+    }
+
+    /// The source that an input is for what `ends` asks. A tip that was chosen by its name among several is asked for from then on.
+    ///
+    /// # Errors
+    /// As [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
+    pub fn of(input: InputFile, ends: &Ends) -> Result<Source> {
+        let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.passed_over(ends)?);
+        let mut ends = ends.or(&input.ends);
+        if let Some(LinkPath { tip, choice: TipChoice::OnlyFrame(_), .. }) = &way {
+            ends.tip = Some(tip.clone());
+        }
+        let carrier = input.carrier(way.as_ref());
         let InputFile { path, name, text, description, .. } = input;
-        let links = match &description {
-            Description::Robot(tree) => {
-                let way = tree.path(ends.base.as_deref(), ends.tip.as_deref()).map_err(|error| error.in_file(&path))?;
-                Some([way.base, way.tip])
-            }
-            _ => None,
-        };
         let (system, coupled) = match (&chain, description) {
             (Some(_), _) => (None, None),
             (None, Description::System(system)) => (Some(system), None),
             (None, Description::Coupled(coupled)) => (None, Some(*coupled)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        let mut source = Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links, notes };
+        let choice = way.as_ref().map(|way| way.choice);
+        let links = way.map(|way| [way.base, way.tip]);
+        let mut source =
+            Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links, notes, choice, carrier };
         chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
         Ok(source)
+    }
+
+    /// A chain without a file, for what was asked of it.
+    ///
+    /// # Errors
+    /// As [`Ends::ideal`] and [`mod@formulate`].
+    pub fn of_chain(chain: Chain, ends: &Ends) -> Result<Source> {
+        let mut source = Source {
+            path: PathBuf::new(),
+            name: INPUT_NAMES[0],
+            text: String::new(),
+            chain: None,
+            ideal: None,
+            system: None,
+            coupled: None,
+            ends: ends.clone(),
+            links: None,
+            notes: Vec::new(),
+            choice: None,
+            carrier: None,
+        };
+        source.take(chain)?;
+        Ok(source)
+    }
+
+    /// Fails where the chain is too far from its base frame to be solved.
+    ///
+    /// # Errors
+    /// As [`Chain::check_base`], with the link that is near, and the file.
+    pub fn check_base(&self) -> Result<()> {
+        let checked = self.chain.as_ref().map_or(Ok(()), |chain| chain.check_base(self.carrier.as_deref()));
+        checked.map_err(|error| error.in_file(&self.path))
+    }
+
+    /// `error`, after a remark that the table of this source may be of the other convention, where neighbouring axes say so.
+    #[must_use]
+    pub fn advised(&self, error: Error) -> Error {
+        match DhTable::doubt_of(&self.text) {
+            Some(doubt) => Error::new(error.kind(), format!("{doubt}; {}", error.message())),
+            None => error,
+        }
     }
 
     /// Gives the values of joints with each target where the task leaves some too many: those that the planner chooses, which this returns with
     /// what else there was. More than one are chosen only where that is asked for: [`Ends::AUTO`].
     ///
     /// # Errors
-    /// As [`joints_to_give`] and [`Ends::ideal`]; [`ErrorKind::PositiveDimensional`] with a proposal for more than one joint too many. With the
+    /// As [`Source::check_base`], [`joints_to_give`] and [`Ends::ideal`]; [`ErrorKind::PositiveDimensional`] with a proposal for more than one joint too many. With the
     /// file.
     pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<Choice>> {
-        self.give(watch).map_err(|error| error.in_file(&self.path))
+        self.check_base()?;
+        self.give(watch).map_err(|error| self.advised(error).in_file(&self.path))
     }
 
     fn give(&mut self, watch: &Watch) -> Result<Option<Choice>> {

@@ -26,8 +26,16 @@ impl Proved {
     /// Derives and proves `source`.
     ///
     /// # Errors
-    /// As [`Derivation::new`], [`Derived::of_chain`] and [`DerivedCoupled::of_coupled`].
+    /// As [`Source::check_base`], [`Derivation::new`], [`Derived::of_chain`] and [`DerivedCoupled::of_coupled`].
     pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
+        source.check_base()?;
+        Proved::made(source, watch).map_err(|error| match error.kind() {
+            ErrorKind::Unsupported | ErrorKind::PositiveDimensional => source.advised(error),
+            _ => error,
+        })
+    }
+
+    fn made(source: &Source, watch: &Watch) -> Result<Self> {
         match (source.chain_by_steps(), &source.coupled) {
             (Some(chain), _) => Proved::of_ideal(chain, &ideal(source, chain)?, watch),
             (None, Some(coupled)) => Ok(Proved::Coupled(Box::new(DerivedCoupled::of_coupled(coupled, watch)?))),
@@ -56,12 +64,13 @@ impl Proved {
     /// that is another. It is one joint at a time, or where that is impossible by one eigenvalue problem of six joints.
     ///
     /// # Errors
-    /// As [`Derived::of_chain`] and [`Chain::check_task`].
+    /// As [`Chain::check_base`], [`Derived::of_chain`] and [`Chain::check_task`].
     pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
         Proved::of_ideal(chain, &chain.ideal_within(TOLERANCE)?, watch)
     }
 
     fn of_ideal(chain: &Chain, ideal: &(Chain, Report), watch: &Watch) -> Result<Self> {
+        chain.check_base(None)?;
         let by_steps = Proved::chain(chain, ideal, |chain| Derived::of_chain(chain, watch));
         match by_steps {
             Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {

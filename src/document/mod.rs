@@ -26,8 +26,8 @@ use crate::{Error, ErrorKind, Result};
 pub(crate) use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub(crate) use json::JsonFormat;
+pub use text::{is_stdin, read_text, read_xml, unix_lines};
 pub(crate) use text::{read_bytes, text_of};
-pub use text::{read_text, read_xml, unix_lines};
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = 1_000_000;

@@ -9,7 +9,13 @@ use super::content::refuse_binary;
 use super::encoding::{XmlText, decode_xml, empty, line_at};
 use crate::{Error, ErrorKind, Result};
 
-/// The text of `path`, which must be UTF-8, not empty and at most `limit` bytes long.
+/// Whether `path` is `-`: standard input, in place of a file.
+pub fn is_stdin(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// The text of `path`, or of standard input for `-`, which must be UTF-8, not empty and at most `limit` bytes long. Standard input can be read
+/// once: after that it is empty.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] for a missing file, a directory or a failed read; [`ErrorKind::BadValue`] for a file that is
@@ -27,19 +33,29 @@ pub fn read_xml(path: &Path, limit: u64) -> Result<XmlText> {
     refuse_binary(&bytes).and_then(|()| decode_xml(&bytes)).map_err(|error| error.in_file(path))
 }
 
-/// The bytes of `path`, at most `limit` of them.
+/// The bytes of `path`, or of standard input for `-`, at most `limit` of them.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] and [`ErrorKind::BadValue`] as [`read_text`]. All name the file.
 pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     let fail = |kind, message: String| Err(Error::new(kind, message).in_file(path));
     let io = |error: std::io::Error| Error::io(path, &error);
-    let file = File::open(path).map_err(io)?;
-    if file.metadata().map_err(io)?.is_dir() {
-        return fail(ErrorKind::Io, "this is a directory; give a text file".into());
-    }
     let mut bytes = Vec::new();
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+    if is_stdin(path) {
+        std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+        if bytes.is_empty() {
+            return fail(
+                ErrorKind::Syntax,
+                "standard input is empty, or was read before; give a description, once".into(),
+            );
+        }
+    } else {
+        let file = File::open(path).map_err(io)?;
+        if file.metadata().map_err(io)?.is_dir() {
+            return fail(ErrorKind::Io, "this is a directory; give a text file".into());
+        }
+        file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
+    }
     if bytes.len() as u64 > limit {
         return fail(ErrorKind::BadValue, format!("the file is too long; at most {limit} bytes are read"));
     }

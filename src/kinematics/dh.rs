@@ -5,11 +5,14 @@
 use std::convert::Infallible;
 
 use super::frame::{Frame, Rationality, Reading};
+use super::ideal::TOLERANCE;
 use super::parts::{Meant, along_z};
 use super::validate::{Fault, check_count};
 use super::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Placement, Task, Turn};
 use crate::Result;
+use crate::document::shown;
 use crate::number::BigRational;
+use crate::spatial::{Axis, Relation, Screw};
 
 /// Where the frames of a table stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,7 +98,56 @@ impl DhRow {
     }
 }
 
+impl DhConvention {
+    /// Its name in a file.
+    pub fn name(self) -> &'static str {
+        match self {
+            DhConvention::Standard => "standard",
+            DhConvention::Modified => "modified",
+        }
+    }
+
+    fn other(self) -> DhConvention {
+        match self {
+            DhConvention::Standard => DhConvention::Modified,
+            DhConvention::Modified => DhConvention::Standard,
+        }
+    }
+}
+
 impl DhTable {
+    /// Why the table that `text` holds may be one of the other convention: two neighbouring joints turn about one line, and with the other
+    /// convention none do. The last row of a standard table has `a` and `alpha` zero, as the first row of a modified one has.
+    pub fn doubt_of(text: &str) -> Option<String> {
+        let table = DhTable::from_toml(text).ok()?;
+        let first = table.coincident()?;
+        let (own, other) = (table.convention, table.convention.other());
+        let names = [first, first + 1].map(|row| shown(&table.rows[row].name));
+        if (DhTable { convention: other, ..table }).coincident().is_some() {
+            return None;
+        }
+        Some(format!(
+            "joints `{}` and `{}` turn about the same line, as they do where a {} table is read as {}: try `convention = \"{}\"`",
+            names[0],
+            names[1],
+            other.name(),
+            own.name(),
+            other.name()
+        ))
+    }
+
+    /// The place of the first joint that turns about the same line as the next one.
+    fn coincident(&self) -> Option<usize> {
+        let chain = self.chain().ok()?;
+        let tolerance = TOLERANCE * chain.reach();
+        let axes: Vec<_> = chain.screws().iter().map(Screw::axis).collect();
+        let is_one = |pair: &[Option<&Axis>]| match pair {
+            [Some(one), Some(other)] => one.relation(other, tolerance) == Relation::Coincident,
+            _ => false,
+        };
+        axes.windows(2).position(is_one)
+    }
+
     /// The joints and the tip from a base frame, and whether the joints' axes are rational.
     fn walk_from(&self, base: Frame) -> ((Vec<Joint>, Frame), Rationality) {
         let (mut joints, mut frame, mut told) = (Vec::new(), base.then(&self.base), Rationality::default());

@@ -20,11 +20,14 @@ pub mod numeric;
 pub mod oracle;
 mod parts;
 mod path;
+mod remote;
 pub mod screw;
 mod shares;
 mod target;
 mod task;
 mod telescope;
+mod tip;
+mod turns;
 pub mod upright;
 mod validate;
 
@@ -37,6 +40,8 @@ pub use parts::{ChainParts, Choice, Joint, JointKind, Meant, Root, Tip, along_z}
 pub use path::LinkPath;
 pub use target::Target;
 pub use task::{BaseAxis, Plane, Task};
+pub use tip::TipChoice;
+pub use turns::Placed;
 
 pub use crate::model::{LengthUnit, Mimic};
 pub(crate) use crate::spatial::exact::serde as exact_serde;

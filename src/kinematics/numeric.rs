@@ -26,8 +26,9 @@ impl NumericSolver {
     /// The search in `chain` for its task.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] when there are more unknown joints than the task asks for numbers.
+    /// [`ErrorKind::PositiveDimensional`] when there are more unknown joints than the task asks for numbers; as [`Chain::check_base`].
     pub fn new(chain: &Chain) -> Result<Self> {
+        chain.check_base(None)?;
         let given = chain.given();
         let is_unknown = |joint: &usize| !given.contains(joint) && chain.leader(*joint).is_none();
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(is_unknown).collect();

@@ -7,9 +7,10 @@ use num_traits::{One, ToPrimitive, Zero};
 use super::frame::{Frame, Rationality, Reading};
 use super::parts::{Meant, along_z};
 use super::telescope::{Telescope, joined};
+use super::tip::TipChoice;
 use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Task, Tip};
 use crate::document::shown;
-use crate::model::{self, Fault, JointType, Part, Robot, listing, some_among};
+use crate::model::{self, Fault, JointType, Part, Robot, some_among};
 use crate::number::BigRational;
 use crate::poly::rational_root;
 use crate::{Error, ErrorKind, Result};
@@ -19,7 +20,7 @@ const MAX_PATH: usize = 64;
 /// The most characters of a chain's name.
 const MAX_NAME: usize = 64;
 
-/// The way through a robot from one link to another.
+/// The path through a robot from one link to another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkPath {
     /// The name of the link where it starts.
@@ -28,33 +29,24 @@ pub struct LinkPath {
     pub tip: String,
     /// The joints on the way, as places in [`Robot::joints`], each with whether it is passed upwards, from child to parent.
     pub joints: Vec<(usize, bool)>,
+    /// How the tip was chosen.
+    pub choice: TipChoice,
 }
 
 impl Robot {
-    /// The way from the link `base` (by default the root) to the link `tip` (by default the only leaf).
+    /// The path from the link `base` (by default the root) to the link `tip` (by default the only leaf, else the only link named `tool0`,
+    /// `flange`, `tcp` or `ee_link`, in that order: [`TipChoice`]).
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for names of no link; [`ErrorKind::MissingKey`] without `tip` when there are several leaves;
-    /// [`ErrorKind::BadValue`] for more than 64 joints on the way.
+    /// [`ErrorKind::UnknownName`] for names of no link; [`ErrorKind::MissingKey`] without `tip` where none is the only one;
+    /// [`ErrorKind::BadValue`] for more than 64 joints on the path.
     pub fn path(&self, base: Option<&str>, tip: Option<&str>) -> Result<LinkPath> {
         let base = self.find("base", base.unwrap_or(self.root()))?;
-        let tip = match (tip, self.leaves().as_slice()) {
-            (Some(tip), _) => self.find("tip", tip)?,
-            (None, [only]) => self.find("tip", only)?,
-            (None, leaves) => {
-                let tips = if self.tips().is_empty() { leaves.to_vec() } else { self.tips() };
-                let message =
-                    format!("the robot has several ends; choose a tip link, such as {}", listing(tips.into_iter()));
-                return Err(Error::new(ErrorKind::MissingKey, message));
-            }
+        let (tip, choice) = match tip {
+            Some(tip) => (self.find("tip", tip)?, TipChoice::Given),
+            None => self.default_tip(base)?,
         };
-        let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
-        while up.last().is_some() && up.last() == down.last() {
-            up.pop();
-            down.pop();
-        }
-        let up = up.into_iter().map(|joint| (joint, true));
-        let joints: Vec<_> = up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect();
+        let joints = self.between(base, tip);
         let [base, tip] = [base, tip].map(|link| self.links()[link].name.clone());
         if joints.len() > MAX_PATH {
             let text = format!(
@@ -65,7 +57,26 @@ impl Robot {
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        Ok(LinkPath { base, tip, joints })
+        Ok(LinkPath { base, tip, joints, choice })
+    }
+
+    /// The joints from the link at the place `base` to the one at `tip`, each with whether it is passed upwards.
+    pub(super) fn between(&self, base: usize, tip: usize) -> Vec<(usize, bool)> {
+        let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
+        while up.last().is_some() && up.last() == down.last() {
+            up.pop();
+            down.pop();
+        }
+        let up = up.into_iter().map(|joint| (joint, true));
+        up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect()
+    }
+
+    /// The name of the link on `path` that carries its first moving joint: the base link with the shortest chain to the same joints. The base
+    /// where nothing moves.
+    pub fn carrier<'p>(&'p self, path: &'p LinkPath) -> &'p str {
+        let moving = path.joints.iter().find(|(joint, _)| self.joints()[*joint].kind != JointType::Fixed);
+        let carrier = moving.map(|(joint, is_up)| (self.ends(*joint), is_up));
+        carrier.map_or(&path.base, |((parent, child), is_up)| &self.links()[if *is_up { child } else { parent }].name)
     }
 
     /// The chain from the link `base` to the link `tip` (defaults as in [`Robot::path`]), in the frame of `base`, with the task

@@ -156,6 +156,28 @@ impl Task {
         }
     }
 
+    /// The names of the numbers of a target, in the order of a derived solver: `px`, `r11` by rows, `dx`, `phi`, `pitch`.
+    pub fn numbers(self) -> Vec<String> {
+        let along = |prefix: &str, axes: &[usize]| -> Vec<String> {
+            axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+        };
+        let (position, direction) = (along("p", &[0, 1, 2]), along("d", &[0, 1, 2]));
+        let rows = (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}"))).collect();
+        let angles = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        match self {
+            Task::Pose => [position, rows].concat(),
+            Task::Position => position,
+            Task::Ray => [position, direction].concat(),
+            Task::Direction => direction,
+            Task::Rotation => rows,
+            Task::PositionPitchRoll => [position, angles(&["pitch", "roll"])].concat(),
+            Task::PositionYaw { axis: BaseAxis::Z } => [position, angles(&["yaw"])].concat(),
+            Task::PositionYaw { axis } => [position, vec![format!("yaw_{}", axis.name())]].concat(),
+            Task::PlanarPosition { plane } => along("p", &plane.coordinates()),
+            Task::PlanarPose { plane } => [along("p", &plane.coordinates()), angles(&["phi"])].concat(),
+        }
+    }
+
     /// Whether it aims a direction of the tip frame.
     pub fn aims(self) -> bool {
         matches!(self, Task::Ray | Task::Direction | Task::PositionYaw { .. })

@@ -17,11 +17,20 @@ const MISSES: f64 = 2.0;
 /// How much is checked of chains that share actuators.
 const COUPLED: Options = Options { targets: 60, oracle: 1, exact: 6, seed: 1 };
 
-/// The numeric checks of a derivation.
+/// The numeric checks of a derivation. The joint values that made a target are shown within the limits of the source's chain, where whole turns of
+/// angles do that.
 ///
 /// # Errors
 /// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Report> {
+    let report = checked(source, proved, watch)?;
+    match &source.chain {
+        Some(chain) => Ok(report.turned(chain)),
+        None => Ok(report),
+    }
+}
+
+fn checked(source: &Source, proved: &Proved, watch: &Watch) -> Result<Report> {
     match proved {
         Proved::Equations(derivation) => Check::run(source, &derivation.program, &Options::default(), watch),
         Proved::Chain(derived) => match &derived.unpolished {

@@ -1,6 +1,6 @@
 //! What the checks found: [`Report`], its table `6_check.csv` and its summary.
 
-use crate::kinematics::Solution;
+use crate::kinematics::{Chain, Joint, JointKind, Placed, Solution};
 use std::fmt;
 
 /// How a row's target was made.
@@ -188,6 +188,18 @@ impl Report {
     /// The failures that are singular targets, or next to such.
     pub fn weak_spots(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.is_weak_spot())
+    }
+
+    /// The same with the angles that made each target turned into the limits of `chain`, where whole turns do that; given ones stay unchanged.
+    pub(super) fn turned(mut self, chain: &Chain) -> Self {
+        let given = chain.given();
+        let turns = |(place, joint): &(usize, &Joint)| joint.kind == JointKind::Revolute && !given.contains(place);
+        for (place, joint) in chain.joints().iter().enumerate().filter(turns) {
+            for q in self.rows.iter_mut().filter_map(|row| row.joints.as_mut()) {
+                q[place] = Placed::turned(q[place], joint.limits).value;
+            }
+        }
+        self
     }
 
     /// The report in a few numbers.

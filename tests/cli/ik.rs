@@ -66,6 +66,7 @@ fn a_target_out_of_reach_is_told() {
 #[test]
 fn bad_targets_are_refused() {
     assert!(refused(&["ik", "puma"]).contains("no target"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("no rotation matrix"));
     assert!(refused(&["ik", "puma", "--target", "1,2"]).contains("2 numbers are given; a pose has 6 numbers"));
     assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers with commas"));
     assert!(refused(&["ik", "puma", "--target", "1,2,nan,0,0,0"]).contains("finite numbers"));
@@ -123,4 +124,97 @@ fn a_chain_without_closed_form_is_searched() {
     assert!(page.contains("8 solutions, found by search: there may be others"), "{page}");
     let far = succeed(&["ik", "ur5", "--numeric", "--target", "9,9,9,0,0,0"]);
     assert!(far.contains("the search found none"), "{far}");
+}
+
+fn urdf(name: &str) -> String {
+    text(&root("tests/corpus/urdf").join(name)).to_owned()
+}
+
+/// The joint values in degrees of the first joint, turned into limits of 22.5 to 360 degrees: -73.52 is 286.48.
+#[test]
+fn answers_are_turned_into_limits() {
+    let robot = urdf("limits_of_a_turn.urdf");
+    let asked = ["--q", "5.0,0.3,0.4,4.0,0.7,-5.0"];
+    let found = solutions(&[&[robot.as_str()], &asked[..]].concat());
+    assert_eq!(found.len(), 8);
+    for answer in &found {
+        let q = numbers(&answer["q"]);
+        assert!((22.5..=360.0).contains(&q[0].to_degrees()), "{answer}");
+        let reached = |q: &[f64]| -> Value {
+            serde_json::from_str(&succeed(&["fk", &robot, "--json", "--q", &joined(q)])).unwrap()
+        };
+        let outside = &reached(&q)["outside_limits"];
+        assert_eq!(&answer["outside_limits"], outside, "no turn helps the joints that are outside");
+    }
+    // More than a turn may be asked for.
+    let turned = solutions(&[&robot, "--q", &format!("{},0.3,0.4,4.0,0.7,-5.0", 5.0 + 4.0 * std::f64::consts::PI)]);
+    for (one, other) in found.iter().zip(&turned) {
+        assert!(numbers(&one["q"]).iter().zip(numbers(&other["q"])).all(|(a, b)| (a - b).abs() < 1e-9));
+    }
+    let page = succeed(&[&["ik", &robot], &asked[..]].concat());
+    assert!(page.contains("286.478898") && !page.contains("j1 outside"), "{page}");
+    assert!(page.starts_with("tip link `l6`: the only leaf link"), "{page}");
+}
+
+/// A slide and a six-joint arm: the planner gives the joint that `derive` gives, and the answers reach the target.
+#[test]
+fn a_joint_too_many_is_given_as_the_planner_chooses() {
+    let robot = urdf("arm_on_a_rail.urdf");
+    let values = [0.4, 0.3, -0.5, 0.6, 0.2, 0.7, -0.4];
+    let (asked, json) = (joined(&values), |more: &[&str]| -> Value {
+        serde_json::from_str(&succeed(&[&["ik", &robot, "--json", "--q", &joined(&values)], more].concat())).unwrap()
+    });
+    let (chosen, named) = (json(&[]), json(&["--given", "j2"]));
+    for answer in [&chosen, &named] {
+        let found: Vec<Vec<f64>> =
+            answer["solutions"].as_array().unwrap().iter().map(|solution| numbers(&solution["q"])).collect();
+        let near = |q: &&Vec<f64>| q.iter().zip(values).all(|(a, b)| (a - b).abs() < 1e-9);
+        assert_eq!(found.iter().filter(near).count(), 1, "{answer}");
+        assert!(found.iter().all(|q| (q[1] - 0.3).abs() < 1e-15), "j2 is given: {answer}");
+    }
+    assert_eq!((&chosen["given"]["joints"], &named["given"]), (&Value::from(vec!["j2"]), &Value::Null));
+    let page = succeed(&["ik", &robot, "--given", "auto", "--q", &asked]);
+    assert!(page.contains("Given with each target: the value of `j2`. The planner chose; `--given JOINT`"), "{page}");
+}
+
+#[test]
+fn without_an_order_derive_is_named_first() {
+    let told = refused(&["ik", &urdf("slide_and_five_axes.urdf"), "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]);
+    let place = |words: &str| told.find(words).unwrap_or_else(|| panic!("{words}: {told}"));
+    assert!(place("`groebot derive`") < place("`groebot ik --numeric`"), "{told}");
+}
+
+#[test]
+fn a_base_at_survey_distance_is_named() {
+    let robot = urdf("survey_base.urdf");
+    let out = tempfile::tempdir().unwrap();
+    let ends = ["--base", "w", "--tip", "t"];
+    for command in [
+        [&["derive", &robot, "--out", text(out.path())], &ends[..]].concat(),
+        [&["ik", &robot, "--q", "0,0,0,0,0,0"], &ends[..]].concat(),
+        [&["plan", &robot], &ends[..]].concat(),
+    ] {
+        let told = refused(&command);
+        assert!(told.contains("choose a base link nearer to the arm, `b` (`--base`)"), "{told}");
+    }
+    assert!(succeed(&[&["info", &robot], &ends[..]].concat()).contains("choose a base link nearer to the arm, `b`"));
+    assert_eq!(solutions(&[&robot, "--base", "b", "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]).len(), 8);
+}
+
+/// The last row of a standard table has neither a nor alpha: read as modified, its last two axes are one line.
+#[test]
+fn a_table_of_the_other_convention_is_suspected() {
+    for (own, other) in [("standard", "modified"), ("modified", "standard")] {
+        let table = std::fs::read_to_string(urdf(&format!("ur5_{own}.toml"))).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("table.toml");
+        std::fs::write(&file, table.replace(&format!("\"{own}\""), &format!("\"{other}\""))).unwrap();
+        let advice = format!("try `convention = \"{own}\"`");
+        for command in ["derive", "plan"] {
+            let told = refused(&[command, text(&file)]);
+            assert!(told.contains(&advice), "{told}");
+        }
+        assert!(succeed(&["info", text(&file)]).contains(&advice));
+        assert!(!succeed(&["info", &urdf(&format!("ur5_{own}.toml"))]).contains("convention ="));
+    }
 }

@@ -17,6 +17,7 @@ mod ik;
 mod info;
 mod interrupted;
 mod navigate;
+mod pipes;
 mod plan;
 mod reach;
 mod refused;

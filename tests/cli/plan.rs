@@ -48,5 +48,5 @@ fn what_cannot_be_planned_is_refused() {
     assert!(refused(&["plan", text(&file)]).contains("no order of the known subproblems"));
     let seven: String = (1..=7).map(joint).collect();
     fs::write(&file, format!("{head}{seven}")).unwrap();
-    assert!(refused(&["plan", text(&file)]).contains("7 joints for the task `pose`"));
+    assert!(refused(&["plan", text(&file)]).contains("its 7 joints for the task `pose, j7 given`"));
 }

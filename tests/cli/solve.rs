@@ -97,6 +97,33 @@ fn joints_outside_their_limits_are_named() {
     }
 }
 
+/// The shoulder of the PUMA 560 turns from -45 to 225 degrees: answers in words, JSON and CSV are turned there. The joint values 200, -100, 30
+/// degrees of shoulder, elbow and waist are within limits.
+#[test]
+fn angles_are_turned_into_their_limits() {
+    let folder = root("derivations/puma560");
+    let folder = text(&folder);
+    let poses = run_on(&["fk", folder, "--degrees"], b"30,200,-100,20,40,50\n").out;
+    let csv = run_on(&["solve", folder, "--degrees"], poses.as_bytes()).out;
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|cell| *cell == name).unwrap();
+    let [shoulder, outside] = ["Shoulder_deg", "outside_limits"].map(column);
+    let near = |cell: &str, value: f64| (cell.parse::<f64>().unwrap() - value).abs() < 1e-9;
+    assert!(rows[1..].iter().any(|row| near(row[shoulder], 200.0)), "{csv}");
+    for row in &rows[1..] {
+        let is_within = (-45.0..=225.0).contains(&row[shoulder].parse::<f64>().unwrap());
+        assert_eq!(is_within, !row[outside].split(' ').any(|name| name == "Shoulder"), "{csv}");
+    }
+    let target = rows[1][1..13].join(",");
+    let page: Value = serde_json::from_str(&succeed(&["solve", folder, "--json", "--target", &target])).unwrap();
+    let shoulders = page["solutions"].as_array().unwrap().iter().map(|found| found["q"][1].as_f64().unwrap());
+    for (row, value) in rows[1..].iter().zip(shoulders) {
+        assert!(near(row[shoulder], value.to_degrees()), "{page}");
+    }
+    let shown = succeed(&["solve", folder, "--target", &target]);
+    assert!(shown.contains("200.000000 deg (3.490658504 rad)"), "{shown}");
+}
+
 #[test]
 fn degrees_are_radians_in_degrees() {
     let (radians, degrees) = (json("60,150", &[]), json("60,150", &["--degrees"]));

@@ -11,6 +11,9 @@ mod mimic;
 mod numeric;
 mod oracle;
 mod screw;
+mod task;
+mod tip;
+mod turns;
 
 use groebot::number::{BigRational, parse_rational};
 

@@ -106,11 +106,11 @@ impl Asked {
             return Ok(Asked { chain, source: None, robot: Some(robot), ends: ends.clone() });
         }
         let input = InputFile::read(path)?;
-        let source = Source::read_between(path, ends)?;
+        let robot = if let Description::Robot(robot) = &input.description { Some(robot.clone()) } else { None };
+        let source = Source::of(input, ends)?;
         let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
         let text = "this describes no chain of joints; give a chain or a robot";
         let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(path))?.clone();
-        let robot = if let Description::Robot(robot) = input.description { Some(robot) } else { None };
         let ends = source.ends.clone();
         Ok(Asked { chain, source: Some(source), robot, ends })
     }

@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 use serde_json::{Value, json};
 
+use super::super::ends::TipLink;
 use super::super::json::FORMAT;
 use super::{Paint, joints};
 use crate::Result;
@@ -53,6 +54,7 @@ impl<'r> Body<'r> {
             "format": FORMAT,
             "robot": robot.name(),
             "root": robot.root(),
+            "tip_link": robot.path(None, None).ok().as_ref().map(TipLink::of_path),
             "links": robot.links().iter().map(|link| &link.name).collect::<Vec<_>>(),
             "joints": moving.collect::<Vec<_>>(),
             "mass": self.mass,
@@ -85,11 +87,19 @@ impl<'r> Body<'r> {
             robot.faults().iter().map(|fault| &fault.error),
         );
         page += &listed(paint, "notes", robot.parts().notes.iter());
-        if let Some(tip) = robot.tips().first() {
-            page +=
-                &format!("\nA chain runs from --base (default {}) to --tip, for instance --tip {tip}\n", robot.root());
-        }
+        page += &format!("\nA chain runs from --base (default {}) to --tip{}\n", robot.root(), self.tip());
         page
+    }
+
+    /// The tip by default, or one that may be chosen.
+    fn tip(&self) -> String {
+        let suggested = || {
+            self.robot.suggested_tips(self.robot.root_place()).first().map(|tip| format!(", for instance --tip {tip}"))
+        };
+        match self.robot.path(None, None) {
+            Ok(path) => format!(" (default {}, {})", path.tip, path.choice),
+            Err(_) => suggested().unwrap_or_default(),
+        }
     }
 
     fn weight(&self) -> String {

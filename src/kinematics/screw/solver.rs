@@ -73,7 +73,7 @@ impl ScrewSolver {
     ///
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined;
-    /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain.
+    /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain; as [`Chain::check_base`].
     pub fn new(chain: &Chain) -> Result<Self> {
         ScrewSolver::within(chain, TOLERANCE)
     }
@@ -83,6 +83,7 @@ impl ScrewSolver {
     /// # Errors
     /// As [`ScrewSolver::new`] and [`Chain::ideal_within`].
     pub fn within(chain: &Chain, tolerance: f64) -> Result<Self> {
+        chain.check_base(None)?;
         let (ideal, report) = chain.ideal_within(tolerance)?;
         if chain.task() == Task::PositionPitchRoll {
             let upright = ideal.upright()?;
@@ -349,10 +350,11 @@ fn unsolved(chain: &Chain) -> Error {
         if there.is_empty() { "no neighbouring axes meet or are parallel".to_owned() } else { there.join(", ") };
     let text = format!(
         "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three \
-         axes in a row that meet or are parallel, or three parallel pairs; a search (`groebot ik --numeric`) may find answers",
+         axes in a row that meet or are parallel, or three parallel pairs; `groebot derive` solves most other chains, six joints in any \
+         place among them, and finds all answers; a search (`groebot ik --numeric`) may find some",
         chain.name(),
         chain.joints().len(),
-        chain.task().name()
+        chain.asked()
     );
     Error::new(ErrorKind::Unsupported, text)
 }

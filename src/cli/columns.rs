@@ -1,0 +1,242 @@
+//! The columns of tables that are piped from one command into another: `fk`, `ik` and `solve` write them, and read what the others write. Main
+//! type: [`Columns`].
+//!
+//! A column is found by its name. A name may end in the unit of its numbers (`x_mm`, `A1_deg`); without one they are in the reader's own unit.
+//! What a reader does not need is passed over where its name is one that these commands write, and refused where it is not.
+
+use csv::StringRecord;
+
+use crate::document::shown;
+use crate::kinematics::{Joint, JointKind};
+use crate::{Error, ErrorKind, Result};
+
+/// Units that the name of a column may end in.
+const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];
+/// What the commands write beside targets and joints.
+const BESIDE: [&str; 10] = [
+    "target",
+    "solutions",
+    "branch",
+    "residual",
+    "position_residual",
+    "rotation_residual",
+    "chosen",
+    "free",
+    "outside_limits",
+    "time",
+];
+/// The numbers of poses and of all tasks, units aside.
+const NUMBERS: [&str; 28] = [
+    "x", "y", "z", "px", "py", "pz", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw", "yaw_x", "yaw_y", "phi", "dx",
+    "dy", "dz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33",
+];
+
+/// What a number measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// A length in the reader's unit.
+    Length,
+    /// An angle in the reader's unit.
+    Angle,
+    /// No unit.
+    Plain,
+}
+
+/// A number that a reader wants.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Its name, such as `px` or that of a joint.
+    pub name: String,
+    /// What it measures.
+    pub measure: Measure,
+}
+
+impl Field {
+    /// The number of this name: `px` is a length, `phi` an angle, `r11` neither.
+    pub fn of_target(name: &str) -> Field {
+        let measure = match name {
+            "px" | "py" | "pz" => Measure::Length,
+            "phi" | "roll" | "pitch" | "yaw" | "yaw_x" | "yaw_y" => Measure::Angle,
+            _ => Measure::Plain,
+        };
+        Field { name: name.to_owned(), measure }
+    }
+}
+
+/// What a reader of a table takes, and what it passes over.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    /// The numbers of a row, in each form that it may have: the first form is that of rows without names that fit no other.
+    pub forms: Vec<Vec<Field>>,
+    /// Joints whose columns are passed over.
+    pub joints: Vec<String>,
+    /// Whether lengths without a unit are millimetres; else metres.
+    pub millimetres: bool,
+    /// Whether angles without a unit are degrees; else radians.
+    pub degrees: bool,
+    /// Whether a row of a target without a solution (`solutions` is 0) is passed over: it has no joint values.
+    pub skips_unsolved: bool,
+}
+
+/// Where a form's numbers are in a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The place of the form.
+    pub form: usize,
+    /// The column of each number, and what is done with it.
+    columns: Vec<(usize, Scale)>,
+    /// How many columns have names.
+    pub count: usize,
+    /// The column with the number of solutions, where a row may have none.
+    solutions: Option<usize>,
+}
+
+/// From the unit of a column to that of the reader.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Scale {
+    Same,
+    Times(f64),
+    Over(f64),
+    ToRadians,
+    ToDegrees,
+}
+
+impl Scale {
+    fn of(self, value: f64) -> f64 {
+        match self {
+            Scale::Same => value,
+            Scale::Times(factor) => value * factor,
+            Scale::Over(factor) => value / factor,
+            Scale::ToRadians => value.to_radians(),
+            Scale::ToDegrees => value.to_degrees(),
+        }
+    }
+}
+
+impl Columns {
+    /// The names of a form.
+    pub fn names(&self, form: usize) -> Vec<&str> {
+        self.forms[form].iter().map(|field| field.name.as_str()).collect()
+    }
+
+    /// The form of a row of so many cells without names.
+    pub fn form_of(&self, count: usize) -> usize {
+        self.forms.iter().position(|form| form.len() == count).unwrap_or(0)
+    }
+
+    /// Where the numbers are in a row under these names: of the first form that is there.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for names that lack a number of each form, and for one that is none of those that are read or passed over.
+    pub fn find(&self, names: &StringRecord) -> Result<Found> {
+        let places = |form: &Vec<Field>| form.iter().map(|field| self.place(field, names)).collect::<Option<Vec<_>>>();
+        let found = self.forms.iter().enumerate().find_map(|(form, fields)| Some((form, places(fields)?)));
+        let (form, columns) = found.ok_or_else(|| self.missing(names))?;
+        if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
+            return Err(self.unknown(unknown));
+        }
+        let is_repeated = |(place, name): &(usize, &str)| names.iter().take(*place).any(|before| before == *name);
+        if let Some((place, name)) = names.iter().enumerate().find(is_repeated) {
+            let text = format!("column {} of the first row, `{}`, stands twice; give it once", place + 1, shown(name));
+            return Err(Error::new(ErrorKind::UnknownName, text));
+        }
+        let solutions = names.iter().position(|name| name == "solutions");
+        Ok(Found { form, columns, count: names.len(), solutions: solutions.filter(|_| self.skips_unsolved) })
+    }
+
+    /// The column of a number: that of its own name, else the first that holds it in some unit.
+    fn place(&self, field: &Field, names: &StringRecord) -> Option<(usize, Scale)> {
+        let own = names.iter().position(|name| name == field.name).map(|place| (place, Scale::Same));
+        let held = |(place, name): (usize, &str)| Some((place, self.scale(field, name)?));
+        own.or_else(|| names.iter().enumerate().find_map(held))
+    }
+
+    /// What is done with the numbers under `name` where they are those of `field`.
+    fn scale(&self, field: &Field, name: &str) -> Option<Scale> {
+        let (bare, unit) = split(name);
+        let position = field.measure == Measure::Length && field.name.strip_prefix('p') == Some(bare);
+        if bare != field.name && !position || unit.is_empty() && self.joints.iter().any(|joint| joint == name) {
+            return None;
+        }
+        match (field.measure, unit) {
+            (_, "") => Some(Scale::Same),
+            (Measure::Length, "_m") => Some(if self.millimetres { Scale::Times(1000.0) } else { Scale::Same }),
+            (Measure::Length, "_mm") => Some(if self.millimetres { Scale::Same } else { Scale::Over(1000.0) }),
+            (Measure::Angle, "_rad") => Some(if self.degrees { Scale::ToDegrees } else { Scale::Same }),
+            (Measure::Angle, "_deg") => Some(if self.degrees { Scale::Same } else { Scale::ToRadians }),
+            _ => None,
+        }
+    }
+
+    /// Whether a column of this name is read or passed over.
+    fn is_known(&self, name: &str) -> bool {
+        let bare = split(name).0;
+        let own = self.forms.iter().flatten().map(|field| field.name.as_str());
+        let mut known = own.chain(self.joints.iter().map(String::as_str)).chain(BESIDE).chain(NUMBERS);
+        known.any(|known| known == name || known == bare)
+    }
+
+    fn missing(&self, names: &StringRecord) -> Error {
+        let fewest = self.forms.iter().min_by_key(|form| form.len()).map_or(&[][..], Vec::as_slice);
+        let lacking = fewest.iter().find(|field| self.place(field, names).is_none());
+        let found: Vec<String> = names.iter().take(8).map(shown).collect();
+        let wanted: Vec<&str> = fewest.iter().map(|field| field.name.as_str()).collect();
+        let text = format!(
+            "the first row (`{}`) is neither numbers nor names of the inputs: `{}` is missing; {} are allowed",
+            found.join(","),
+            lacking.map_or("", |field| &field.name),
+            wanted.join(", ")
+        );
+        Error::new(ErrorKind::UnknownName, text)
+    }
+
+    fn unknown(&self, name: &str) -> Error {
+        let mut read: Vec<&str> = Vec::new();
+        for name in self.forms.iter().flatten().map(|field| field.name.as_str()) {
+            if !read.contains(&name) {
+                read.push(name);
+            }
+        }
+        let text = format!(
+            "the column `{}` is not known; {} are read, and passed over are joints, poses and {}",
+            shown(name),
+            read.join(", "),
+            BESIDE.join(", ")
+        );
+        Error::new(ErrorKind::UnknownName, text)
+    }
+}
+
+impl Found {
+    /// The cells of a row with its numbers, each with the place of its column.
+    pub fn cells<'r>(&'r self, record: &'r StringRecord) -> impl Iterator<Item = (usize, &'r str)> {
+        self.columns.iter().map(|(column, _)| (*column, record.get(*column).unwrap_or("").trim()))
+    }
+
+    /// The numbers of those cells in the reader's units.
+    pub fn scaled(&self, numbers: Vec<f64>) -> Vec<f64> {
+        numbers.into_iter().zip(&self.columns).map(|(number, (_, scale))| scale.of(number)).collect()
+    }
+
+    /// Whether a row is that of a target without a solution.
+    pub fn is_unsolved(&self, record: &StringRecord) -> bool {
+        self.solutions.is_some_and(|column| record.get(column).is_some_and(|cell| cell.trim() == "0"))
+    }
+}
+
+/// The name of a column that is written: an angle in degrees says so.
+pub fn heading(name: &str, is_angle: bool, degrees: bool) -> String {
+    if is_angle && degrees { format!("{name}_deg") } else { name.to_owned() }
+}
+
+/// The fields of a chain's joints.
+pub fn of_joints(joints: &[Joint]) -> Vec<Field> {
+    let measure = |kind| if kind == JointKind::Revolute { Measure::Angle } else { Measure::Length };
+    joints.iter().map(|joint| Field { name: joint.name.clone(), measure: measure(joint.kind) }).collect()
+}
+
+/// A column's name without the unit at its end, and the unit.
+fn split(name: &str) -> (&str, &str) {
+    let unit = UNITS.iter().find(|unit| name.len() > unit.len() && name.ends_with(*unit));
+    unit.map_or((name, ""), |unit| name.split_at(name.len() - unit.len()))
+}

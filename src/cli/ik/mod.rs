@@ -1,0 +1,178 @@
+//! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first; or by search.
+
+mod page;
+mod target;
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::Path;
+
+use super::derive::told_choice;
+use super::ends::TipLink;
+use super::plan::Mechanism;
+use super::targets::{self, Row};
+use super::{Outcome, console};
+use crate::kinematics::numeric::NumericSolver;
+use crate::kinematics::screw::ScrewSolver;
+use crate::kinematics::{Chain, InverseKinematics, Solution};
+use crate::{Error, ErrorKind, Result};
+use page::{Page, Question, turned};
+
+const EXAMPLES: &str = "Examples:
+  groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees      position, then roll, pitch, yaw
+  groebot ik puma --target 0.3,1.1,0.4,0,0,0,1               position, then the quaternion x, y, z, w
+  groebot ik nao_left_leg --q 0.1,0.2,-0.3,0.5,-0.1,0.2      the pose that these joint values reach
+  groebot ik robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
+  groebot ik general_arm.toml --numeric --target 0.3,1.1,0.4,0,0,0,1
+  groebot fk robot.urdf < joints.csv | groebot ik robot.urdf > answers.csv
+
+Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
+task of a chain may ask for less: x,y,z for a position, and a direction behind them for a ray; a direction alone, or angles or a
+quaternion alone; two coordinates in a plane, or those and the angle about its normal. Values of given joints come last; where a task leaves joints
+too many and none is given, the planner chooses, as `derive` does. Angles of answers are turned into their joint's limits where whole turns do that.
+A CSV may start with a line of names: px, py, pz (or x_m, x_mm), then qx to qw, r11 to r33, or roll, pitch, yaw (or roll_deg); dx, dy, dz, phi, and given
+joints. What else `fk`, `ik` and `solve` write is passed over, another name is refused.
+A target out of reach is no error: the answer is \"no solution\".";
+
+/// The method that may not find all answers.
+const NUMERIC: &str = "numeric, maybe not all";
+
+/// Finds all joint values for a target by screw theory, each checked by forward kinematics
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    #[command(flatten)]
+    mechanism: Mechanism,
+    /// The target, numbers with commas between them (repeatable); `-`, or neither this nor --q: CSV from standard input
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    target: Vec<String>,
+    /// Joint values whose pose is the target (repeatable)
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    q: Vec<String>,
+    /// Search by damped least squares from 300 starts instead, for any chain: each answer is checked, but they may not be all
+    #[arg(long)]
+    numeric: bool,
+    /// JSON: an object for each target
+    #[arg(long)]
+    json: bool,
+    /// Angles in degrees, in targets, joint values and JSON (text shows both)
+    #[arg(long)]
+    degrees: bool,
+}
+
+/// Prints the answers to each target.
+pub fn run(arguments: &Arguments) -> Outcome {
+    let asked = if arguments.numeric { arguments.mechanism.searched()? } else { arguments.mechanism.asked()? };
+    let method =
+        if arguments.numeric { Method::numeric(asked.chain()?)? } else { Method::Screws(Box::new(asked.solver()?)) };
+    let question = Question {
+        chain: asked.chain()?,
+        method: method.name(),
+        tip: asked.tip(),
+        choice: asked.choice.as_ref(),
+        degrees: arguments.degrees,
+    };
+    let session = Session { question: &question, solver: method.solver(), as_json: arguments.json };
+    let nothing = arguments.target.is_empty() && arguments.q.is_empty();
+    match arguments.target.as_slice() {
+        [] if nothing && io::stdin().is_terminal() => Err(no_target().into()),
+        [dash] if dash == "-" => session.stream(arguments.mechanism.input()),
+        [] if nothing => session.stream(arguments.mechanism.input()),
+        _ => session.listed(arguments),
+    }
+}
+
+/// What is asked, and who answers.
+struct Session<'a> {
+    question: &'a Question<'a>,
+    solver: &'a dyn InverseKinematics,
+    as_json: bool,
+}
+
+impl Session<'_> {
+    /// The answers to a target, turned into limits.
+    fn solve(&self, (target, given): &target::Aim) -> Result<Vec<Solution>> {
+        let mut answers = Vec::new();
+        self.solver.solve(target, given, &mut answers)?;
+        turned(self.question.chain, &mut answers);
+        Ok(answers)
+    }
+
+    /// Targets and joint values of the command line: a page of text, or JSON.
+    fn listed(&self, arguments: &Arguments) -> Outcome {
+        let Question { chain, tip, choice, degrees, .. } = self.question;
+        let given = arguments.target.iter().map(|text| (text, target::target(chain, text, *degrees)));
+        let reached = arguments.q.iter().map(|text| (text, target::reached(chain, text, *degrees)));
+        let told = || TipLink::line(tip.as_ref()) + &choice.map(told_choice).unwrap_or_default();
+        let mut page = if self.as_json { String::new() } else { told() };
+        for (text, aim) in given.chain(reached) {
+            let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
+            let aim = aim.map_err(context)?;
+            let answers = self.solve(&aim).map_err(context)?;
+            let page_of = Page { question: self.question, text, target: &aim.0, given: &aim.1, answers: &answers };
+            page += &if self.as_json { page_of.json(true) } else { page_of.table() };
+        }
+        console::print(&page)
+    }
+
+    /// Targets of a table on standard input, while `mechanism` is read from elsewhere: CSV, or a JSON object a line.
+    fn stream(&self, mechanism: &Path) -> Outcome {
+        targets::is_free(mechanism, "--target or --q")?;
+        let mut out = BufWriter::new(io::stdout().lock());
+        let columns = target::columns(self.question.chain, self.question.degrees);
+        let mut rows = targets::Reader::new(columns, io::stdin().lock(), Path::new(targets::STDIN));
+        let mut index = 0;
+        let outcome = loop {
+            let Some(row) = rows.next() else { break if index > 0 { Ok(()) } else { Err(no_target()) } };
+            let start = if index == 0 && !self.as_json { self.question.csv_header() } else { String::new() };
+            index += 1;
+            match row.and_then(|row| self.answered(&row, index)) {
+                Ok(text) => out.write_all((start + &text).as_bytes()).map_err(|error| console::unwritten(&error))?,
+                Err(error) => break Err(error),
+            }
+        };
+        out.flush().map_err(|error| console::unwritten(&error))?;
+        Ok(outcome?)
+    }
+
+    /// The answers to a row of the table.
+    fn answered(&self, row: &Row, index: usize) -> Result<String> {
+        let at = |error: Error| error.at_line(row.line).in_file(Path::new(targets::STDIN));
+        let aim = target::aim(self.question.chain, &row.target, self.question.degrees).map_err(at)?;
+        let answers = self.solve(&aim).map_err(at)?;
+        let text = row.target.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let page = Page { question: self.question, text: &text, target: &aim.0, given: &aim.1, answers: &answers };
+        Ok(if self.as_json { page.json(false) } else { page.csv(index) })
+    }
+}
+
+fn no_target() -> Error {
+    let text = "no target; give one by --target, joint values by --q, or CSV on standard input";
+    Error::new(ErrorKind::MissingKey, text)
+}
+
+/// How answers are found.
+enum Method {
+    Screws(Box<ScrewSolver>),
+    Numeric(Box<NumericSolver>),
+}
+
+impl Method {
+    fn numeric(chain: &Chain) -> Result<Self> {
+        NumericSolver::new(chain).map(|solver| Method::Numeric(Box::new(solver)))
+    }
+
+    fn solver(&self) -> &dyn InverseKinematics {
+        match self {
+            Method::Screws(solver) => solver.as_ref(),
+            Method::Numeric(solver) => solver.as_ref(),
+        }
+    }
+
+    /// What JSON calls it.
+    fn name(&self) -> &'static str {
+        match self {
+            Method::Screws(_) => "screw theory",
+            Method::Numeric(_) => NUMERIC,
+        }
+    }
+}

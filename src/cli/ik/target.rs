@@ -1,0 +1,146 @@
+//! Targets of `groebot ik`: from an argument, from joint values, or from the columns of a table.
+
+use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+use crate::cli::columns::{Columns, Field, of_joints};
+use crate::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
+use crate::spatial::{Pose, rotation};
+use crate::{Error, ErrorKind, Result};
+
+/// The numbers of `text`, angles still in the unit that they were given in.
+fn numbers(text: &str) -> Result<Vec<f64>> {
+    let number = |part: &str| {
+        let value: f64 = part.trim().parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some(value)
+    };
+    text.split(',').map(number).collect::<Option<_>>().ok_or_else(|| {
+        Error::new(ErrorKind::Syntax, "give finite numbers with commas between them, such as 0.3,-1.5,2e-3")
+    })
+}
+
+/// A target, and the values of the given joints.
+pub type Aim = (Target, Vec<f64>);
+
+/// The target that `text` names, in the form of the chain's task, then the values of the given joints.
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] for what is no number; as [`aim`].
+pub fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
+    aim(chain, &numbers(text)?, degrees)
+}
+
+/// The target of these numbers, then the values of the given joints.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for another count than the chain's task has, and for a matrix that is no rotation.
+pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
+    let count = chain.given_inputs().len();
+    let Some(own) = values.len().checked_sub(count) else {
+        let names = chain.parts().given.join(", ");
+        let text = format!("{} numbers are given; the values of {count} joints stand last: {names}", values.len());
+        return Err(Error::new(ErrorKind::BadValue, text));
+    };
+    let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
+    let inside = |(value, turns): (&f64, bool)| if degrees && turns { value.to_radians() } else { *value };
+    let given = values[own..].iter().zip(turns).map(inside).collect();
+    Ok((asked(chain, &values[..own], degrees)?, given))
+}
+
+/// The target of `values`.
+fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
+    let radians = |value: f64| if degrees { value.to_radians() } else { value };
+    let wanted = match chain.task() {
+        Task::Pose => {
+            "a pose has 6 numbers (x, y, z, roll, pitch, yaw), 7 (x, y, z, qx, qy, qz, qw) or 12 (x, y, z, the matrix by rows)"
+        }
+        Task::Position => "a position has 3 numbers (x, y, z)",
+        Task::Ray => "a ray has 6 numbers (x, y, z and the direction's x, y, z)",
+        Task::PositionPitchRoll => "a position with pitch and roll has 5 numbers (x, y, z, pitch, roll)",
+        Task::PositionYaw { .. } => "a position with yaw has 4 numbers (x, y, z, yaw)",
+        Task::Direction => "a direction has 3 numbers (x, y, z, of any length)",
+        Task::Rotation => "a rotation has 3 numbers (roll, pitch, yaw), 4 (qx, qy, qz, qw) or 9 (the matrix by rows)",
+        Task::PlanarPosition { .. } => "a planar position has 2 numbers",
+        Task::PlanarPose { .. } => "a planar pose has 3 numbers, the last one the angle",
+    };
+    let euler = |[r, p, y]: [f64; 3]| UnitQuaternion::from_euler_angles(radians(r), radians(p), radians(y));
+    let unit = |vector: Vector3<f64>| vector.try_normalize(0.0).unwrap_or(vector);
+    Ok(match (chain.task(), values.len(), values) {
+        (Task::Pose, 6, &[x, y, z, roll, pitch, yaw]) => {
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), euler([roll, pitch, yaw])))
+        }
+        (Task::Pose, 7, &[x, y, z, i, j, k, w]) => {
+            let rotation = UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation))
+        }
+        (Task::Pose, 12, &[x, y, z, ..]) => {
+            Target::Pose(Pose::from_parts(Translation3::new(x, y, z), by_rows(&values[3..])?))
+        }
+        (Task::Rotation, 9, _) => Target::Rotation(by_rows(values)?),
+        (Task::Position, 3, &[x, y, z]) => Target::Position([x, y, z].into()),
+        (Task::Ray, 6, &[x, y, z, i, j, k]) => {
+            Target::Ray { point: [x, y, z].into(), direction: unit(Vector3::new(i, j, k)) }
+        }
+        (Task::PositionPitchRoll, 5, &[x, y, z, pitch, roll]) => {
+            Target::PositionPitchRoll { point: [x, y, z].into(), pitch: radians(pitch), roll: radians(roll) }
+        }
+        (Task::PositionYaw { .. }, 4, &[x, y, z, yaw]) => {
+            Target::PositionYaw { point: [x, y, z].into(), yaw: radians(yaw) }
+        }
+        (Task::Direction, 3, &[i, j, k]) => Target::Direction(unit(Vector3::new(i, j, k))),
+        (Task::Rotation, 3, &[roll, pitch, yaw]) => Target::Rotation(euler([roll, pitch, yaw])),
+        (Task::Rotation, 4, &[i, j, k, w]) => {
+            Target::Rotation(UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)))
+        }
+        (Task::PlanarPosition { .. }, 2, &[x, y]) => Target::PlanarPosition([x, y]),
+        (Task::PlanarPose { .. }, 3, &[x, y, phi]) => Target::PlanarPose([x, y, radians(phi)]),
+        (_, count, _) => {
+            return Err(Error::new(ErrorKind::BadValue, format!("{count} numbers are given; {wanted}")));
+        }
+    })
+}
+
+/// The rotation with this matrix by rows.
+fn by_rows(entries: &[f64]) -> Result<UnitQuaternion<f64>> {
+    rotation::from_matrix(&Matrix3::from_row_slice(entries))
+}
+
+/// The columns of a table of targets of `chain`: those of its task, a rotation as a quaternion, a matrix or angles, then its given joints.
+pub fn columns(chain: &Chain, degrees: bool) -> Columns {
+    let (numbers, joints) = (chain.task().numbers(), of_joints(chain.joints()));
+    let given: Vec<Field> = chain.given_inputs().into_iter().map(|joint| joints[joint].clone()).collect();
+    let field = |name: &str| Field::of_target(name);
+    let rotations: [&[&str]; 3] = match chain.task() {
+        Task::Pose | Task::Rotation => [
+            &["qx", "qy", "qz", "qw"],
+            &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"],
+            &["roll", "pitch", "yaw"],
+        ],
+        _ => [&[]; 3],
+    };
+    let position = numbers.iter().filter(|name| rotations[1].iter().all(|entry| entry != name));
+    let position: Vec<Field> = position.map(|name| field(name)).collect();
+    let form = |rotation: &&[&str]| {
+        position.iter().cloned().chain(rotation.iter().map(|name| field(name))).chain(given.iter().cloned()).collect()
+    };
+    let mut forms: Vec<Vec<Field>> = rotations.iter().map(form).collect();
+    forms.dedup();
+    Columns {
+        forms,
+        joints: joints.into_iter().map(|joint| joint.name).collect(),
+        millimetres: chain.length_unit() == LengthUnit::Millimetre,
+        degrees,
+        skips_unsolved: false,
+    }
+}
+
+/// What the joint values of `text` reach.
+///
+/// # Errors
+/// [`ErrorKind::Syntax`] for what is no number; as [`Target::reached`].
+pub fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
+    let turns = |i: usize| chain.joints().get(i).is_some_and(|joint| joint.kind == JointKind::Revolute);
+    let inside = |(i, value): (usize, f64)| if degrees && turns(i) { value.to_radians() } else { value };
+    let q: Vec<f64> = numbers(text)?.into_iter().enumerate().map(inside).collect();
+    let target = Target::reached(chain, &q)?;
+    Ok((target, chain.given_inputs().into_iter().map(|joint| q[joint]).collect()))
+}

@@ -1,0 +1,194 @@
+//! Commands in pipes: what `fk`, `ik` and `solve` write they read from one another, and descriptions come from standard input.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use super::{Ran, refused, root, run_on, succeed, text};
+
+fn derivation(name: &str) -> String {
+    text(&root("derivations").join(name)).to_owned()
+}
+
+fn urdf(name: &str) -> String {
+    text(&root("tests/corpus/urdf").join(name)).to_owned()
+}
+
+/// What a command makes of `input`.
+fn pipe(arguments: &[&str], input: &str) -> String {
+    let ran = run_on(arguments, input.as_bytes());
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{arguments:?}: {input}");
+    ran.out
+}
+
+/// The rows of a table by the names of its columns, without the columns that hold no numbers.
+fn table(text: &str) -> Vec<BTreeMap<String, f64>> {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let cells = names.iter().zip(line.split(','));
+        cells.filter_map(|(name, cell)| Some(((*name).to_owned(), cell.parse().ok()?))).collect()
+    };
+    lines.map(row).collect()
+}
+
+/// Joint values through `fk`, then `solve` or `ik`, then `fk`: each answer is where the joint values were. `solve` and `ik` read what they
+/// write, too.
+fn assert_comes_back(name: &str, q: &str, solutions: usize) {
+    let folder = derivation(name);
+    for units in [&[][..], &["--degrees"]] {
+        let with = |command| [&[command, folder.as_str()], units].concat();
+        let poses = pipe(&with("fk"), &format!("{q}\n"));
+        for command in ["solve", "ik"] {
+            let answers = pipe(&with(command), &poses);
+            assert_eq!(answers.lines().count(), 1 + solutions, "{name} {command}: {answers}");
+            // The header tells the units: the last command may be run without --degrees.
+            let back = table(&pipe(&["fk", &folder], &answers));
+            let begun = &table(&poses)[0];
+            let places = begun.iter().filter(|(column, _)| ["x_", "y_", "z_"].contains(&&column[..2]));
+            for (column, value) in places {
+                assert!(
+                    back.iter().all(|row| (row[column] - value).abs() < 1e-9 * (1.0 + value.abs())),
+                    "{name} {column}"
+                );
+            }
+            for again in ["solve", "ik"] {
+                let rows = pipe(&with(again), &answers).lines().count();
+                assert_eq!(rows, 1 + solutions * solutions, "{name}: {command} | {again}, one target a row");
+            }
+        }
+    }
+}
+
+#[test]
+fn poses_come_back() {
+    assert_comes_back("scara", "0.3,0.8,0.05,0.4", 2);
+    assert_comes_back("gantry", "0.1,0.2,0.3,0.4,0.5,0.6", 2);
+}
+
+#[test]
+fn other_tasks_come_back() {
+    assert_comes_back("nao_head", "0.3,0.2", 2);
+    assert_comes_back("nao_leg_sagittal", "0.3,0.6", 2);
+    assert_comes_back("planar_3r", "0.3,0.6,0.2", 2);
+    assert_comes_back("upright_arm", "0.124,0.516,0.47,0.19,0.322", 2);
+    assert_comes_back("wrist_rotation", "0.3,0.6,0.2", 2);
+}
+
+#[test]
+fn given_joints_come_back() {
+    assert_comes_back("planar_4r", "0.124,0.516,0.47,0.19", 2);
+    assert_comes_back("nao_left_arm_position", "0.124,0.516,0.47,0.19", 4);
+}
+
+#[test]
+fn units_of_columns_are_converted() {
+    let leg = derivation("nao_leg_sagittal");
+    let plain = pipe(&["solve", &leg], "px,pz\n60,150\n");
+    assert_eq!(pipe(&["solve", &leg], "x_mm,z_mm\n60,150\n"), plain);
+    assert_eq!(pipe(&["solve", &leg], "z_m,x_m\n0.150,0.060\n"), plain);
+    assert_eq!(pipe(&["ik", &leg], "x_m,z_m\n0.060,0.150\n"), pipe(&["ik", &leg], "60,150\n"));
+    let radians = table(&pipe(&["fk", &leg], "HipPitch_deg,KneePitch_rad\n90,0\n"));
+    assert!((radians[0]["HipPitch"] - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{radians:?}");
+    assert!((radians[0]["x_mm"] - 202.9).abs() < 1e-12, "thigh and tibia ahead: {radians:?}");
+    // A name with a unit that its number cannot have is no unit.
+    assert!(run_on(&["solve", &leg], b"x_deg,z_mm\n60,150\n").err.contains("`px` is missing"));
+}
+
+#[test]
+fn unknown_columns_are_refused_by_name() {
+    let leg = derivation("nao_leg_sagittal");
+    let cases = [
+        (&["solve", &leg][..], "px,pz,color\n60,150,3\n"),
+        (&["ik", &leg], "px,pz,color\n60,150,3\n"),
+        (&["fk", &leg], "HipPitch,KneePitch,color\n0.1,0.2,3\n"),
+    ];
+    for (arguments, input) in cases {
+        let Ran { code, err, .. } = run_on(arguments, input.as_bytes());
+        assert!(code == 1 && err.starts_with("error: <stdin>: line 1: the column `color` is not known"), "{err}");
+    }
+}
+
+/// A target out of reach has no joint values: `fk` has no pose for it, and the others still come back.
+#[test]
+fn a_target_without_a_solution_is_passed_over() {
+    let leg = derivation("nao_leg_sagittal");
+    let answers = pipe(&["solve", &leg], "60,150\n500,1\n-60,-150\n");
+    assert_eq!(answers.lines().count(), 1 + 2 + 1 + 2);
+    let back = table(&pipe(&["fk", &leg], &answers));
+    let places: Vec<f64> = back.iter().map(|row| row["x_mm"].round()).collect();
+    assert_eq!(places, [60.0, 60.0, -60.0, -60.0]);
+}
+
+#[test]
+fn a_description_comes_from_standard_input() {
+    let robot = fs::read_to_string(urdf("ur5.urdf")).unwrap();
+    let chain = fs::read_to_string(root("derivations/planar_2r/0_chain.toml")).unwrap();
+    let file = urdf("ur5.urdf");
+    for arguments in [&["fk", "--q", "0,-1,1,0,0.5,0"][..], &["ik", "--q", "0,-1,1,0,0.5,0"], &["info"], &["plan"]] {
+        let (command, rest) = arguments.split_first().unwrap();
+        let piped = pipe(&[&[command, "-"], rest].concat(), &robot);
+        assert_eq!(piped, succeed(&[&[command, file.as_str()], rest].concat()), "{command}");
+    }
+    let out = tempdir().unwrap();
+    assert_eq!(pipe(&["derive", "-", "--quiet", "--out", text(out.path())], &chain), "");
+    assert_eq!(fs::read_to_string(out.path().join("0_chain.toml")).unwrap(), chain);
+    let target = ["--target", "0.2,0.1"];
+    let program = fs::read_to_string(out.path().join("5_program.json")).unwrap();
+    let solved = succeed(&[&["solve", text(out.path())], &target[..]].concat());
+    assert_eq!(pipe(&[&["solve", "-"], &target[..]].concat(), &program), solved);
+}
+
+#[test]
+fn standard_input_is_read_once() {
+    let chain = fs::read_to_string(root("derivations/planar_2r/0_chain.toml")).unwrap();
+    let refused_on = |arguments: &[&str], input: &str| {
+        let ran = run_on(arguments, input.as_bytes());
+        assert_eq!(ran.code, 1, "{}", ran.out);
+        ran.err
+    };
+    for arguments in [&["fk", "-"][..], &["ik", "-"], &["fk", "-", "--q", "-"]] {
+        assert!(refused_on(arguments, &chain).contains("standard input holds the description"), "{arguments:?}");
+    }
+    assert!(refused_on(&["derive", "-"], &chain).contains("give one by --out"));
+    assert!(refused_on(&["info", "-"], "").contains("<stdin>: standard input is empty"));
+    let told = refused_on(&["info", "-"], "<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>");
+    assert!(told.contains("<stdin>: line 3: link `a`: its name is taken"), "{told}");
+}
+
+/// The tip that is taken by default is told in words and in JSON, and kept where the robot has other ends.
+#[test]
+fn the_default_tip_is_told() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("arm.urdf");
+    let arm = fs::read_to_string(root("tests/corpus/urdf/three_joint_leg.urdf")).unwrap();
+    fs::write(&file, arm.replace("\"foot\"", "\"robot_tool0\"")).unwrap();
+    let (arm, note) = (text(&file), "tip link `robot_tool0`: the only tool0 link; --tip chooses another");
+    let task = ["--task", "position"];
+    let out = folder.path().join("out");
+    let told = succeed(&[&["derive", arm, "--out", text(&out)], &task[..]].concat());
+    assert!(told.starts_with(note), "{told}");
+    assert!(fs::read_to_string(out.join("0_task.toml")).unwrap().contains("tip = \"robot_tool0\""));
+    let q = ["--q", "0.1,0.5,-1"];
+    assert!(succeed(&[&["fk", arm], &q[..]].concat()).starts_with(note));
+    assert!(succeed(&[&["ik", arm], &q[..], &task].concat()).starts_with(note));
+    assert!(succeed(&[&["plan", arm], &task[..]].concat()).starts_with(note));
+    assert!(succeed(&[&["info", arm], &task[..]].concat()).contains(note));
+    assert!(succeed(&["info", arm]).contains("--tip (default robot_tool0, the only tool0 link)"));
+    for command in [
+        [&["fk", arm, "--json"], &q[..]].concat(),
+        [&["ik", arm, "--json"], &q[..], &task].concat(),
+        [&["plan", arm, "--json"], &task[..]].concat(),
+        [&["info", arm, "--json"], &task[..]].concat(),
+        vec!["info", arm, "--json"],
+    ] {
+        let page: Value = serde_json::from_str(&succeed(&command)).unwrap();
+        assert_eq!(page["tip_link"]["name"], "robot_tool0", "{command:?}");
+        assert_eq!(page["tip_link"]["chosen_by"], "the only tool0 link", "{command:?}");
+    }
+    assert!(!succeed(&[&["fk", arm, "--tip", "robot_tool0"], &q[..]].concat()).contains("tip link"));
+    let leg = refused(&[&["derive", &urdf("three_joint_leg.urdf")], &task[..]].concat());
+    assert!(leg.contains("choose a tip link, such as `foot`\n"), "{leg}");
+}
