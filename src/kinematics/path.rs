@@ -12,7 +12,6 @@ use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, Len
 use crate::document::shown;
 use crate::model::{self, Fault, JointType, Part, Robot, some_among};
 use crate::number::BigRational;
-use crate::poly::rational_root;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest path, fixed joints included.
@@ -268,7 +267,7 @@ impl Robot {
 /// The motion of a joint at a value that never changes: right to rounding.
 fn held(kind: JointKind, axis: &ExactVector, value: &BigRational) -> Placement {
     let square: BigRational = axis.iter().map(|entry| entry * entry).sum();
-    let root = rational_root(&square).or_else(|| BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt()));
+    let root = BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt());
     let length = root.filter(|root| !root.is_zero()).unwrap_or_else(BigRational::one);
     if kind == JointKind::Prismatic {
         return Placement { origin: axis.each_ref().map(|entry| entry * value / &length), ..Placement::identity() };

@@ -61,7 +61,7 @@ fn a_joint_that_turns_follows() {
     let error = whole.check_leaders().unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(
-        error.message().contains("`--given knuckle`") && error.message().contains("`last` is 1.5 * knuckle + 0.25"),
+        error.message().contains("`--given knuckle`") && error.message().contains("`last` is -1.5 * knuckle + 0.25"),
         "{error}"
     );
 }

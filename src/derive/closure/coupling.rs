@@ -6,12 +6,9 @@
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::arithmetic::{Arithmetic, Exact};
-use super::mechanism::ScrewJoint;
-use crate::document::shown;
 use crate::kinematics::Mimic;
 use crate::number::BigRational;
 use crate::poly::rational_root;
-use crate::{Error, ErrorKind, Result};
 
 /// How the unknowns of a joint follow from those of its leader.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,28 +45,11 @@ pub enum Law {
 }
 
 impl Coupling {
-    /// The law of `mimic`, by which `joint` follows `other`, which is at the place `leader`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Unsupported`] where the law is no polynomial: a fraction of a turn, a slide that follows a turn or the other way round, or axis
-    /// vectors whose lengths have an irrational ratio.
-    pub(super) fn new(joint: &ScrewJoint, leader: usize, other: &ScrewJoint, mimic: &Mimic) -> Result<Self> {
-        let unfit = || {
-            let text = format!(
-                "joint `{}` follows `{}` by a law that is no polynomial in rational numbers: their axes have lengths whose ratio is irrational; a \
-                 search (`groebot ik --numeric`) finds joint values",
-                shown(&joint.name),
-                shown(&mimic.leader)
-            );
-            Error::new(ErrorKind::Unsupported, text)
-        };
-        let ratio = rational_root(&(&other.square / &joint.square)).ok_or_else(unfit)?;
-        let turn = [joint, other].map(ScrewJoint::is_revolute);
-        Coupling::by(leader, turn, mimic, [ratio, joint.square.clone()]).ok_or_else(unfit)
-    }
-
-    /// The same of joints of which each turns or slides; none where it is no polynomial.
-    fn by(leader: usize, turn: [bool; 2], mimic: &Mimic, [ratio, square]: [BigRational; 2]) -> Option<Self> {
+    /// The law of `mimic`, by which a joint follows the one at the place `leader`: of both, the follower first, whether they turn, and |w|^2. None
+    /// where the law is no polynomial over Q: a fraction of a turn, a slide that follows a turn or the other way round, or axis vectors whose
+    /// lengths have an irrational ratio.
+    pub(super) fn new(leader: usize, turn: [bool; 2], [own, other]: [&BigRational; 2], mimic: &Mimic) -> Option<Self> {
+        let (ratio, square) = (rational_root(&(other / own))?, own.clone());
         let root = square.to_f64().unwrap_or(1.0).sqrt();
         let law = match (turn, mimic.whole()) {
             ([true, true], Some(times)) => {

@@ -3,8 +3,9 @@
 use super::coupling::Coupling;
 use super::relation::Relation;
 use super::vector;
+use crate::document::shown;
 use crate::kinematics::upright::Upright;
-use crate::kinematics::{BaseAxis, Chain, ExactMatrix, ExactVector, Joint, JointKind, Plane, Task};
+use crate::kinematics::{BaseAxis, Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, Plane, Task};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
@@ -123,7 +124,7 @@ impl Mechanism {
             let Some((leader, mimic)) = chain.leader(place) else { continue };
             joint.follows = Some((leader, mimic.law()));
             if !given.contains(&place) {
-                joint.coupling = Some(Coupling::new(&plain[place], leader, &plain[leader], mimic)?);
+                joint.coupling = Some(coupling([&plain[place], &plain[leader]], leader, mimic)?);
             }
         }
         let task = chain.task();
@@ -288,6 +289,20 @@ impl Mechanism {
             task => numbers(task),
         }
     }
+}
+
+/// The law by which a joint follows another one, which is at the place `leader`.
+fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> Result<Coupling> {
+    let turn = [joint, other].map(ScrewJoint::is_revolute);
+    Coupling::new(leader, turn, [&joint.square, &other.square], mimic).ok_or_else(|| {
+        let text = format!(
+            "joint `{}` follows `{}` by a law that is no polynomial in rational numbers: the ratio of the lengths of their axis vectors is irrational; \
+             a search (`groebot ik --numeric`) finds joint values",
+            shown(&joint.name),
+            shown(&other.name)
+        );
+        Error::new(ErrorKind::Unsupported, text)
+    })
 }
 
 /// The names of the numbers of a task's target.
