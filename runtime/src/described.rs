@@ -163,10 +163,11 @@ fn add_others<M: Mechanism>(
     within: f64,
     (out, count): (&mut [Solution<M>], usize),
 ) -> Result<usize, Error> {
-    let (facts, mut count) = (mechanism.facts(), count);
+    let (facts, problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p), count);
     fit_all(mechanism, p, |found, (q, fit)| {
         let is_far = |other: &Solution<M>| !facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
-        if found.free == 0 && fit.relative <= within && count < out.len() && out[..count].iter().all(is_far) {
+        let is_other = found.free == 0 && fit.relative <= within && out[..count].iter().all(is_far);
+        if is_other && count < out.len() && problem.is_settled(&q) {
             let Fit { residual, relative, .. } = fit;
             out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
             count += 1;

@@ -6,7 +6,7 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
     ROUNDING, SHORT, STIFF,
 };
 
@@ -148,6 +148,13 @@ impl<M: Mechanism> Problem<'_, M> {
             }
         }
         self.measured(q)
+    }
+
+    /// Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers
+    /// would meet and none is, the plain step is long.
+    pub fn is_settled(&self, q: &Joints<M>) -> bool {
+        let step = self.shares(q, 0.0, 0).substituted();
+        step.is_some_and(|step| self.facts().longest(step.as_ref()) <= MERGE)
     }
 
     /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.

@@ -399,7 +399,7 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, const gb_real *
     for (size_t i = 0; is_new && i < c->all.count; i++) {
         is_new = !gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR);
     }
-    if (is_new) {
+    if (is_new && gb_is_settled(&c->all.problem, q)) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
         out->residual = fit->residual;

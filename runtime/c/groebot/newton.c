@@ -361,6 +361,16 @@ static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
     return sum;
 }
 
+/* Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers would
+ * meet and none is, the plain step is long. */
+GB_LINKAGE bool gb_is_settled(const gb_problem *problem, const gb_real *q)
+{
+    gb_triangle triangle;
+    gb_real step[GB_MAX_JOINTS];
+    gb_make_shares(problem, q, R(0.0), 0, &triangle);
+    return gb_substitute(&triangle, step) && gb_longest(problem->mechanism, step) <= GB_MERGE;
+}
+
 /* Takes the least damped step that lowers the sum of squares, and tells how long it is; false where none does. */
 static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uint32_t held, gb_real *longest)
 {
