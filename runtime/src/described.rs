@@ -16,7 +16,7 @@ use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, BLUR, MERGE, POLISHED};
+use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, POLISHED};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -126,7 +126,8 @@ impl<M: Mechanism, F: FnMut(&Found, End<M>) -> bool> Candidates<f64, M> for Fitt
             Joint::Angle([c, s]) => angle(at.as_ref()[c], at.as_ref()[s]),
             Joint::Length(place) => at.as_ref()[place],
         });
-        let end = self.problem.fitted(q, found.free);
+        // On a stratum joints only seem to be free where the other equations tell them.
+        let end = self.problem.fitted(q, 0, LEAPS[0]);
         self.is_done = end.1.residual.is_finite() && (self.take)(&found, end);
     }
 }
@@ -219,7 +220,7 @@ fn ideal_target<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
 
 /// Brings an answer of the ideal mechanism to where the described one is nearest to the target.
 fn fit_to<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
-    let (q, fit) = problem.fitted(answer.q.clone(), answer.free);
+    let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 

@@ -425,7 +425,8 @@ static void gb_fit_waiting(gb_sink_1 *c)
             const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
             q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
         }
-        const gb_fit fit = gb_fitted(&all->problem, q, c->found[k].free);
+        /* On a stratum joints only seem to be free where the other equations tell them. */
+        const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
         if (!(gb_magnitude(fit.residual) <= GB_GREATEST)) {
             continue;
         }
