@@ -16,7 +16,7 @@ use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, BLUR, MERGE, POLISHED};
+use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, POLISHED};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -126,7 +126,8 @@ impl<M: Mechanism, F: FnMut(&Found, End<M>) -> bool> Candidates<f64, M> for Fitt
             Joint::Angle([c, s]) => angle(at.as_ref()[c], at.as_ref()[s]),
             Joint::Length(place) => at.as_ref()[place],
         });
-        let end = self.problem.fitted(q, found.free);
+        // On a stratum joints only seem to be free where the other equations tell them.
+        let end = self.problem.fitted(q, 0, LEAPS[0]);
         self.is_done = end.1.residual.is_finite() && (self.take)(&found, end);
     }
 }
@@ -163,10 +164,11 @@ fn add_others<M: Mechanism>(
     within: f64,
     (out, count): (&mut [Solution<M>], usize),
 ) -> Result<usize, Error> {
-    let (facts, mut count) = (mechanism.facts(), count);
+    let (facts, problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p), count);
     fit_all(mechanism, p, |found, (q, fit)| {
         let is_far = |other: &Solution<M>| !facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
-        if found.free == 0 && fit.relative <= within && count < out.len() && out[..count].iter().all(is_far) {
+        let is_other = found.free == 0 && fit.relative <= within && out[..count].iter().all(is_far);
+        if is_other && count < out.len() && problem.is_settled(&q) {
             let Fit { residual, relative, .. } = fit;
             out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
             count += 1;
@@ -218,7 +220,7 @@ fn ideal_target<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
 
 /// Brings an answer of the ideal mechanism to where the described one is nearest to the target.
 fn fit_to<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
-    let (q, fit) = problem.fitted(answer.q.clone(), answer.free);
+    let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 

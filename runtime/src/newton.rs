@@ -6,7 +6,7 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
     ROUNDING, SHORT, STIFF,
 };
 
@@ -134,14 +134,14 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Damped Gauss-Newton steps from `q` to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is
-    /// taken only if it falls. Joints that are `held` stay.
-    pub fn fitted(&self, q: Joints<M>, held: u32) -> End<M> {
+    /// taken only if it falls, and no joint goes farther in it than `most` (rad, or relative to the length scale). Joints that are `held` stay.
+    pub fn fitted(&self, q: Joints<M>, held: u32, most: f64) -> End<M> {
         let (mut q, mut squares) = (q.clone(), self.squares(&q));
         for _ in 0..FITTING_STEPS {
             if squares <= POLISHED * POLISHED {
                 break;
             }
-            let Some((next, fallen, longest)) = self.fallen(&q, squares, held) else { break };
+            let Some((next, fallen, longest)) = self.fallen(&q, squares, held, most) else { break };
             (q, squares) = (next, fallen);
             if longest <= SHORT {
                 break;
@@ -150,12 +150,19 @@ impl<M: Mechanism> Problem<'_, M> {
         self.measured(q)
     }
 
+    /// Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers
+    /// would meet and none is, the plain step is long.
+    pub fn is_settled(&self, q: &Joints<M>) -> bool {
+        let step = self.shares(q, 0.0, 0).substituted();
+        step.is_some_and(|step| self.facts().longest(step.as_ref()) <= MERGE)
+    }
+
     /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.
-    fn fallen(&self, q: &Joints<M>, squares: f64, held: u32) -> Option<(Joints<M>, f64, f64)> {
+    fn fallen(&self, q: &Joints<M>, squares: f64, held: u32, most: f64) -> Option<(Joints<M>, f64, f64)> {
         for damping in DAMPINGS {
             let Some(step) = self.shares(q, damping, held).substituted() else { continue };
             let longest = self.facts().longest(step.as_ref());
-            if longest <= BLUR {
+            if longest <= most {
                 let next = stepped::<M>(&self.facts(), q, &step);
                 let fallen = self.squares(&next);
                 if fallen < squares {

@@ -399,7 +399,7 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, const gb_real *
     for (size_t i = 0; is_new && i < c->all.count; i++) {
         is_new = !gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR);
     }
-    if (is_new) {
+    if (is_new && gb_is_settled(&c->all.problem, q)) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
         out->residual = fit->residual;
@@ -425,7 +425,8 @@ static void gb_fit_waiting(gb_sink_1 *c)
             const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
             q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
         }
-        const gb_fit fit = gb_fitted(&all->problem, q, c->found[k].free);
+        /* On a stratum joints only seem to be free where the other equations tell them. */
+        const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
         if (!(gb_magnitude(fit.residual) <= GB_GREATEST)) {
             continue;
         }

@@ -49,7 +49,7 @@ static void gb_ideal_target(const gb_real *q, gb_real *target)
 /* Brings an answer of the ideal mechanism to where the described one is nearest to the target. */
 static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
 {
-    const gb_fit fit = gb_fitted(problem, answer->q, answer->free);
+    const gb_fit fit = gb_fitted(problem, answer->q, answer->free, GB_BLUR);
     answer->residual = fit.residual;
     answer->relative = fit.relative;
 }

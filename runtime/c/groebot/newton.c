@@ -361,8 +361,18 @@ static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
     return sum;
 }
 
+/* Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers would
+ * meet and none is, the plain step is long. */
+GB_LINKAGE bool gb_is_settled(const gb_problem *problem, const gb_real *q)
+{
+    gb_triangle triangle;
+    gb_real step[GB_MAX_JOINTS];
+    gb_make_shares(problem, q, R(0.0), 0, &triangle);
+    return gb_substitute(&triangle, step) && gb_longest(problem->mechanism, step) <= GB_MERGE;
+}
+
 /* Takes the least damped step that lowers the sum of squares, and tells how long it is; false where none does. */
-static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uint32_t held, gb_real *longest)
+static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uint32_t held, gb_real most, gb_real *longest)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_triangle triangle;
@@ -373,7 +383,7 @@ static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uin
             continue;
         }
         *longest = gb_longest(m, step);
-        if (!(*longest <= GB_BLUR)) {
+        if (!(*longest <= most)) {
             continue;
         }
         gb_stepped(m, q, step, next);
@@ -388,12 +398,12 @@ static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uin
 }
 
 /* Damped Gauss-Newton steps from q to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is taken
- * only if it falls. Joints that are `held` stay. */
-GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held)
+ * only if it falls, and no joint goes farther in it than `most` (rad, or relative to the length scale). Joints that are `held` stay. */
+GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most)
 {
     gb_real squares = gb_squares(problem, q), longest = INFINITY;
     for (int i = 0; i < GB_FITTING_STEPS && longest > GB_SHORT; i++) {
-        if (squares <= GB_POLISHED * GB_POLISHED || !gb_fall(problem, q, &squares, held, &longest)) {
+        if (squares <= GB_POLISHED * GB_POLISHED || !gb_fall(problem, q, &squares, held, most, &longest)) {
             break;
         }
     }

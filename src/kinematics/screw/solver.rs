@@ -22,6 +22,8 @@ use crate::{Error, ErrorKind, Result};
 const LEVER: f64 = 30.0;
 /// Answers that differ by more are far from each other \[rad, or reaches\].
 const APART: f64 = 5e-2;
+/// Where the Jacobian has a smaller singular value, what comes near may be the edge of what is within reach.
+const ORDINARY: f64 = 1e-3;
 /// Answers are refined while they miss by more than this.
 const ENOUGH: f64 = 2e-14;
 
@@ -313,7 +315,9 @@ impl Ideally {
         // Where the ideal robot reaches one pose in more ways than most, these part by as much as the target is off.
         for other in near {
             let is_far = |answer: &Solution| !self.solver.chain.are_within(&answer.q, &other.q, APART);
-            if other.free.is_empty() && answers.iter().all(is_far) {
+            let held = self.solver.chain.given();
+            let least = self.solver.chain.task_jacobian(&other.q, &held).singular_values().min();
+            if other.free.is_empty() && least > ORDINARY && answers.iter().all(is_far) {
                 answers.push(other);
             }
         }
