@@ -8,6 +8,7 @@ mod given;
 mod program;
 mod regular;
 mod robots;
+mod round;
 mod sliding;
 mod solver;
 
@@ -18,6 +19,9 @@ use groebot::number::BigRational;
 use groebot_runtime::six_axes::{self, Answer, Answers, Rigid};
 use nalgebra::Vector3;
 use num_traits::{One, Zero};
+
+/// Axes with coordinates in tenths of a millimetre and directions in millionths.
+pub type Axes = [([i64; 3], [i64; 3]); 6];
 
 /// A deterministic source of numbers that look random (Steele, Lea and Flood 2014, SplitMix).
 pub struct Random(u64);

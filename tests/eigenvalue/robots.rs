@@ -3,17 +3,14 @@
 use groebot::derive::eigenvalue;
 use groebot::kinematics::Chain;
 
-use super::{Random, chain, nearest, rational, residual};
-
-/// Axes with coordinates in tenths of a millimetre and directions in millionths.
-type Axes = [([i64; 3], [i64; 3]); 6];
+use super::{Axes, Random, chain, nearest, rational, residual};
 
 const X: [i64; 3] = [1_000_000, 0, 0];
 const Y: [i64; 3] = [0, 1_000_000, 0];
 const Z: [i64; 3] = [0, 0, 1_000_000];
 
 /// An arm with an offset of 150 mm in its wrist, like FANUC's CRX-10iA/L (A. Abbes and G. Poisson, Robotics 13 (2024) 91).
-const OFFSET_WRIST: Axes = [
+pub const OFFSET_WRIST: Axes = [
     (Z, [0, 0, 0]),
     (Y, [0, 0, 0]),
     (Y, [0, 0, 5400]),
@@ -23,7 +20,7 @@ const OFFSET_WRIST: Axes = [
 ];
 
 /// A wrist whose last axis is 76 mm off, as UFACTORY's xArm6 has it.
-const SIDE_WRIST: Axes = [
+pub const SIDE_WRIST: Axes = [
     (Z, [0, 0, 2670]),
     (Y, [0, 0, 2670]),
     (Y, [530, 0, 5515]),
@@ -43,7 +40,7 @@ const SLANTED_WRIST: Axes = [
 ];
 
 /// A leg whose hip axes and ankle axes do not meet, like Booster's K1 and T1.
-const OFFSET_LEG: Axes = [
+pub const OFFSET_LEG: Axes = [
     (Y, [0, 0, 0]),
     (X, [0, 0, -200]),
     (Z, [0, 0, -810]),
@@ -62,7 +59,7 @@ const CALIBRATED: Axes = [
     ([87, 999_999, -478], [8170, 2, -57]),
 ];
 
-fn robot(axes: &Axes) -> Chain {
+pub fn robot(axes: &Axes) -> Chain {
     let exact: Vec<_> = axes
         .iter()
         .map(|(axis, point)| (axis.map(|entry| rational(entry, 1_000_000)), point.map(|entry| rational(entry, 10_000))))
