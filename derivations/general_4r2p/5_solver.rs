@@ -68,7 +68,7 @@ const CHAIN_1: Chain = Chain {
     last: Rigid { rotation: [[-0.919145030018058, 0.05128392449635183, 0.3905667329424715], [0.0, -0.9914892069294688, 0.13018891098082386], [0.39391929857916763, 0.11966249049148762, 0.911322376865767]], translation: [2.165250952733121, 0.22792115291927592, 1.0256451881367417] },
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-1.1, -0.15, -0.3] },
     length: 0.43874821936960606,
-    formulations: Formulations::new(&[Formulation { hidden: 2, second: true }, Formulation { hidden: 2, second: false }]),
+    formulations: Formulations::new(&[Formulation { hidden: 2, second: true }, Formulation { hidden: 3, second: false }, Formulation { hidden: 2, second: false }, Formulation { hidden: 3, second: true }]),
 };
 
 impl Mechanism for Solver {

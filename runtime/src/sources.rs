@@ -37,11 +37,12 @@ pub const RUST: [(&str, &str); 29] = [
 pub const ROOT: &str = include_str!("lib.rs");
 
 /// The modules of [`crate::six_axes`], each with its name, its root first.
-pub const SIX_AXES: [(&str, &str); 19] = [
+pub const SIX_AXES: [(&str, &str); 20] = [
     ("mod", include_str!("six_axes/mod.rs")),
     ("answers", include_str!("six_axes/answers.rs")),
     ("candidates", include_str!("six_axes/candidates.rs")),
     ("chain", include_str!("six_axes/chain.rs")),
+    ("cluster", include_str!("six_axes/cluster.rs")),
     ("curve", include_str!("six_axes/curve.rs")),
     ("hessenberg", include_str!("six_axes/hessenberg.rs")),
     ("inverse_iteration", include_str!("six_axes/inverse_iteration.rs")),

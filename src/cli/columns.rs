@@ -135,7 +135,10 @@ impl Columns {
         if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
             return Err(self.unknown(unknown));
         }
-        let is_repeated = |(place, name): &(usize, &str)| names.iter().take(*place).any(|before| before == *name);
+        // The tables that these commands write name a given joint twice: as a target's number and as an answer's.
+        let is_written = names.iter().any(|name| name == "branch");
+        let is_repeated =
+            |(place, name): &(usize, &str)| !is_written && names.iter().take(*place).any(|before| before == *name);
         if let Some((place, name)) = names.iter().enumerate().find(is_repeated) {
             let text = format!("column {} of the first row, `{}`, stands twice; give it once", place + 1, shown(name));
             return Err(Error::new(ErrorKind::UnknownName, text));

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{refused, root, succeed, text};
+use super::{refused, root, run, succeed, text};
 
 fn solutions(arguments: &[&str]) -> Vec<Value> {
     let page: Value = serde_json::from_str(&succeed(&[&["ik", "--json"], arguments].concat())).unwrap();
@@ -96,10 +96,10 @@ fn a_chain_without_closed_form_is_searched() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("arm.toml");
     std::fs::write(&file, SLIDE_IN_THE_WRIST).unwrap();
-    let told = refused(&["derive", text(&file)]);
-    for part in ["8 complex solutions", "`j3` 8", "would have to meet in one point or be parallel", "ik --numeric"] {
-        assert!(told.contains(part), "{part}: {told}");
-    }
+    // All joints together have as many solutions as the search finds below; one target of the check next to a singular pose is a weak spot.
+    let derived = run(&["derive", text(&file)]);
+    assert!([0, 3].contains(&derived.code), "{}", derived.err);
+    assert!(derived.out.contains("8 solutions at most, all joints together"), "{}", derived.out);
     assert!(refused(&["ik", text(&file), "--q", "0,0,0,0,0,0"]).contains("ik --numeric"));
     // Turning about the axis of the slide and sliding may change places: what the screw solver finds is the same but for the order.
     let other = folder.path().join("other.toml");

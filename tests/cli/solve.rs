@@ -195,12 +195,9 @@ fn a_bad_row_names_its_line() {
         ("60,150\n\n60\n", "<stdin>: line 3: 1 numbers given"),
         ("60,150\n1,NaN\n", "<stdin>: line 2: `pz` is NaN"),
         ("a,b\n1,2\n", "<stdin>: line 1: the first row"),
-        (
-            "px,pz,weight\n60,150,1\n",
-            "<stdin>: line 1: column 3 of the first row, `weight`, is unknown; px, pz are allowed",
-        ),
+        ("px,pz,weight\n60,150,1\n", "<stdin>: line 1: the column `weight` is not known; px, pz are read"),
         ("px,px,pz\n60,60,150\n", "<stdin>: line 1: column 2 of the first row, `px`, stands twice"),
-        ("px,pz\n60,150,1\n", "<stdin>: line 2: 3 cells stand in the row; the first one has 2 names"),
+        ("px,pz\n60,150,1\n", "<stdin>: line 2: the row has 3 cells, and the first one 2 names"),
         ("1,x\n", "<stdin>: line 1: cell 2"),
     ];
     for (input, words) in cases {

@@ -110,7 +110,7 @@ fn the_screw_solver_passes_at_ordinary_targets_and_near_singular_ones() {
         let report = run(&chain, &ByScrews::new(&chain).unwrap(), Some(8), options);
         assert_none_fails(&report, &["ordinary", "1e-3 of singular", "1e-6 of singular"]);
         let summary = report.summary();
-        assert!(summary.exact >= 9 && summary.screw == 120 && summary.oracle == 2, "{}: {summary}", chain.name());
+        assert!(summary.exact >= 9 && summary.screw == 120 && summary.oracle >= 2, "{}: {summary}", chain.name());
         for class in ["1e-3 of singular", "1e-6 of singular", "1e-9 of singular", "singular"] {
             let found = report.accuracy().classes.iter().any(|c| c.name == class && c.rows >= 10);
             assert!(found, "{}: no targets {class}", chain.name());
@@ -262,7 +262,7 @@ fn other_tasks_are_checked_too() {
     let given = arm.with_task(Task::Position, along([0, 0, 1]), vec![elbow, arm.joints()[4].name.clone()]).unwrap();
     let head = robots::nao_head().with_task(Task::Direction, along([1, 0, 0]), Vec::new()).unwrap();
     for chain in [four, given, head] {
-        let report = run(&chain, &Search::new(&chain), None, Options { targets: 7, oracle: 0, exact: 4, seed: 2 });
+        let report = run(&chain, &Search::new(&chain), None, Options { targets: 9, oracle: 0, exact: 4, seed: 2 });
         let lost: Vec<String> =
             report.failures().filter(|row| row.kind == Kind::Rational).map(|r| r.to_string()).collect();
         assert!(lost.is_empty(), "{}: {lost:?}", chain.name());

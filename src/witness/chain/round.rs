@@ -5,10 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::model::Model;
-use super::targets::Target;
 use crate::spatial::Pose;
 use crate::witness::random::Random;
-use crate::witness::report::Kind;
 
 /// The grid's width is the round number (1, 2 or 5 times a power of ten) next to this share of the reach.
 const FINENESS: f64 = 0.05;
@@ -44,8 +42,8 @@ impl<'a> RoundTargets<'a> {
         q
     }
 
-    /// A pose whose axes are those of the base, at a position on the grid next to one that is reached; in two of three cases y or x is zero.
-    pub fn aligned(&mut self, number: usize) -> Target {
+    /// The target's numbers for a pose whose axes are those of the base, at a position on the grid next to one that is reached; in two of three cases y or x is zero.
+    pub fn aligned(&mut self, number: usize) -> Vec<f64> {
         let q = self.joints(15);
         let grid = grid(self.model.length);
         let mut position = self.model.forward(&q).translation.vector.map(|value| (value / grid).round() * grid);
@@ -68,7 +66,7 @@ impl<'a> RoundTargets<'a> {
             *value = if is_round { (*value / unit).round() * unit } else { *value };
         }
         inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| q[joint]));
-        Target { kind: Kind::Aligned, inputs, joints: None }
+        inputs
     }
 }
 

@@ -113,7 +113,10 @@ impl<'a> Targets<'a> {
                 let q = self.round.joints(degrees);
                 Some(self.reached(Kind::Round, q))
             }
-            Slot::Aligned => Some(self.round.aligned(number)),
+            Slot::Aligned => {
+                let inputs = self.round.aligned(number);
+                Some(Target { kind: Kind::Aligned, inputs, joints: None })
+            }
             Slot::Edge => self.edge(),
             Slot::Anywhere => Some(self.anywhere()),
             Slot::Far => self.far(),
