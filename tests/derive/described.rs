@@ -137,7 +137,7 @@ fn joints(chain: &Chain, count: usize) -> Vec<Vec<f64>> {
     let mut vector = |k: usize| {
         let mut value = |kind: JointKind| match kind {
             JointKind::Prismatic => 0.01 * between(-20.0, 20.0).round(),
-            JointKind::Revolute if k % 2 == 0 => between(-PI, PI),
+            JointKind::Revolute if k.is_multiple_of(2) => between(-PI, PI),
             JointKind::Revolute => between(-11.4, 12.4).round() * FRAC_PI_2 / 6.0,
         };
         chain.joints().iter().map(|joint| value(joint.kind)).collect()

@@ -17,9 +17,12 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 /// How a joint follows: the place of its leader, the multiplier and the offset.
 type Law = Option<(usize, f64, f64)>;
 
+/// A joint: whether it turns, its axis, a point of it at zero, its law.
+type Link = (bool, [f64; 3], [f64; 3], Law);
+
 /// A mechanism by numbers of this file: by joint whether it turns, its axis and a point of it at zero, and its law.
 struct Mechanism {
-    joints: Vec<(bool, [f64; 3], [f64; 3], Law)>,
+    joints: Vec<Link>,
     tip: [f64; 3],
     task: Task,
 }
@@ -29,12 +32,12 @@ fn exact(x: f64) -> BigRational {
 }
 
 impl Mechanism {
-    fn new(task: Task, tip: [f64; 3], joints: &[(bool, [f64; 3], [f64; 3], Law)]) -> Self {
+    fn new(task: Task, tip: [f64; 3], joints: &[Link]) -> Self {
         Mechanism { joints: joints.to_vec(), tip, task }
     }
 
     fn chain(&self) -> Chain {
-        let joint = |(place, (turns, axis, point, law)): (usize, &(bool, [f64; 3], [f64; 3], Law))| Joint {
+        let joint = |(place, (turns, axis, point, law)): (usize, &Link)| Joint {
             name: format!("j{place}"),
             symbol: (place + 1).to_string(),
             kind: if *turns { JointKind::Revolute } else { JointKind::Prismatic },
@@ -82,7 +85,7 @@ impl Mechanism {
 
     /// What the task sees of the tip, as numbers of a target.
     fn seen(&self, q: &[f64]) -> Vec<f64> {
-        let motion = |(&(turns, axis, point, _), q): (&(bool, [f64; 3], [f64; 3], Law), &f64)| {
+        let motion = |(&(turns, axis, point, _), q): (&Link, &f64)| {
             let axis = Unit::new_normalize(Vector3::from(axis));
             if !turns {
                 return Isometry3::translation(axis.x * q, axis.y * q, axis.z * q);

@@ -63,9 +63,7 @@ impl<'a> Model<'a> {
             Task::Ray => [position(&[0, 1, 2]), aim].concat(),
             Task::Direction => aim,
             Task::Rotation => rotation,
-            Task::PositionYaw { axis } if axis == BaseAxis::Z => {
-                [position(&[0, 1, 2]), vec!["yaw".to_owned()]].concat()
-            }
+            Task::PositionYaw { axis: BaseAxis::Z } => [position(&[0, 1, 2]), vec!["yaw".to_owned()]].concat(),
             Task::PositionYaw { axis } => [position(&[0, 1, 2]), vec![format!("yaw_{}", axis.name())]].concat(),
             Task::PositionPitchRoll => [position(&[0, 1, 2]), vec!["pitch".to_owned(), "roll".to_owned()]].concat(),
         };
