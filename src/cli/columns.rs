@@ -135,8 +135,8 @@ impl Columns {
         if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
             return Err(self.unknown(unknown));
         }
-        // The tables that these commands write name a given joint twice: as a target's number and as an answer's.
-        let is_written = names.iter().any(|name| name == "branch");
+        // In tables that these commands write, a joint may have the name of a number of the pose, and a given joint stands twice.
+        let is_written = names.iter().any(|name| name == "outside_limits");
         let is_repeated =
             |(place, name): &(usize, &str)| !is_written && names.iter().take(*place).any(|before| before == *name);
         if let Some((place, name)) = names.iter().enumerate().find(is_repeated) {

@@ -107,7 +107,7 @@ fn every_fault_is_refused() {
         (|p| p.joints[0].limits = Some((0.0, f64::INFINITY)), ErrorKind::BadValue, "not finite"),
         (|p| p.joints[0].limits = Some((1.0, -1.0)), ErrorKind::BadValue, "inverted"),
         (|p| p.joints[0].axis[0] = exact("0.5"), ErrorKind::BadValue, "parallel to y"),
-        (|p| p.joints[1].axis[1] = exact("0.5"), ErrorKind::BadValue, "must have y = 0"),
+        (|p| p.joints[1].axis[1] = exact("1"), ErrorKind::BadValue, "must have y = 0"),
         (|p| p.tip.point[0] = exact("-1e13"), ErrorKind::BadValue, "tip is beyond 10^12"),
         (|p| p.tip.rotation[2][2] = exact("-1"), ErrorKind::BadValue, "no rotation"),
         (|p| p.tip.rotation[0][0] = exact("0.6000001"), ErrorKind::BadValue, "no rotation"),
