@@ -99,7 +99,7 @@ fn equations(chain: &Chain, formulation: Formulation, displacement: &Rigid) -> R
     Rows::new(&near, &far, [frame.axis.slides, chain.slides[formulation.joint(3)]])
 }
 
-/// Eigenvalues near the real line, those that stand alone first.
+/// Eigenvalues near the real line, real ones first.
 struct NearReal {
     list: [Eigenvalue; SIZE],
     count: usize,
