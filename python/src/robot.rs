@@ -127,7 +127,7 @@ impl Robot {
         Ok(self.equations()?.joints().to_vec())
     }
 
-    /// What of the description was passed over: faults of parts that the chain between `base` and `tip` does not need, and other remarks.
+    /// What of the description was ignored: faults of parts that the chain between `base` and `tip` does not need, and other remarks.
     #[getter]
     fn notes(&self) -> Vec<String> {
         match self.robot.path(self.base.as_deref(), self.tip.as_deref()) {

@@ -2,7 +2,7 @@
 //! type: [`Columns`].
 //!
 //! A column is found by its name. A name may end in the unit of its numbers (`x_mm`, `A1_deg`); without one they are in the reader's own unit.
-//! What a reader does not need is passed over where its name is one that these commands write, and refused where it is not.
+//! Other columns are ignored where these commands write columns of that name, and refused elsewhere.
 
 use csv::StringRecord;
 
@@ -63,18 +63,18 @@ impl Field {
     }
 }
 
-/// What a reader of a table takes, and what it passes over.
+/// What a reader of a table takes, and what it ignores.
 #[derive(Clone, Debug)]
 pub struct Columns {
     /// The numbers of a row, in each form that it may have: the first form is that of rows without names that fit no other.
     pub forms: Vec<Vec<Field>>,
-    /// Joints whose columns are passed over.
+    /// Joints whose columns are ignored.
     pub joints: Vec<String>,
     /// Whether lengths without a unit are millimetres; else metres.
     pub millimetres: bool,
     /// Whether angles without a unit are degrees; else radians.
     pub degrees: bool,
-    /// Whether a row of a target without a solution (`solutions` is 0) is passed over: it has no joint values.
+    /// Whether a row of a target without a solution (`solutions` is 0) is ignored: it has no joint values.
     pub skips_unsolved: bool,
 }
 
@@ -83,7 +83,7 @@ pub struct Columns {
 pub struct Found {
     /// The place of the form.
     pub form: usize,
-    /// The column of each number, and what is done with it.
+    /// The column of each number, and the conversion of its unit.
     columns: Vec<(usize, Scale)>,
     /// How many columns have names.
     pub count: usize,
@@ -127,7 +127,7 @@ impl Columns {
     /// Where the numbers are in a row under these names: of the first form that is there.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for names that lack a number of each form, and for one that is none of those that are read or passed over.
+    /// [`ErrorKind::UnknownName`] for names that lack a number of each form, and for one that is none of those that are read or ignored.
     pub fn find(&self, names: &StringRecord) -> Result<Found> {
         let places = |form: &Vec<Field>| form.iter().map(|field| self.place(field, names)).collect::<Option<Vec<_>>>();
         let found = self.forms.iter().enumerate().find_map(|(form, fields)| Some((form, places(fields)?)));

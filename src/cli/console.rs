@@ -49,7 +49,7 @@ pub fn print(text: &str) -> Outcome {
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))
 }
 
-/// Tells what of the input was passed over, beside the answer: on standard error.
+/// Writes what of the input was ignored to standard error.
 pub fn tell(notes: &[String]) {
     notes.iter().for_each(|note| eprintln!("note: {note}"));
 }

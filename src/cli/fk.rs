@@ -85,11 +85,11 @@ impl Arguments {
 struct Edge<'a> {
     chain: &'a Chain,
     degrees: bool,
-    /// What of the robot was passed over.
+    /// What of the robot was ignored.
     notes: Vec<String>,
     /// Where it ends, of a robot.
     tip: Option<&'a TipLink>,
-    /// The joints of its robot, whose columns are passed over.
+    /// The joints of its robot, whose columns are ignored.
     others: Vec<String>,
 }
 
@@ -295,7 +295,7 @@ struct Page<'a> {
     rpy: [f64; 3],
     /// The homogeneous matrix, by rows.
     matrix: [[f64; 4]; 4],
-    /// What of the robot was passed over.
+    /// What of the robot was ignored.
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
 }

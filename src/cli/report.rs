@@ -90,7 +90,7 @@ fn meant(page: &mut Page, told: &Report<'_>) {
     }
 }
 
-/// What of the description was passed over.
+/// What of the description was ignored.
 fn passed_over(page: &mut Page, told: &Report<'_>) {
     if !told.source.notes.is_empty() {
         page.heading("Notes");

@@ -182,7 +182,7 @@ pub struct Source {
     pub ends: Ends,
     /// The links where the chain starts and ends, when the source names them.
     pub links: Option<[String; 2]>,
-    /// What of the source was passed over.
+    /// What of the source was ignored.
     pub notes: Vec<String>,
     /// How the link where the chain ends was chosen, when the source has links.
     pub choice: Option<TipChoice>,

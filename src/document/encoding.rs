@@ -18,7 +18,7 @@ const HEAD: usize = 64;
 pub struct XmlText {
     /// The text. A declaration that named another encoding names UTF-8, which the text is written in from now on.
     pub text: String,
-    /// What of the file was passed over.
+    /// What of the file was ignored.
     pub notes: Vec<String>,
 }
 

@@ -125,14 +125,14 @@ impl Robot {
         })
     }
 
-    /// What is wrong with the robot beside the way, and what the reader passed over: nothing of it touches the chain along `path`.
+    /// Faults of the robot off the path, and what the reader ignored: nothing of it touches the chain along `path`.
     pub fn passed_over(&self, path: &LinkPath) -> Vec<String> {
         let beside = self.faults().iter().filter(|fault| !self.is_on(path, fault));
         let beside = beside.map(|fault| format!("passed over, for it is not in the chain: {}", fault.error));
         self.parts().notes.iter().cloned().chain(beside).collect()
     }
 
-    /// Whether the part that has the fault is on the way.
+    /// Whether the part that has the fault is on the path.
     fn is_on(&self, path: &LinkPath, fault: &Fault) -> bool {
         let is_end = |joint: usize, name: &str| {
             let (parent, child) = self.ends(joint);

@@ -17,6 +17,6 @@ pub struct RobotParts {
     pub actuators: Vec<Actuator>,
     /// What is wrong with single parts.
     pub faults: Vec<Fault>,
-    /// What the reader passed over that belongs to no part.
+    /// What the reader ignored that belongs to no part.
     pub notes: Vec<String>,
 }

@@ -13,7 +13,7 @@ const X: [i64; 3] = [1_000_000, 0, 0];
 const Y: [i64; 3] = [0, 1_000_000, 0];
 const Z: [i64; 3] = [0, 0, 1_000_000];
 
-/// Random axes in tenths of a millimetre along x, y and z: an answer of it has the doubled joint at -90 degrees, where cosine and sine of half of it are equal
+/// Axes along x, y and z, drawn at random: an answer has the doubled joint at -90 degrees, where cosine and sine of half of it are equal
 /// but for their signs.
 const ALONG_AXES: Axes = [
     (X, [0, 2000, 0]),
