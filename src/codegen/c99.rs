@@ -184,14 +184,14 @@ impl Dialect for C {
     }
 
     fn chain(&self, six: &SixAxes) -> String {
-        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations, within } = six.chain();
         let rigid = |motion: &Rigid| format!("{{{}, {}}}", braces(&motion.rotation), braces(&motion.translation));
         let steps: Vec<String> = steps.iter().map(rigid).collect();
         let list = formulations.as_slice();
         let formulation = |one: &groebot_runtime::six_axes::Formulation| format!("{{{}, {}}}", one.hidden, one.second);
         let formulations: Vec<String> = list.iter().map(formulation).collect();
         format!(
-            "{{\n    {},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n}}",
+            "{{\n    {},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n}}",
             braces(&directions),
             braces(&points),
             braces(&across),
@@ -201,7 +201,8 @@ impl Dialect for C {
             rigid(&back),
             self.literal(length),
             formulations.join(", "),
-            list.len()
+            list.len(),
+            self.literal(within)
         )
     }
 

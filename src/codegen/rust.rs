@@ -111,12 +111,12 @@ impl Dialect for Rust {
     }
 
     fn chain(&self, six: &SixAxes) -> String {
-        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations, within } = six.chain();
         let formulations: Vec<String> = formulations.as_slice().iter().map(|one| format!("{one:?}")).collect();
         format!(
             "Chain {{\n    directions: {directions:?},\n    points: {points:?},\n    across: {across:?},\n    slides: {slides:?},\n    \
              steps: {steps:?},\n    last: {last:?},\n    back: {back:?},\n    length: {length:?},\n    \
-             formulations: Formulations::new(&[{}]),\n}}",
+             formulations: Formulations::new(&[{}]),\n    within: {within:?},\n}}",
             formulations.join(", ")
         )
     }

@@ -34,6 +34,13 @@ pub enum Kind {
     OfIdeal(Box<Kind>),
 }
 
+impl Kind {
+    /// Whether the target is made of round numbers.
+    pub fn is_round(&self) -> bool {
+        matches!(self, Kind::Round | Kind::Aligned)
+    }
+}
+
 /// What is wrong with the answers at a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
@@ -57,6 +64,8 @@ pub enum Fault {
     Screw,
     /// The answers differ from those of the numeric oracle.
     Oracle,
+    /// The target moved a little has an ordinary answer that is next to none of them.
+    Moved,
 }
 
 /// Whether the answers at a target are right.
@@ -294,6 +303,7 @@ impl fmt::Display for Fault {
             Fault::Count => "count",
             Fault::Screw => "screw",
             Fault::Oracle => "oracle",
+            Fault::Moved => "moved",
         })
     }
 }
@@ -312,6 +322,7 @@ impl Fault {
             Fault::Count => "there are not as many as exact real roots",
             Fault::Screw => "the screw solver (Paden-Kahan) has others",
             Fault::Oracle => "damped least squares from many seeds has others",
+            Fault::Moved => "the target moved by 1e-7 has others",
         }
     }
 }

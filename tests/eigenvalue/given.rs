@@ -32,7 +32,7 @@ fn an_end_joint_is_given() {
         let chain = with_given(text, joint);
         let derived = DerivedSixAxes::of_chain(&chain, &Watch::none()).unwrap();
         assert_eq!(derived.six.joints().len(), 6);
-        let options = Options { targets: 60, oracle: 1, exact: 4, seed: 3 };
+        let options = Options { targets: 60, oracle: 1, exact: 4, seed: 3, ..Options::default() };
         let report = Check::run(&chain, &derived.program, Some(derived.dimension()), &options, &Watch::none()).unwrap();
         let failures: Vec<String> =
             report.failures().filter(|row| !row.is_weak_spot()).map(|r| r.to_string()).collect();

@@ -6,6 +6,7 @@ mod corners;
 mod derived;
 mod mounted;
 mod rail;
+mod round;
 mod screws;
 
 use groebot::Watch;

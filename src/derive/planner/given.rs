@@ -104,7 +104,7 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
     }
 }
 
-/// The joint that leaves six which are found together: the last one, or the first.
+/// The joint that leaves six which are found together: the last one, or the first, or the one that it follows.
 fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
     let fits_with = |place: &usize| {
         let leads = |joint: &&usize| chain.leader(**joint).is_none();
@@ -113,7 +113,8 @@ fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
         let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
         asked.is_ok_and(|chain| fits(&chain).is_ok())
     };
-    [chain.joints().len() - 1, 0].into_iter().filter(|place| !given.contains(place)).find(fits_with)
+    let ends = [chain.joints().len() - 1, 0].map(|place| led_by(chain, place).unwrap_or(place));
+    ends.into_iter().filter(|place| !given.contains(place)).find(fits_with)
 }
 
 fn is_refusal(kind: ErrorKind) -> bool {
