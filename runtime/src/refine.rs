@@ -9,8 +9,8 @@ use crate::problem::{End, Fit};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{
-    ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN,
-    TWINS_AT,
+    ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP,
+    TWIN, TWINS_AT,
 };
 
 /// The most answers of a target.
@@ -31,19 +31,21 @@ impl<M: Mechanism> Answers<'_, M> {
         let end = self.problem.polish(start, 0);
         let miss = end.1.relative;
         let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
+        let is_nearby = self.problem.facts().nearby.is_some();
+        let is_beside = (ROUNDING..=if is_nearby { OFF } else { NEAR }).contains(&missed);
         if !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
             self.unsound = number;
         }
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
-        } else if (ROUNDING..=NEAR).contains(&missed) && way > LEVER * Arithmetic::sqrt(missed) {
+        } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
             self.around(found, &end, missed);
             // Such a candidate stands between two answers: starts from the other side too.
             let way = differences::<M>(&self.problem.facts(), &q, &end.0);
             let start = self.problem.polished(shifted::<M>(&self.problem.facts(), &q, &way), 0);
             self.keep(found, start);
         }
-        if self.problem.facts().nearby.is_some() && (ROUNDING..=NEAR).contains(&missed) {
+        if is_nearby && is_beside {
             self.twin(found, &end.0, missed);
         }
         self.keep(found, end);

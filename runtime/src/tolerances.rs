@@ -19,6 +19,8 @@ pub const TANGENT: f64 = 1e-10;
 pub const GRAZING: f64 = 1e-6;
 /// A case for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
+/// A candidate of a nearby mechanism's formulas that misses the equations by no more may have two answers next to it.
+pub const OFF: f64 = 1e-2;
 /// Where all candidates of the cases before have held where they were found, it runs below this share only: a stratum on which they would have
 /// lost an answer is as near as rounding.
 pub const BESIDE: f64 = 1e-7;

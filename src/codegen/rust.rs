@@ -80,7 +80,21 @@ impl Dialect for Rust {
         format!("let roots{number} = N::{function}({constant}, {typical});")
     }
 
-    fn find_roots(&self, number: usize, degree: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
+    fn find_roots(
+        &self,
+        number: usize,
+        degree: usize,
+        polynomials: &[Vec<String>],
+        typical: &str,
+        half_angle: bool,
+    ) -> Vec<String> {
+        if half_angle {
+            return spread(
+                &format!("let roots{number} = N::half_angle_roots::<{degree}>(&["),
+                &polynomials[0],
+                &format!("], {typical});"),
+            );
+        }
         let lists: Vec<String> = polynomials.iter().map(|list| format!("&[{}]", list.join(", "))).collect();
         spread(&format!("let roots{number} = N::real_roots::<{degree}>(&["), &lists, &format!("], {typical});"))
     }

@@ -207,10 +207,11 @@ impl Places {
                 let (unknown, value) = (self.unknowns[*unknown], self.operand(*value));
                 return (value != Operand::Unknown(unknown)).then_some(Step::Set { unknown, value });
             }
-            Step::Roots { unknown, polynomials, typical } => Step::Roots {
+            Step::Roots { unknown, polynomials, typical, half_angle } => Step::Roots {
                 unknown: self.unknowns[*unknown],
                 polynomials: polynomials.iter().map(|list| self.operands(list)).collect(),
                 typical: typical.map(|typical| self.operand(typical)),
+                half_angle: *half_angle,
             },
             Step::SixAxes(six) => {
                 Step::SixAxes(Box::new(six.renamed(|joint| self.value(joint), |operand| self.operand(operand))))

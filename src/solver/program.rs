@@ -70,6 +70,10 @@ pub enum Step {
         /// joint's value itself, else for one. A larger size proposes more double roots.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         typical: Option<Operand>,
+        /// Whether the unknown is the tangent of half an angle of a polynomial that may miss the axis by more than rounding: its terms are measured at
+        /// `typical` times the greater of the tangent and one.
+        #[serde(default, skip_serializing_if = "is_false")]
+        half_angle: bool,
     },
     /// A free joint is put at each of these values (rad, or the program's length unit) in turn; the steps behind run once for
     /// each. All are members of one self-motion: they have the same branch number.

@@ -193,7 +193,7 @@ impl Context<'_> {
         match step {
             Step::Compute(code) => self.code(code, place),
             Step::Set { unknown, value } => self.operand(*value, place).and_then(|()| self.set(*unknown, place)),
-            Step::Roots { unknown, polynomials, typical } => {
+            Step::Roots { unknown, polynomials, typical, half_angle } => {
                 for coefficients in polynomials {
                     let degree = coefficients.len().saturating_sub(1);
                     ensure((1..=roots::MAX_DEGREE).contains(&degree), &format!("{place}: degree {degree}"))?;
@@ -201,6 +201,8 @@ impl Context<'_> {
                 }
                 ensure(!polynomials.is_empty(), &format!("{place}: no polynomial"))?;
                 typical.map_or(Ok(()), |typical| self.operand(typical, place))?;
+                let is_whole = !half_angle || typical.is_some() && polynomials.len() == 1;
+                ensure(is_whole, &format!("{place}: a half angle has one polynomial, and a spread"))?;
                 self.set(*unknown, place)
             }
             Step::SixAxes(six) => {

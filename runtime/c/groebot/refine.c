@@ -402,16 +402,17 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
+    const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
     if (!(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
         all->unsound = number;
     }
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
         gb_around(all, found, &end, miss);
-    } else if (gb_is_between(missed, GB_ROUNDING, GB_NEAR) && way > GB_LEVER * gb_square_root(missed)) {
+    } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
         gb_around(all, found, &end, missed);
         gb_start_beyond(all, found, q, &end);
     }
-    if (problem->mechanism->is_nearby && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+    if (is_nearby && is_beside) {
         gb_twin(all, found, end.q, missed);
     }
     gb_keep(all, found, end.q, &end.fit);

@@ -106,6 +106,7 @@
 #define GB_TANGENT GB_EITHER(1e-10, 1e-4)
 #define GB_GRAZING GB_EITHER(1e-6, 1e-4)
 #define GB_NEAR GB_EITHER(1e-3, 1e-2)
+#define GB_OFF R(1e-2)
 #define GB_BESIDE GB_EITHER(1e-7, 1e-2)
 #define GB_TINY R(1e-30)
 #define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
@@ -229,6 +230,12 @@ typedef struct {
     size_t length;
 } gb_polynomial_1;
 
+/* What a polynomial's terms are measured at, to tell a double root from a miss: so many times the greater of the unknown's typical size and a root. */
+typedef struct {
+    gb_real typical;
+    gb_real spread;
+} gb_scale;
+
 GB_LINKAGE gb_real gb_cosine(gb_real angle);
 GB_LINKAGE gb_real gb_sine(gb_real angle);
 GB_LINKAGE gb_real gb_wrap(gb_real angle);
@@ -237,7 +244,7 @@ GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
 #ifdef GROEBOT_SIX_AXES_H
 GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out);
 #endif
-GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_real scale, gb_real *values, size_t room, bool *close);
+GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_scale scale, gb_real *values, size_t room, bool *close);
 GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *at);
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
@@ -272,6 +279,12 @@ GB_INLINE gb_real gb_magnitude(gb_real a)
 #else
     return fabs(a);
 #endif
+}
+
+/* What a polynomial's terms at x are measured at. */
+GB_INLINE gb_real gb_scale_at(gb_scale scale, gb_real x)
+{
+    return scale.spread * gb_larger(scale.typical, gb_magnitude(x));
 }
 
 /* The number with the sign of another. */
