@@ -1,10 +1,13 @@
 //! Seven joints of which the first or the last is given, turning or sliding: the six others are found together for every given value.
 
 use groebot::derive::eigenvalue::{DerivedSixAxes, fits};
-use groebot::kinematics::{Chain, Task, along_z};
+use groebot::derive::planner::joints_to_give;
+use groebot::kinematics::{Chain, ChainParts, Joint, Mimic, Task, along_z};
 use groebot::witness::Options;
 use groebot::witness::chain::Check;
 use groebot::{ErrorKind, Watch};
+
+use super::rational;
 
 /// An arm of seven joints whose axes miss each other by millimetres, standing upright.
 const ARM: &str = include_str!("../../derivations/gen3_like/0_chain.toml");
@@ -41,6 +44,26 @@ fn an_end_joint_is_given() {
         let again = DerivedSixAxes::prove(&chain, &derived.certificate()).unwrap();
         assert_eq!(again.program, derived.program);
     }
+}
+
+/// An arm of seven joints that carries a finger, whose pad follows its knuckle: whatever is given by their shares alone leaves no six joints in a row.
+#[test]
+fn joints_at_the_ends_are_chosen_where_no_others_will_do() {
+    let mut parts: ChainParts = Chain::from_toml(ARM).unwrap().into();
+    let finger = |name: &str, by: i64, mimic| Joint {
+        name: name.to_owned(),
+        symbol: name.to_owned(),
+        mimic,
+        point: [rational(by, 100), rational(0, 1), &parts.tip.point[2] + rational(by, 100)],
+        axis: [1, 0, 0].map(|entry| rational(entry, 1)),
+        ..parts.joints[6].clone()
+    };
+    let law = Mimic { leader: "knuckle".to_owned(), multiplier: rational(-1, 1), offset: rational(0, 1) };
+    let fingers = [finger("knuckle", 3, None), finger("pad", 5, Some(law))];
+    parts.joints.extend(fingers);
+    parts.given.clear();
+    let choice = joints_to_give(&Chain::new(parts).unwrap(), &Watch::none()).unwrap().unwrap();
+    assert_eq!(choice.given, ["Joint7", "knuckle"]);
 }
 
 #[test]

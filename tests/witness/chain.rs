@@ -8,7 +8,7 @@ use groebot::model::Robot;
 use groebot::number::BigRational;
 use groebot::robots;
 use groebot::witness::chain::{ByScrews, Check, Solver, count_exactly};
-use groebot::witness::{Fault, Kind, Options, Report, Verdict};
+use groebot::witness::{Draws, Fault, Kind, Options, Report, Verdict};
 use groebot::{Result, Watch};
 
 const KR6: &str = include_str!("../corpus/urdf/kr6_r900.urdf");
@@ -185,6 +185,27 @@ fn damaged_answers_are_found() {
         assert!(free.contains(&Fault::Free), "{free:?}");
         let many = faults_of(&chain, |answers| answers.extend(answers.clone()));
         assert!(many.contains(&Fault::Bound), "{many:?}");
+    }
+}
+
+/// A solver that loses an answer where a joint is at a multiple of 15 degrees, and nowhere else: rows with round targets find it without a search.
+#[test]
+fn what_is_lost_at_round_targets_alone_is_found() {
+    let chain = robots::puma();
+    let screws = ByScrews::new(&chain).unwrap();
+    let is_round = |q: &f64| (q / (PI / 12.0) - (q / (PI / 12.0)).round()).abs() < 1e-9;
+    let lossy = |answers: &mut Vec<Solution>| {
+        if answers.iter().any(|answer| answer.q.iter().all(is_round)) {
+            answers.retain(|answer| answer.q.iter().all(is_round));
+        }
+    };
+    let lossy = Changed { solver: &screws, change: lossy };
+    for (draws, targets) in [(Draws::All, 48), (Draws::Round, 12)] {
+        let options = Options { targets, oracle: 0, exact: 0, seed: 3, draws };
+        assert_none_fails(&run(&chain, &screws, None, options), &["round", "aligned"]);
+        let report = run(&chain, &lossy, None, options);
+        let moved = report.rows.iter().filter(|row| row.verdict.faults().contains(&Fault::Moved));
+        assert!(moved.clone().count() >= 3 && moved.clone().all(|row| row.kind.is_round()), "{report:?}");
     }
 }
 
