@@ -125,11 +125,12 @@ impl<M: Mechanism, F: FnMut(&Found, Joints<M>) -> bool> Candidates<f64, M> for P
             return;
         }
         let joints = self.facts.joints;
-        let q = Array::by(joints.len(), |i| match joints[i] {
+        let q: Joints<M> = Array::by(joints.len(), |i| match joints[i] {
             Joint::Angle([c, s]) => angle(at.as_ref()[c], at.as_ref()[s]),
             Joint::Length(place) => at.as_ref()[place],
         });
-        self.is_done = (self.take)(&found, q);
+        // Next to a stratum formulas may divide zero by zero.
+        self.is_done = q.as_ref().iter().all(|value| value.is_finite()) && (self.take)(&found, q);
     }
 }
 
@@ -152,7 +153,7 @@ fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<(Option<End
         // On a stratum joints only seem to be free where the other equations tell them.
         let end = problem.fitted(q, 0, LEAPS[0]);
         let is_nearer = best.as_ref().is_none_or(|(_, fit)| end.1.relative < fit.relative);
-        if is_nearer && end.1.residual.is_finite() {
+        if is_nearer {
             best = Some(end);
         }
         best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHED)
@@ -173,12 +174,7 @@ fn find_member<M: Mechanism>(mechanism: &M, p: &Parameters<M>, within: f64) -> R
 }
 
 /// The joints next to `q` at which the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target.
-fn onto_self_motion<M: Mechanism>(
-    problem: &Problem<'_, M>,
-    q: Joints<M>,
-    free: u32,
-    within: f64,
-) -> Option<Joints<M>> {
+fn onto_self_motion<M: Mechanism>(problem: &Problem<'_, M>, q: Joints<M>, free: u32, within: f64) -> Option<Joints<M>> {
     let is_within = |fit: Fit| fit.relative <= within;
     let (q, fit) = problem.fitted(q, free, LEAPS[0]);
     let q = if is_within(fit) { problem.freed(q, free) } else { None }?;
@@ -199,9 +195,7 @@ fn add_others<M: Mechanism>(
     let (facts, problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p), count);
     let free = out[..count].iter().fold(0, |free, answer| free | answer.free);
     let ideal = if free == 0 { None } else { ideal_parameters(mechanism, q) };
-    let is_member = |q: &Joints<M>| {
-        ideal.as_ref().is_some_and(|p| Problem::new(mechanism, p).has_member(q, free))
-    };
+    let is_member = |q: &Joints<M>| ideal.as_ref().is_some_and(|p| Problem::new(mechanism, p).has_member(q, free));
     propose(mechanism, p, |found, q| {
         let is_far = |q: &Joints<M>| {
             let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
@@ -281,7 +275,8 @@ fn fit_all<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, out: &mut [Sol
     let mut kept = 0;
     for k in 0..out.len() {
         let is_new = |answer: &Solution<M>, before: &[Solution<M>]| {
-            let is_same = |a: &Solution<M>| facts.is_close(a.q.as_ref(), answer.q.as_ref(), a.free | answer.free, MERGE);
+            let is_same =
+                |a: &Solution<M>| facts.is_close(a.q.as_ref(), answer.q.as_ref(), a.free | answer.free, MERGE);
             !before.iter().any(is_same)
         };
         let mut answer = out[k].clone();

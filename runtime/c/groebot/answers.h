@@ -389,7 +389,7 @@ static void gb_take_closest(gb_answers *all, gb_real *q)
 {
     /* On a stratum joints only seem to be free where the other equations tell them. */
     const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
-    if (gb_magnitude(fit.residual) <= GB_GREATEST && !(all->has_nearest && fit.relative >= all->nearest_fit.relative)) {
+    if (!(all->has_nearest && fit.relative >= all->nearest_fit.relative)) {
         all->has_nearest = true;
         all->nearest_fit = fit;
         memcpy(all->nearest, q, GB_JOINTS * sizeof *q);
@@ -447,13 +447,16 @@ static void gb_fit_waiting(gb_sink_1 *c)
     c->all.unsound = c->all.candidates;
     for (size_t k = 0; k < c->waiting; k++) {
         gb_real q[GB_MAX_JOINTS];
+        bool is_finite = true;
         c->free |= c->found[k].free;
-        if (gb_has_enough(c)) {
-            continue;
-        }
         for (int i = 0; i < GB_JOINTS; i++) {
             const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
             q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
+            is_finite = is_finite && gb_magnitude(q[i]) <= GB_GREATEST;
+        }
+        /* Next to a stratum formulas may divide zero by zero. */
+        if (!is_finite || gb_has_enough(c)) {
+            continue;
         }
         if (c->sought == GB_CLOSEST) {
             gb_take_closest(&c->all, q);

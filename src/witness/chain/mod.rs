@@ -219,8 +219,20 @@ impl<'a> Check<'a> {
         if self.model.is_in_self_motion(target, q) {
             return Some(Fault::SelfMotion);
         }
-        let is_same = |answer: &Solution| self.model.is_same(target, q, &answer.q);
+        let is_same = |answer: &Solution| {
+            self.model.is_same(target, q, &answer.q) || self.are_one_in_tolerance(target, q, &answer.q)
+        };
         (!answers.iter().any(is_same)).then_some(Fault::Missing)
+    }
+
+    /// Whether joint values of a chain as described are one answer with `b` because a pose at which two answers meet is within the tolerance: between them all joint
+    /// values are as near to the target as an answer may be.
+    fn are_one_in_tolerance(&self, target: &[f64], q: &[f64], b: &[f64]) -> bool {
+        let open = self.tolerance.sqrt();
+        self.is_described()
+            && self.model.sigma(q) <= open
+            && self.model.distance(q, b) <= 2.0 * open
+            && self.model.is_joined(target, q, b, self.tolerance)
     }
 
     /// Whether answers may miss their targets: those of a chain as described, of which the chain that it means decides which there are.

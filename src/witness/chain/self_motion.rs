@@ -71,17 +71,17 @@ pub(super) trait SelfMotions: Configuration {
             return distance <= 1e-9;
         }
         let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
-        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b)
+        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
     }
 
-    /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
-    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+    /// Whether joint vectors next to the straight way from `a` to `b` reach the target, within `missed`.
+    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64], missed: f64) -> bool {
         let none = |_: &[f64]| DMatrix::zeros(0, self.unknown().len());
         let width = self.distance(a, b);
         [0.25, 0.5, 0.75].iter().all(|share| {
             let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
             let between: Vec<f64> = (0..a.len()).map(point).collect();
-            let found = self.corrected(target, between.clone(), self.unknown(), &none, RESIDUAL);
+            let found = self.corrected(target, between.clone(), self.unknown(), &none, missed);
             found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
         })
     }
