@@ -33,6 +33,7 @@
 #define GB_TWIN R(10.0)
 #define GB_INVERSIONS 3
 #define GB_ALIKE GB_EITHER(2.5e-15, 1e-6)
+#define GB_BENT GB_EITHER(1e-4, 1e-2)
 #define GB_ARRIVED R(1e-3)
 #define GB_STAGES 4
 #define GB_SLACK GB_EITHER(1e-9, 1e-5)
@@ -46,6 +47,7 @@
 #endif
 
 static const gb_real gb_leaps[] = {R(0.5), R(0.1), R(0.02)};
+static const gb_real gb_freeing[] = {R(1e-2), R(1e-4), R(1e-6), R(1e-8), R(1e-8)};
 static const gb_real gb_twins_at[] = {R(-2.0), R(2.0), R(-16.0), R(16.0)};
 #ifdef GB_FLOAT
 static const gb_real gb_dampings[] = {R(0.0), R(1e-5), R(1e-4), R(1e-3)};
@@ -74,6 +76,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/problem.c"
 #include "groebot/newton.c"
 #include "groebot/self_motion.c"
+#include "groebot/freedom.c"
 #include "groebot/refine.c"
 #include "groebot/limits.c"
 

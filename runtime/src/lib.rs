@@ -19,6 +19,7 @@ mod described;
 mod double;
 pub mod dynamics;
 mod exactly;
+mod freedom;
 mod joints;
 pub mod lanes;
 pub mod limits;

@@ -24,6 +24,12 @@ impl<M: Mechanism> Problem<'_, M> {
         alone.find(|free| self.leads_to_self_motion(q, *free, bound, regularity))
     }
 
+    /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.
+    pub fn has_member(&self, q: &Joints<M>, free: u32) -> bool {
+        let (q, fit) = self.polished(q.clone(), 0);
+        fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
+    }
+
     fn leads_to_self_motion(&self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
         let (mut way, bound) = (ASIDE, f64::max(bound, ROUNDING));
         if regularity > REGULAR {

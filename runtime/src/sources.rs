@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 29] = [
+pub const RUST: [(&str, &str); 30] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -12,6 +12,7 @@ pub const RUST: [(&str, &str); 29] = [
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
     ("exactly", include_str!("exactly.rs")),
+    ("freedom", include_str!("freedom.rs")),
     ("joints", include_str!("joints.rs")),
     ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
@@ -70,7 +71,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 43] = [
+pub const C_PARTS: [(&str, &str); 44] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -78,6 +79,7 @@ pub const C_PARTS: [(&str, &str); 43] = [
     ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
     ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
     ("groebot/described.h", include_str!("../c/groebot/described.h")),
+    ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),

@@ -35,6 +35,11 @@ pub const NEGLIGIBLE: f64 = 1e-290;
 pub const POLISH_STEPS: usize = 32;
 /// Least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
 pub const FITTING_STEPS: usize = 16;
+/// The shares that what a target is missed by has in the steps to where a joint moves freely. Where it does is left open by at most their product with the miss
+/// and themselves: rounding in the end.
+pub const FREEING: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-8];
+/// How far (rad, or relative to the length scale) joints are moved to either side to see how derivatives change: what is left out is the square of that.
+pub const BENT: f64 = 1e-4;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration. The last is
 /// for an answer that is singular twice: there one direction's derivative is rounding, which leads the plain step astray, and another's falls
 /// with the square root of the miss, so that the other shares outweigh it while the miss is still more than an answer may have.

@@ -64,7 +64,7 @@ static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q,
 /* Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at least: to the
  * other there may be a branching. Where q is not singular that is not tried. A self-motion may go round a small part of the circle only: where q is
  * singular within rounding, shorter ways are tried as well, each an eighth of the one before. */
-static bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
+GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
 {
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
@@ -81,4 +81,19 @@ static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real
         }
     }
     return 0;
+}
+
+/* Whether joints next to q reach the target, and one of the joints `free` lies on a self-motion there. */
+GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    const size_t joints = problem->mechanism->joints;
+    gb_end end;
+    gb_copy(end.q, q, joints);
+    gb_polish_from(problem, &end, 0);
+    for (size_t i = 0; end.fit.accepted && i < joints; i++) {
+        if (gb_is_in(free, i) && gb_lies_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ROUNDING)) {
+            return true;
+        }
+    }
+    return false;
 }

@@ -24,7 +24,7 @@ use crate::{ErrorKind, Result, Watch};
 use count::Counter;
 use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
 use rational::Rationals;
-use self_motion::{STEPS, SelfMotions};
+use self_motion::{MEMBER, STEPS, SelfMotions};
 use targets::{Target, Targets};
 
 /// Round targets among so many rows, from the first, are searched numerically too.
@@ -261,14 +261,33 @@ impl<'a> Check<'a> {
         if self.model.is_in_self_motion(target, q) {
             return Some(Fault::SelfMotion);
         }
-        let is_same = |answer: &Solution| self.model.is_same(target, q, &answer.q);
+        let is_same = |answer: &Solution| {
+            self.model.is_same(target, q, &answer.q) || self.are_one_in_tolerance(target, q, &answer.q)
+        };
         (!answers.iter().any(is_same)).then_some(Fault::Missing)
     }
 
-    /// Whether `q` is of a self-motion that one of the answers stands for.
+    /// Whether joint values of a chain as described are one answer with `b` because a pose at which two answers meet is within the tolerance: between them all joint
+    /// values are as near to the target as an answer may be.
+    fn are_one_in_tolerance(&self, target: &[f64], q: &[f64], b: &[f64]) -> bool {
+        let open = self.tolerance.sqrt();
+        self.is_described()
+            && self.model.sigma(q) <= open
+            && self.model.distance(q, b) <= 2.0 * open
+            && self.model.is_joined(target, q, b, self.tolerance)
+    }
+
+    /// Whether answers may miss their targets: those of a chain as described, of which the chain that it means decides which there are.
+    fn is_described(&self) -> bool {
+        self.tolerance > RESIDUAL
+    }
+
+    /// Whether `q` is of a self-motion that one of the answers stands for. A chain as described may miss the target along the path from one to the other by as
+    /// much as each answer may: the chain that it means has the self-motion.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
         let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
-        let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, &answer.q, &answer.free, step);
+        let missed = if self.is_described() { self.tolerance } else { MEMBER };
+        let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, answer, (step, missed));
         self_motions().any(|answer| self.model.matches(target, q, &answer.q))
             || STEPS.into_iter().any(|step| self_motions().any(|answer| leads(answer, step)))
             || self_motions().any(|answer| self.model.runs_to(target, q, &answer.q))
@@ -288,7 +307,7 @@ impl<'a> Check<'a> {
         let covers = |some: &[Solution], answer: &Solution| {
             let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
             let sure = self.model.residual(target, &answer.q) <= least;
-            let is_same = |other: &Solution| self.model.is_same(target, &answer.q, &other.q);
+            let is_same = |other: &Solution| self.are_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };
         let asks_too_much = |answer: &Solution| {
@@ -299,6 +318,13 @@ impl<'a> Check<'a> {
             self.model.sigma(&answer.q) <= ORDINARY || asks_too_much(answer) || covers(others, answer)
         };
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
+    }
+
+    /// Whether `b` is the same answer as `a`. Two solvers of a chain as described may come to different joint values that are as near to the target as it may be
+    /// missed.
+    fn are_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let open = 2.0 * self.tolerance / self.model.sigma(a).max(self.tolerance.sqrt());
+        self.model.is_same(target, a, b) || (self.is_described() && self.model.distance(a, b) <= open)
     }
 
     /// The number of the oracle's answers, and whether its ordinary ones are ours.
