@@ -7,6 +7,7 @@ mod derived;
 mod mounted;
 mod rail;
 mod screws;
+mod self_motions;
 
 use groebot::Watch;
 use groebot::derive::{Derivation, Source};
