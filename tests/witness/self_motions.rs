@@ -106,10 +106,9 @@ fn a_self_motion_of_a_robot_in_rounded_numbers_is_told_as_one() {
     let proved = Proved::of_chain(&chain, &Watch::none()).unwrap();
     assert!(proved.program().nearby, "the answers of the ideal leg are polished");
     let solver = proved.program().solver();
-    for (q, side) in [
-        ([-0.92, 0.73, 0.31, 0.0, -FRAC_PI_2, -1.44], 1.0),
-        ([-2.26, -1.13, -1.91, 0.0, FRAC_PI_2, 1.03], -1.0),
-    ] {
+    for (q, side) in
+        [([-0.92, 0.73, 0.31, 0.0, -FRAC_PI_2, -1.44], 1.0), ([-2.26, -1.13, -1.91, 0.0, FRAC_PI_2, 1.03], -1.0)]
+    {
         let target = pose(&chain, &q);
         let moved = |by: f64| [q[0], q[1], q[2] + by, q[3], q[4], q[5] + side * by];
         for by in [0.4, 1.9, -2.5] {

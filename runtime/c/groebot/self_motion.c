@@ -191,14 +191,13 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
 /* The way on which a free joint goes the other way round; false if it is none that turns. */
 static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t free, gb_real *other)
 {
-    gb_copy(other, way, m->joints);
+    bool turns = false;
     for (size_t i = 0; i < m->joints; i++) {
-        if (free == (uint32_t)1 << i && m->joint[i].is_angle) {
-            other[i] -= way[i] < R(0.0) ? -GB_TAU : GB_TAU;
-            return true;
-        }
+        const bool is_turned = free == (uint32_t)1 << i && m->joint[i].is_angle;
+        other[i] = is_turned ? way[i] - (way[i] < R(0.0) ? -GB_TAU : GB_TAU) : way[i];
+        turns |= is_turned;
     }
-    return false;
+    return turns;
 }
 
 /* Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a straight
@@ -206,7 +205,7 @@ static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t fre
 static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_real way[GB_MAX_JOINTS], other[GB_MAX_JOINTS];
+    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
     bool arrives = false;
     gb_differences(m, b, a, way);
     const bool turns = gb_other_way(m, way, free, other);
