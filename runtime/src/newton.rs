@@ -129,7 +129,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-    fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
+    pub fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
         self.triangle(q, damping, held).substituted()
     }
 

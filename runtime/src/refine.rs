@@ -36,6 +36,9 @@ impl<M: Mechanism> Answers<'_, M> {
         if !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
             self.unsound = number;
         }
+        if is_nearby && is_beside && self.keep_moving(found, &end) {
+            return;
+        }
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
         } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
@@ -54,8 +57,8 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
     /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
     fn refine_member(&mut self, found: &Found, q: Joints<M>) {
-        let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
-        if self.out[..self.count].iter().any(settles) {
+        let is_known = self.out[..self.count].iter().any(|a| is_told(a, found));
+        if is_known && !found.free.is_power_of_two() {
             return;
         }
         let mut end = self.problem.measured(q);
@@ -63,13 +66,22 @@ impl<M: Mechanism> Answers<'_, M> {
         if (ROUNDING..=ADRIFT).contains(&missed) {
             end = self.problem.polish(end, found.free);
         }
-        if self.keep_member(found, &end) {
+        if is_known && !self.is_another(found, &end) {
+            return;
+        }
+        if self.keep_member(found, &end) || is_known {
             return;
         }
         end = self.problem.polish(end, 0);
         if !self.keep_member(found, &end) {
             self.keep_alone(found, end, missed);
         }
+    }
+
+    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them.
+    fn is_another(&self, found: &Found, (q, fit): &End<M>) -> bool {
+        let joins = |a: &Solution<M>| is_told(a, found) && self.problem.leads_to(&a.q, q, found.free);
+        fit.relative <= ROUNDING && !self.out[..self.count].iter().any(joins)
     }
 
     /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
@@ -101,11 +113,28 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
     pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
         let Approach { end, fit, missed, pivot } = approach;
-        self.keep(found, (end.clone(), fit));
-        if pivot < missed * if found.close { STEEP } else { MILD } {
+        let is_steep = pivot < missed * if found.close { STEEP } else { MILD };
+        if is_steep {
             self.unsound = number;
+        }
+        if is_steep && self.keep_moving(found, &(end.clone(), fit)) {
+            return;
+        }
+        self.keep(found, (end.clone(), fit));
+        if is_steep {
             self.twin(found, &end, missed);
         }
+    }
+
+    /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
+    /// self-motion as to an isolated answer. Whether it is one.
+    fn keep_moving(&mut self, found: &Found, end: &End<M>) -> bool {
+        let is_sharp = end.1.relative <= ROUNDING;
+        let joint = if is_sharp { self.problem.joint_on_self_motion(&end.0, ROUNDING) } else { None };
+        if let Some(free) = joint {
+            self.keep(&Found { free, ..*found }, end.clone());
+        }
+        joint.is_some()
     }
 
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
@@ -287,7 +316,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => self.are_blurred(a, b),
-            (false, false) => a.free == b.free && (a.branch == b.branch || problem.leads_to(a, b)),
+            (false, false) => a.free == b.free && (are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free)),
             (true, false) => b.relative <= ROUNDING && problem.lies_on_self_motion(&a.q, b.free, ROUNDING),
             (false, true) => a.relative <= ROUNDING && problem.lies_on_self_motion(&b.q, a.free, ROUNDING),
         }
@@ -303,6 +332,17 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         self.problem.are_joined(&a.q, &b.q, bound, 0)
     }
+}
+
+/// Whether an answer is a member of a self-motion within rounding, of the branch and with the free joints of a candidate.
+fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
+    a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free
+}
+
+/// Whether the branch tells that members of a self-motion are of one: where several joints are free, or it does not hold within rounding.
+fn are_by_branch<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
+    let is_curve = a.free.is_power_of_two() && f64::max(a.relative, b.relative) <= ROUNDING;
+    a.branch == b.branch && !is_curve
 }
 
 /// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and

@@ -113,8 +113,15 @@ pub const INVERSIONS: usize = 3;
 pub const ALIKE: f64 = 2.5e-15;
 /// A self-motion that is followed to where another's member has its free joints is that other self-motion when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
-/// In how many stages a self-motion is followed from one member to another.
-pub const STAGES: usize = 4;
+/// The shortest, the first and the longest step (rad, or relative to the length scale) of a free joint from one member of a self-motion to another.
+/// One that is barred by less than the shortest is taken for one.
+pub const ALONG: [f64; 3] = [6e-3, 2.5e-2, 0.2];
+/// Where a step brings other joints farther than this from the line of the step before, it may lead to another self-motion: a shorter one is made.
+pub const LEAPT: f64 = 0.1;
+/// Where the equations are missed by more than this behind a few Newton steps, the joints do not follow.
+pub const ASTRAY: f64 = 1e-4;
+/// The most steps from one member to another.
+pub const PACES: usize = 100;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;
 /// How far (rad, or the unit of length) a joint may be beyond a limit: rounding makes that of a joint at its limit.

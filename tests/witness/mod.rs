@@ -8,6 +8,7 @@ mod mounted;
 mod rail;
 mod round;
 mod screws;
+mod self_motions;
 
 use groebot::Watch;
 use groebot::derive::{Derivation, Source};

@@ -87,24 +87,6 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
-/* Whether self-motion `a` has the member `b`, with the same free joints: as these move there in stages, the other joints follow. Two self-motions may be
- * next to each other: half-way from where that ends to `b` the equations hold too. */
-static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
-{
-    const gb_mechanism *m = problem->mechanism;
-    gb_end end;
-    gb_copy(end.q, a, m->joints);
-    for (int stages = GB_STAGES; stages > 0; stages--) {
-        gb_real way[GB_MAX_JOINTS];
-        gb_differences(m, b, end.q, way);
-        for (size_t i = 0; i < m->joints; i++) {
-            end.q[i] = gb_is_in(free, i) ? end.q[i] + way[i] / (gb_real)stages : end.q[i];
-        }
-        gb_polish_from(problem, &end, free);
-    }
-    return end.fit.accepted && gb_is_close(m, end.q, b, 0, GB_ARRIVED) && gb_are_joined(problem, end.q, b, GB_ROUNDING, free);
-}
-
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
  * too, as well as at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real relative, const gb_answer *b)
@@ -115,6 +97,19 @@ static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real 
         return false;
     }
     return gb_are_joined(problem, a, b->q, bound, 0);
+}
+
+/* Whether one joint alone is free. */
+static bool gb_is_curve(uint32_t free)
+{
+    return free != 0 && (free & (free - 1)) == 0;
+}
+
+/* Whether the branch tells that members of a self-motion are of one: where several joints are free, or it does not hold within rounding. */
+static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
+    return *gb_branch_of(all, i) == b->branch && !(gb_is_curve(b->free) && relative <= GB_ROUNDING);
 }
 
 /* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
@@ -131,7 +126,7 @@ static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
         return gb_are_blurred(problem, a, relative, b);
     }
     if (free != 0 && b->free != 0) {
-        return free == b->free && (*gb_branch_of(all, i) == b->branch || gb_leads_to(problem, a, b->q, free));
+        return free == b->free && (gb_are_by_branch(all, i, b) || gb_leads_to(problem, a, b->q, free));
     }
     if (free == 0) {
         return b->fit.relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, a, b->free, GB_ROUNDING);
@@ -302,12 +297,28 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
     }
 }
 
+/* Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a self-motion as to
+ * an isolated answer. Whether it is one. */
+static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+{
+    gb_found_1 moving = *found;
+    moving.free = fit->relative <= GB_ROUNDING ? gb_joint_on_self_motion(&all->problem, q, GB_ROUNDING) : 0;
+    if (moving.free != 0) {
+        gb_keep(all, &moving, q, fit);
+    }
+    return moving.free != 0;
+}
+
 /* Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer. */
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
 {
+    const bool is_steep = approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD);
+    all->unsound = is_steep ? number : all->unsound;
+    if (is_steep && gb_keep_moving(all, found, approach->end, &approach->fit)) {
+        return;
+    }
     gb_keep(all, found, approach->end, &approach->fit);
-    if (approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD)) {
-        all->unsound = number;
+    if (is_steep) {
         gb_twin(all, found, approach->end, approach->missed);
     }
 }
@@ -350,15 +361,45 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
 }
 
+/* Whether an answer in the list is a member of a self-motion within rounding, of the branch and with the free joints of a candidate. */
+static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
+{
+    return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
+}
+
+/* Whether some member of a candidate's self-motion is known. */
+static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (gb_is_told(all, i, found)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. */
+static bool gb_is_another(const gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    if (!(end->fit.relative <= GB_ROUNDING)) {
+        return false;
+    }
+    for (size_t i = 0; i < all->count; i++) {
+        if (gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
  * the circle, or where there is none and an isolated answer stands near the place. */
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
+    const bool is_known = gb_is_known(all, found);
     gb_end end;
-    for (size_t i = 0; i < all->count; i++) {
-        if (*gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
-            return;
-        }
+    if (is_known && !gb_is_curve(found->free)) {
+        return;
     }
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
@@ -366,7 +407,10 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
-    if (gb_keep_member(all, found, &end)) {
+    if (is_known && !gb_is_another(all, found, &end)) {
+        return;
+    }
+    if (gb_keep_member(all, found, &end) || is_known) {
         return;
     }
     gb_polish(&all->problem, &end, 0);
@@ -405,6 +449,9 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
     if (!(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
         all->unsound = number;
+    }
+    if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
+        return;
     }
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
         gb_around(all, found, &end, miss);

@@ -17,6 +17,9 @@ pub(super) const MEMBER: f64 = 1e-12;
 /// That of the member by which a self-motion is found: where an isolated answer is singular and another singularity is 1e-6 away, joint vectors
 /// 0.05 off miss by no more than 1e-12 and yet are no solutions.
 const ROUNDED: f64 = 1e-14;
+/// How many times that far a self-motion goes on: where two axes are off one line by 1e-6 rad there is a double solution instead, which misses by 1e-12 times
+/// the square of the way, less than rounding at first.
+const PROBES: usize = 4;
 /// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// Corrections of one member at most.
@@ -38,7 +41,19 @@ const ARRIVED: f64 = 1e-6;
 pub(super) trait SelfMotions: Configuration {
     /// Whether `q` is one of a curve of joint vectors with the same target.
     fn is_in_self_motion(&self, target: &[f64], q: &[f64]) -> bool {
-        self.tangent(q).is_some_and(|tangent| self.beside(target, q, &tangent, PROBE, ROUNDED).is_some())
+        self.tangent(q).is_some_and(|tangent| self.goes_on(target, q, tangent))
+    }
+
+    /// Whether the curve goes on from `q` to the side of `ahead`.
+    fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
+        let mut at = q.to_vec();
+        (0..PROBES).all(|_| {
+            let next = self.stepped(target, &at, &ahead, (PROBE, ROUNDED));
+            next.is_some_and(|(next, on)| {
+                (at, ahead) = (next, on);
+                true
+            })
+        })
     }
 
     /// The direction in which joints that are singular within rounding can move.
@@ -137,7 +152,7 @@ pub(super) trait SelfMotions: Configuration {
             if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
                 return true;
             }
-            match self.stepped(target, &at, &ahead, pace).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+            match self.stepped(target, &at, &ahead, (pace, MEMBER)).filter(|(_, next)| next.dot(&ahead) > STEADY) {
                 Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
                 None if pace > SHORTEST => pace /= 2.0,
                 None => return false,
@@ -153,9 +168,16 @@ pub(super) trait SelfMotions: Configuration {
         self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, and the curve's direction there.
-    fn stepped(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, way: f64) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, way, MEMBER)?;
+    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, which misses the target by no more than `tolerance`, and the curve's
+    /// direction there.
+    fn stepped(
+        &self,
+        target: &[f64],
+        at: &[f64],
+        ahead: &DVector<f64>,
+        (way, tolerance): (f64, f64),
+    ) -> Option<(Vec<f64>, DVector<f64>)> {
+        let next = self.beside(target, at, ahead, way, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))
