@@ -318,6 +318,16 @@ pub trait Candidates<N: Number, M: Mechanism> {
     }
 }
 
+/// The place of the greatest claim that is not negative, the first of equals; the number of claims without one.
+#[inline(always)]
+pub(crate) fn elected(claims: impl ExactSizeIterator<Item = f64>) -> usize {
+    let mut best = (-1.0, claims.len());
+    for (place, claim) in claims.enumerate() {
+        best = if claim > best.0 { (claim, place) } else { best };
+    }
+    best.1
+}
+
 /// What hardly ever happens, apart from what often does.
 #[cold]
 #[inline(never)]
