@@ -72,7 +72,7 @@ def _totals(rows: list[Row]) -> list[str]:
         f"of ordinary poses {_share(derived, 'ordinary_found', 'ordinary')}.",
         f"* A derivation takes {statistics.median(seconds):.2f} s in the median, {max(seconds):.1f} s at most. A solver in C has "
         f"{statistics.median(sizes):.0f} KB in the median, {max(sizes):.0f} KB at most.",
-        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers stand twice.",
+        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers are duplicates.",
     ]
 
 

@@ -47,5 +47,5 @@ fn an_end_joint_is_given() {
 fn a_joint_between_others_is_not_for_it() {
     let error = fits(&with_given(ARM, "Joint3")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
-    assert!(error.message().contains("all that are before and behind them must be given"), "{error}");
+    assert!(error.message().contains("all that are before and after them must be given"), "{error}");
 }

@@ -79,7 +79,7 @@ const FAULTS: [(&str, &str, ErrorKind, &str); 16] = [
     ("type=\"revolute\"", "type=\"revolut\"", ErrorKind::BadValue, "did you mean `revolute`?"),
     ("ixx=\"1\"", "ixx=\"nan\"", ErrorKind::BadValue, "link `cam`: <inertia> has `ixx` = \"nan\": nan is not finite"),
     ("<mass value=\"1\"/>", "", ErrorKind::MissingKey, "link `cam`: <inertial> has no <mass"),
-    ("<inertial>", "<inertial/><inertial>", ErrorKind::BadValue, "link `cam`: <inertial> stands twice"),
+    ("<inertial>", "<inertial/><inertial>", ErrorKind::BadValue, "link `cam`: <inertial> is given twice"),
 ];
 
 #[test]
@@ -184,7 +184,7 @@ fn xacro_that_nothing_uses_is_a_note() {
     let left = "<xacro:property name=\"width\" value=\".2\"/><xacro:arg name=\"prefix\" default=\"${width}\"/>";
     let read = Robot::from_urdf(&robot(&format!("{PAN}\n{left}"), CAM)).unwrap();
     assert_eq!(read.chain(None, Some("tip")), Robot::from_urdf(&robot(PAN, CAM)).unwrap().chain(None, Some("tip")));
-    let note = "line 9: definitions of xacro that nothing uses are passed over: `width`, `prefix`";
+    let note = "line 9: definitions of xacro that nothing uses are ignored: `width`, `prefix`";
     assert_eq!(read.notes(&read.path(None, Some("tip")).unwrap()), [note]);
     assert!(read.check().is_ok(), "the whole robot is sound");
 }
