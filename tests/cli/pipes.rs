@@ -179,9 +179,9 @@ fn the_default_tip_is_told() {
     assert!(succeed(&["dynamics", "--symbolic", arm]).starts_with(note));
     let tip = "Tip link `robot_tool0`: the only tool0 link; `--tip` chooses another.";
     assert!(succeed(&[&["explain", arm], &task[..]].concat()).contains(tip));
-    for command in [&["explain", arm, "--latex"], &["dynamics", "--symbolic", arm, "--latex"]] {
-        let task = if command[0] == "explain" { &task[..] } else { &[] };
-        assert!(succeed(&[&command[..], task].concat()).contains(" chooses another.\n"), "{command:?}");
+    let latex = ["dynamics", "--symbolic", arm, "--latex"];
+    for command in [[&["explain", arm, "--latex"], &task[..]].concat(), latex.to_vec()] {
+        assert!(succeed(&command).contains(" chooses another.\n"), "{command:?}");
     }
     // A derivation is of the tip link that it was made for.
     for command in [&["explain", text(&out)][..], &["explain", arm, "--tip", "robot_tool0", "--task", "position"]] {
