@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::approach::{LANES, Ways};
 use crate::measure::{Fits, joints};
-use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places};
+use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
@@ -72,13 +72,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
     }
 
     fn elect(&mut self, claims: &[f64]) -> usize {
-        let (mut most, mut place) = (-1.0, claims.len());
-        for (i, &claim) in claims.iter().enumerate() {
-            if claim > most {
-                (most, place) = (claim, i);
-            }
-        }
-        place
+        elected(claims.iter().copied())
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use crate::exactly::solve_ideal;
 use crate::joints::place;
 use crate::limits::{strides_within, turned_within};
 use crate::mechanism::{
-    Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes,
+    Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes, elected,
 };
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
@@ -109,13 +109,7 @@ impl<M: Mechanism, F: FnMut(&Found, Joints<M>) -> bool> Candidates<f64, M> for P
     }
 
     fn elect(&mut self, claims: &[f64]) -> usize {
-        let (mut most, mut place) = (-1.0, claims.len());
-        for (i, &claim) in claims.iter().enumerate() {
-            if claim > most {
-                (most, place) = (claim, i);
-            }
-        }
-        place
+        elected(claims.iter().copied())
     }
 
     fn take(&mut self, found: Found, at: &Places<M>) {

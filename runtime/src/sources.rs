@@ -61,13 +61,13 @@ pub const SIX_AXES: [(&str, &str); 20] = [
     ("vector", include_str!("six_axes/vector.rs")),
 ];
 
-/// The header of the run time in C, and its source.
+/// The header of the run time in C.
 pub const C_HEADER: &str = include_str!("../c/groebot.h");
-/// As [`C_HEADER`] tells.
+/// The source that belongs to [`C_HEADER`].
 pub const C: &str = include_str!("../c/groebot.c");
-/// The same of six joints in any place.
+/// The header of the run time in C for six joints in any place.
 pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
-/// As [`C_SIX_AXES_HEADER`] tells.
+/// The source that belongs to [`C_SIX_AXES_HEADER`].
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.

@@ -75,7 +75,7 @@ def _totals(rows: list[Row]) -> list[str]:
         f"* A derivation takes {statistics.median(seconds):.2f} s in the median, {max(seconds):.1f} s at most. A solver in C has "
         f"{statistics.median(sizes):.0f} KB in the median, {max(sizes):.0f} KB at most.",
         *_weak([row for row in derived if row.weak]),
-        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers stand twice.",
+        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers are duplicates.",
     ]
 
 

@@ -19,6 +19,7 @@ mod prepared;
 mod program;
 mod prune;
 mod rule;
+mod tolerant;
 mod validate;
 
 pub use about::About;

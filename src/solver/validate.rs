@@ -5,6 +5,7 @@ use super::joint::JointValue;
 use super::program::{Block, Case, Checks, Condition, Described, Program, Short, Step};
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
+use crate::kinematics::Mimic;
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
@@ -54,6 +55,10 @@ impl Program {
         let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
         ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
         ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;
+        let follows = self.about.as_ref().map_or(&[][..], |about| &about.follows);
+        ensure(follows.is_empty() || follows.len() == self.joints.len(), "follows: one entry a joint, or none at all")?;
+        let leads = |mimic: &Mimic| self.joints.iter().any(|joint| joint.name == mimic.leader);
+        ensure(follows.iter().flatten().all(leads), "follows: a joint of the solver leads")?;
         let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
         ensure(known, "preference")
     }

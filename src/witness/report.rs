@@ -56,7 +56,7 @@ pub enum Fault {
     Bound,
     /// A joint is called free where the Jacobian is regular.
     Free,
-    /// The joint values that made the target belong to a self-motion, and no answer with a free joint stands for it.
+    /// The joint values that made the target belong to a self-motion, and no answer with a free joint represents it.
     SelfMotion,
     /// The number of answers differs from the exact number of real solutions.
     Count,
@@ -318,7 +318,7 @@ impl Fault {
             Fault::Duplicate => "two are the same",
             Fault::Bound => "there are more than the certified number of complex solutions",
             Fault::Free => "a joint is called free that cannot move there",
-            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that stands for it",
+            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that represents it",
             Fault::Count => "there are not as many as exact real roots",
             Fault::Screw => "the screw solver (Paden-Kahan) has others",
             Fault::Oracle => "damped least squares from many seeds has others",

@@ -167,7 +167,7 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
     let described = robot(&FOLDING, ROUNDINGS[1]);
     let program = derived(&described);
     let within = program.described.as_ref().unwrap().within;
-    let options = Options { targets: 480, oracle: 0, exact: 0, seed: 1 };
+    let options = Options { targets: 480, oracle: 0, exact: 0, seed: 1, ..Options::default() };
     let missing = |solver: &dyn Solver| {
         let report = Check::run_within(&described, solver, None, (&options, 2.0 * within), &Watch::none()).unwrap();
         let is_missing = |verdict: &Verdict| verdict.faults().contains(&Fault::Missing);
@@ -187,7 +187,7 @@ fn planar_poses_and_yaws_of_rounded_robots_pass_their_checks() {
         for chain in [planar, yaw] {
             let program = derived(&chain);
             let tolerance = 2.0 * program.described.as_ref().unwrap().within;
-            let options = Options { targets: 120, oracle: 0, exact: 0, seed: 1 };
+            let options = Options { targets: 120, oracle: 0, exact: 0, seed: 1, ..Options::default() };
             let report = Check::run_within(&chain, &program, None, (&options, tolerance), &Watch::none()).unwrap();
             let failures: Vec<String> = report.failures().map(ToString::to_string).collect();
             assert!(failures.is_empty(), "{failures:?}");

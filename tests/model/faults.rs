@@ -194,7 +194,7 @@ fn xacro_that_nothing_uses_is_a_note() {
     let left = "<xacro:property name=\"width\" value=\".2\"/><xacro:arg name=\"prefix\" default=\"${width}\"/>";
     let read = Robot::from_urdf(&robot(&format!("{PAN}\n{left}"), CAM)).unwrap();
     assert_eq!(read.chain(None, Some("tip")), Robot::from_urdf(&robot(PAN, CAM)).unwrap().chain(None, Some("tip")));
-    let note = "line 9: definitions of xacro that nothing uses are passed over: `width`, `prefix`";
+    let note = "line 9: definitions of xacro that nothing uses are ignored: `width`, `prefix`";
     assert_eq!(read.notes(&read.path(None, Some("tip")).unwrap()), [note]);
     assert!(read.check().is_ok(), "the whole robot is sound");
 }

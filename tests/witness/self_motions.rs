@@ -128,7 +128,7 @@ fn a_self_motion_of_a_robot_in_rounded_numbers_is_told_as_one() {
 fn a_double_solution_next_to_a_self_motion_is_none() {
     let chain = Chain::from_toml(WRIST).unwrap();
     let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-    let options = Options { targets: 96, oracle: 0, exact: 0, seed: 3 };
+    let options = Options { targets: 96, oracle: 0, exact: 0, seed: 3, ..Options::default() };
     let report = Check::run(&chain, &derived.program, None, &options, &Watch::none()).unwrap();
     let failures: Vec<String> = report.failures().map(|row| format!("{row}; from {:?}", row.joints)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));

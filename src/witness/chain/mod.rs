@@ -32,7 +32,7 @@ const SEARCHED: usize = 48;
 
 /// What is checked: anything that solves targets given as numbers.
 ///
-/// Inputs stand in the order of a derived program: position, then rotation by rows or direction, then the given joints.
+/// Inputs are in the order of a derived program: position, then rotation by rows or direction, then the given joints.
 pub trait Solver {
     /// All joint vectors of the target, with or without the given joints.
     ///
