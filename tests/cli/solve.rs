@@ -297,7 +297,7 @@ fn joints_that_follow_others_are_marked() {
     let task = ["--task", "planar_position", "--plane", "xy"];
     let derive = [&["derive", file, "--out", out, "--json"], &task[..]].concat();
     let solve = ["solve", out, "--target", "0.3,0.35"];
-    let ik = [&["ik", file, "--target", "0.3,0.35"], &task[..]].concat();
+    let ik = [&["ik", file, "--numeric", "--target", "0.3,0.35"], &task[..]].concat();
     let leaders = serde_json::json!([null, null, "elbow"]);
     let read = |arguments: &[&str]| -> Value { serde_json::from_str(&succeed(arguments)).unwrap() };
     assert_eq!(read(&derive)["follows"], leaders);

@@ -71,7 +71,7 @@ pub struct Arguments {
     /// Leave the friction of joints out
     #[arg(long)]
     no_friction: bool,
-    /// Take inertias that no body can have unchanged
+    /// Accept inertias that no rigid body can have
     #[arg(long)]
     as_told: bool,
     /// Where the table or code goes, or the folder of polynomials; C goes into NAME.c and NAME.h beside it; standard output without it
