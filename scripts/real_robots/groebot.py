@@ -78,6 +78,8 @@ def derive(program: Path, chain: Chain, folder: Path, budget: float) -> Run:
     command = [str(program), "derive", str(chain.path()), "--base", chain.base, "--tip", chain.tip, "--task", chain.task]
     if chain.direction:
         command += ["--direction", chain.direction]
+    if chain.given:
+        command += ["--given", chain.given]
     return run([*command, "--out", str(folder), "--time", f"{budget:g}"], most=budget + 60)
 
 

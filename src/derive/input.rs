@@ -341,18 +341,18 @@ impl Source {
 
 /// The error of a chain with several joints too many: which of them may be given.
 fn proposed(chain: &Chain, choice: &Choice) -> Error {
-    let share =
-        choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint)).map_or(0.0, |one| one.share);
+    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
+    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
     let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
     let text = format!(
-        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}, with solutions on {:.0} % of the last one's range",
+        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
         choice.given.len(),
         chain.task().name(),
         chain.task().freedoms(),
         chain.independent().len() + chain.given_inputs().len(),
         Ends::AUTO,
         options.join(" "),
-        100.0 * share
+        share.unwrap_or_default()
     );
     Error::new(ErrorKind::PositiveDimensional, text)
 }
