@@ -33,7 +33,8 @@ impl<M: Mechanism> Answers<'_, M> {
         let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
         let is_nearby = self.problem.facts().nearby.is_some();
         let is_beside = (ROUNDING..=if is_nearby { OFF } else { NEAR }).contains(&missed);
-        if !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
+        // A double root is off by the square root of what rounding leaves: a stratum may be nearer than that.
+        if found.close || !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
             self.unsound = number;
         }
         if is_nearby && is_beside && self.keep_moving(found, &end) {

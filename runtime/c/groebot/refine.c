@@ -447,7 +447,8 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
     const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
-    if (!(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
+    /* A double root is off by the square root of what rounding leaves: a stratum may be nearer than that. */
+    if (found->close || !(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
         all->unsound = number;
     }
     if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
