@@ -98,6 +98,18 @@ static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real
     return 0;
 }
 
+/* Whether one joint alone is free. */
+static bool gb_is_single(uint32_t free)
+{
+    return free != 0 && (free & (free - 1)) == 0;
+}
+
+/* Whether the self-motion that q is a member of is a curve there, along which one free joint tells all others. */
+static bool gb_is_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_is_single(free) && gb_regularity_of(problem, q, free) > GB_REGULAR;
+}
+
 /* Whether the equations hold on the straight line along `way`, as they do where axes coincide. */
 static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *way)
 {
