@@ -180,7 +180,12 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
     /// hold, or a root is double.
     pub fn regularity(&self, q: &Joints<M>) -> f64 {
-        let triangle = self.triangle(q, 0.0, 0);
+        self.regularity_of(q, 0)
+    }
+
+    /// The same where joints are `held`.
+    pub fn regularity_of(&self, q: &Joints<M>, held: u32) -> f64 {
+        let triangle = self.triangle(q, 0.0, held);
         let pivots = (0..self.joints()).map(|i| triangle.entry(i, i).abs());
         let (least, most) =
             pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));

@@ -79,10 +79,12 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them.
+    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that
+    /// is not asked.
     fn is_another(&self, found: &Found, (q, fit): &End<M>) -> bool {
         let joins = |a: &Solution<M>| is_told(a, found) && self.problem.leads_to(&a.q, q, found.free);
-        fit.relative <= ROUNDING && !self.out[..self.count].iter().any(joins)
+        let is_sharp = fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free);
+        is_sharp && !self.out[..self.count].iter().any(joins)
     }
 
     /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
@@ -317,10 +319,16 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => self.are_blurred(a, b),
-            (false, false) => a.free == b.free && (are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free)),
+            (false, false) => a.free == b.free && (self.are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free)),
             (true, false) => b.relative <= ROUNDING && problem.lies_on_self_motion(&a.q, b.free, ROUNDING),
             (false, true) => a.relative <= ROUNDING && problem.lies_on_self_motion(&b.q, a.free, ROUNDING),
         }
+    }
+
+    /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
+    fn are_by_branch(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
+        let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
+        a.branch == b.branch && !(are_sharp && self.problem.is_on_curve(&b.q, b.free))
     }
 
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]:
@@ -338,12 +346,6 @@ impl<M: Mechanism> Answers<'_, M> {
 /// Whether an answer is a member of a self-motion within rounding, of the branch and with the free joints of a candidate.
 fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
     a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free
-}
-
-/// Whether the branch tells that members of a self-motion are of one: where several joints are free, or it does not hold within rounding.
-fn are_by_branch<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
-    let is_curve = a.free.is_power_of_two() && f64::max(a.relative, b.relative) <= ROUNDING;
-    a.branch == b.branch && !is_curve
 }
 
 /// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and

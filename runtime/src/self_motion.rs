@@ -88,6 +88,11 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.accepted && self.are_joined(&back, q, bound, free)
     }
 
+    /// Whether the self-motion that `q` is a member of is a curve there, along which one free joint tells all others.
+    pub fn is_on_curve(&self, q: &Joints<M>, free: u32) -> bool {
+        free.is_power_of_two() && self.regularity_of(q, free) > REGULAR
+    }
+
     /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
     /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
     pub fn leads_to(&self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {

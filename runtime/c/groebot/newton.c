@@ -144,15 +144,21 @@ static void gb_pivots(gb_triangle *triangle, gb_real *least, gb_real *most)
     }
 }
 
-/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold, or a root is
- * double. */
-static gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+/* The least pivot of the Jacobian's triangle at q, joints `held`, as a share of the largest: rounding where the others can move while the equations hold, or a
+ * root is double. */
+static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uint32_t held)
 {
     gb_triangle triangle;
     gb_real least, most;
-    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
+    gb_make_triangle(problem, q, R(0.0), held, &triangle);
     gb_pivots(&triangle, &least, &most);
     return least / most;
+}
+
+/* The same where no joint is held. */
+static gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+{
+    return gb_regularity_of(problem, q, 0);
 }
 
 static gb_real gb_norm(const gb_real *vector, size_t count)

@@ -99,17 +99,11 @@ static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real 
     return gb_are_joined(problem, a, b->q, bound, 0);
 }
 
-/* Whether one joint alone is free. */
-static bool gb_is_curve(uint32_t free)
-{
-    return free != 0 && (free & (free - 1)) == 0;
-}
-
-/* Whether the branch tells that members of a self-motion are of one: where several joints are free, or it does not hold within rounding. */
+/* Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding. */
 static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
-    return *gb_branch_of(all, i) == b->branch && !(gb_is_curve(b->free) && relative <= GB_ROUNDING);
+    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, b->q, b->free));
 }
 
 /* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
@@ -378,10 +372,11 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
     return false;
 }
 
-/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. */
+/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
+ * asked. */
 static bool gb_is_another(const gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
-    if (!(end->fit.relative <= GB_ROUNDING)) {
+    if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
         return false;
     }
     for (size_t i = 0; i < all->count; i++) {
@@ -398,7 +393,7 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
 {
     const bool is_known = gb_is_known(all, found);
     gb_end end;
-    if (is_known && !gb_is_curve(found->free)) {
+    if (is_known && !gb_is_single(found->free)) {
         return;
     }
     gb_copy(end.q, q, all->problem.mechanism->joints);

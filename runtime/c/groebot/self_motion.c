@@ -113,6 +113,18 @@ GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint3
     return false;
 }
 
+/* Whether one joint alone is free. */
+static bool gb_is_single(uint32_t free)
+{
+    return free != 0 && (free & (free - 1)) == 0;
+}
+
+/* Whether the self-motion that q is a member of is a curve there, along which one free joint tells all others. */
+static bool gb_is_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_is_single(free) && gb_regularity_of(problem, q, free) > GB_REGULAR;
+}
+
 /* Whether the equations hold on the straight line along `way`, as they do where axes coincide. */
 static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *way)
 {
