@@ -178,8 +178,8 @@ fn onto_self_motion<M: Mechanism>(problem: &Problem<'_, M>, q: Joints<M>, free: 
 }
 
 /// Adds joints with which the ideal mechanism comes within the tolerance of the target, too, and that are far from all answers to the target next to it: where it
-/// reaches one pose in more ways than most, these part by as much as the target is off, and where two answers would meet just out of reach they are one. Joints are no other answer where `q`, which reaches that target, has a self-motion
-/// with them.
+/// reaches one pose in more ways than most, these part by as much as the target is off, and where two answers would meet just out of reach they are one. Joints are
+/// no other answer where they are of a self-motion that the mechanism has at the target next to it, which `q` reaches.
 fn add_others<M: Mechanism>(
     mechanism: &M,
     (p, within): (&Parameters<M>, f64),
