@@ -195,11 +195,13 @@ fn add_others<M: Mechanism>(
             let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
             !out[..count].iter().any(is_close)
         };
-        if found.free != 0 || count == out.len() || !is_far(&q) {
+        if count == out.len() || found.free == 0 && !is_far(&q) {
             return false;
         }
         let (q, fit) = problem.fitted(q, 0, LEAPS[0]);
-        if fit.relative <= within && is_far(&q) && !is_member(&q) {
+        // On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these.
+        let is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
+        if fit.relative <= within && is_far(&q) && !is_member(&q) && is_alone() {
             let Fit { residual, relative, .. } = fit;
             out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
             count += 1;

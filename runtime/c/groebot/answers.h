@@ -419,11 +419,14 @@ static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
 /* Adds a candidate within the tolerance that is far from all answers, and of no self-motion. */
 static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
 {
-    if (found->free != 0 || c->all.count == GB_CAPACITY || !gb_is_far(c, q)) {
+    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
+    if (c->all.count == GB_CAPACITY || (found->free == 0 && !gb_is_far(c, q))) {
         return;
     }
     const gb_fit fit = gb_fitted(&c->all.problem, q, 0, R(0.5));
-    if (fit.relative <= gb_larger(GB_WITHIN, GB_ACCEPT) && gb_is_far(c, q) && !(c->ideal && gb_has_member(c->ideal, q, c->moving))) {
+    /* On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these. */
+    if (fit.relative <= within && gb_is_far(c, q) && !(c->ideal && gb_has_member(c->ideal, q, c->moving))
+        && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
         out->residual = fit.residual;

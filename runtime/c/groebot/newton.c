@@ -156,7 +156,7 @@ static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uin
 }
 
 /* The same where no joint is held. */
-static gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
 {
     return gb_regularity_of(problem, q, 0);
 }

@@ -27,7 +27,7 @@ const BLURRED: f64 = 1e-2;
 const DEEPEST: f64 = 1.0;
 /// By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of
 /// isolated ones are only found next to it.
-const DISTURBANCES: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+const DISTURBANCES: [f64; 10] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2];
 /// Targets next to one where complex solutions nearly meet, for a robot that is a little off: how many times as far as that robot is off, in turn to one
 /// side and the other.
 const MEETINGS: [f64; 4] = [30.0, 30.0, 1e3, 1e3];
