@@ -65,12 +65,12 @@ static bool gb_freeing_step(const gb_problem *problem, const gb_real *q, uint32_
     gb_bend(problem, q, way, bends);
     gb_make_shares(problem, q, GB_STIFF, free, &nearer);
     for (size_t i = 0; i <= m->joints; i++) {
-        gb_real *column = gb_column(&triangle, i);
-        if (i < m->joints && !gb_is_in(free, i) && !gb_across(m, rows, bends, i, free, column, way)) {
+        gb_real *filled = gb_column(&triangle, i);
+        if (i < m->joints && !gb_is_in(free, i) && !gb_across(m, rows, bends, i, free, filled, way)) {
             return false;
         }
         for (size_t k = 0; k <= i && k < m->joints; k++) {
-            column[m->equations + k] = share * gb_column(&nearer, i)[k];
+            filled[m->equations + k] = share * gb_column(&nearer, i)[k];
         }
     }
     gb_reflect(&triangle);
