@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.014, -0.0, 0.537] },
     length: 0.28,
     formulations: Formulations::new(&[Formulation { hidden: 4, second: true }, Formulation { hidden: 1, second: false }, Formulation { hidden: 0, second: false }, Formulation { hidden: 2, second: false }, Formulation { hidden: 4, second: false }, Formulation { hidden: 1, second: true }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

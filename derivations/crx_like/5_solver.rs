@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-0.7, 0.15, -0.54] },
     length: 0.54,
     formulations: Formulations::new(&[Formulation { hidden: 1, second: true }, Formulation { hidden: 1, second: false }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.21047656645099472),
     {{1, false}, {1, true}},
     2,
+    R(0.0),
 };
 #endif
 

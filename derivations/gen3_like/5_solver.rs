@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-0.0, 0.0248501, -1.187385] },
     length: 0.21047656645099472,
     formulations: Formulations::new(&[Formulation { hidden: 1, second: false }, Formulation { hidden: 1, second: true }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.43874821936960606),
     {{2, true}, {3, false}, {2, false}, {3, true}},
     4,
+    R(0.0),
 };
 #endif
 

@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.43874821936960606),
     {{1, false}, {5, false}, {0, true}, {2, false}, {3, false}, {4, true}},
     6,
+    R(0.0),
 };
 #endif
 

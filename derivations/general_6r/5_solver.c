@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.43874821936960606),
     {{1, true}, {4, false}, {0, false}, {5, true}, {2, false}, {3, true}},
     6,
+    R(0.0),
 };
 #endif
 

@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-1.1, -0.15, -0.3] },
     length: 0.43874821936960606,
     formulations: Formulations::new(&[Formulation { hidden: 1, second: true }, Formulation { hidden: 4, second: false }, Formulation { hidden: 0, second: false }, Formulation { hidden: 5, second: true }, Formulation { hidden: 2, second: false }, Formulation { hidden: 3, second: true }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.41),
     {{1, true}, {1, false}},
     2,
+    R(0.0),
 };
 #endif
 

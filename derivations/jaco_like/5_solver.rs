@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-0.0, -0.2299, -0.9408] },
     length: 0.41,
     formulations: Formulations::new(&[Formulation { hidden: 1, second: true }, Formulation { hidden: 1, second: false }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

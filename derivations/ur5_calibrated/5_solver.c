@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.424800470809532),
     {{1, false}, {2, true}, {3, true}, {5, false}, {1, true}, {2, false}},
     6,
+    R(0.0),
 };
 #endif
 

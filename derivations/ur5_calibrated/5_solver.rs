@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-0.81725, -0.1915, 0.0055] },
     length: 0.424800470809532,
     formulations: Formulations::new(&[Formulation { hidden: 1, second: false }, Formulation { hidden: 2, second: true }, Formulation { hidden: 3, second: true }, Formulation { hidden: 5, second: false }, Formulation { hidden: 1, second: true }, Formulation { hidden: 2, second: false }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {

@@ -46,6 +46,7 @@ static const gb_chain chain_1 = {
     R(0.3425),
     {{4, false}, {1, true}, {0, true}, {4, true}, {1, false}, {0, false}},
     6,
+    R(0.0),
 };
 #endif
 

@@ -69,6 +69,7 @@ const CHAIN_1: Chain = Chain {
     back: Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [-0.2065, -0.0, -0.112] },
     length: 0.3425,
     formulations: Formulations::new(&[Formulation { hidden: 4, second: false }, Formulation { hidden: 1, second: true }, Formulation { hidden: 0, second: true }, Formulation { hidden: 4, second: true }, Formulation { hidden: 1, second: false }, Formulation { hidden: 0, second: false }]),
+    within: 0.0,
 };
 
 impl Mechanism for Solver {
