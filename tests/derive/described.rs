@@ -198,7 +198,11 @@ fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
                 continue;
             }
             let others = screws.solve(&target).unwrap();
-            assert_eq!((answers.len(), others.len()), (wanted.len(), wanted.len()), "{q:?}");
+            // What is out of reach by less than the tolerance has one answer more, at the edge.
+            let at_edge = |answer: &&Solution| sigma(exact.task_jacobian(&answer.q, &[])) <= 4.0 * bound.sqrt();
+            let edges = answers.iter().filter(at_edge).count();
+            assert!((wanted.len()..=wanted.len() + edges).contains(&answers.len()), "{q:?}: {wanted:?} {answers:?}");
+            assert_eq!(others.len(), wanted.len(), "{q:?}");
             assert!(covers(exact, &wanted, &answers, bound), "{q:?}: {wanted:?} {answers:?}");
             assert!(covers(exact, &wanted, &others, bound), "{q:?}: {wanted:?} {others:?}");
             seen.ordinary += 1;

