@@ -69,7 +69,7 @@ fn what_is_no_walk_and_no_robot_is_refused() {
     says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to see");
     says(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
     says(&[text(&root("derivations/puma/0_chain.toml"))], "this describes no robot with links");
-    says(&["nao", "--robot", "teo"], "--robot says who walks, but this is no walk");
+    says(&["nao", "--robot", "teo"], "--robot names the robot that walks, but this is no walk");
     assert_eq!(run(&["view", "nao"]).code, 2);
 }
 
