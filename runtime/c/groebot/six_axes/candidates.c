@@ -164,7 +164,7 @@ static size_t gb_six_size_of(const gb_six_near_real *near, size_t index)
 /* Adds the candidates of eigenvalues that stand alone. */
 static void gb_six_add_alone(const gb_six_problem *problem, const gb_six_near_real *near, gb_six_candidates *found)
 {
-    gb_six_eigenvalue alone[GB_SIX_SIZE];
+    gb_six_eigenvalue alone[GB_SIX_SIZE] = {{R(0.0), R(0.0)}};
     gb_six_matrix vectors;
     for (size_t k = 0; k < near->count; k++) {
         if (gb_six_size_of(near, k) == 1) {
