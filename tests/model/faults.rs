@@ -124,8 +124,11 @@ fn of_two_inertials_the_first_is_taken() {
     let [once, twice] = [CAM, &twice].map(|cam| Robot::from_urdf(&robot(PAN, cam)).unwrap());
     let mass = |robot: &Robot| robot.links()[robot.link("cam").unwrap()].mass.clone();
     assert!(mass(&once).is_some() && mass(&twice) == mass(&once) && twice.check().is_ok());
-    let notes = twice.notes(&twice.path(None, Some("cam")).unwrap());
-    assert!(notes.iter().any(|note| note.contains("`cam`") && note.contains("the first one is taken")), "{notes:?}");
+    let doubts = twice.doubts();
+    assert!(
+        doubts.iter().any(|doubt| doubt.contains("`cam`") && doubt.contains("the first one is taken")),
+        "{doubts:?}"
+    );
 }
 
 #[test]
