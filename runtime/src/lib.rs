@@ -14,6 +14,7 @@ mod approach;
 mod arithmetic;
 mod batch;
 mod conditions;
+pub mod counters;
 pub mod derivatives;
 mod described;
 mod double;

@@ -1,6 +1,7 @@
 //! Newton's method with all that keeps it from going astray next to singular configurations.
 
 use crate::arithmetic::Arithmetic;
+use crate::counters::Event;
 use crate::joints::{beyond, is_in, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
@@ -175,6 +176,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The sum of the squares of what the equations are missed by, as shares of their sizes.
     fn squares(&self, q: &Joints<M>) -> f64 {
+        Event::Evaluation.count();
         let (values, sizes) = self.equations(&self.place(q));
         let mut sum = 0.0;
         for (value, &size) in values.as_ref().iter().zip(self.facts().size_of) {
@@ -245,6 +247,7 @@ impl<M: Mechanism> Problem<'_, M> {
         damping: f64,
         held: u32,
     ) -> Triangle<M> {
+        Event::Step.count();
         let (joints, equations) = (self.joints(), self.facts().size_of.len());
         let rows = equations + joints;
         let mut triangle: Triangle<M> = Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints };

@@ -3,6 +3,7 @@
 use crate::answers::Answers;
 use crate::approach::Approach;
 use crate::arithmetic::Arithmetic;
+use crate::counters::Phase;
 use crate::joints::{differences, moved, shifted, stepped};
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::{End, Fit};
@@ -22,6 +23,7 @@ impl<M: Mechanism> Answers<'_, M> {
     #[cold]
     #[inline(never)]
     pub fn refine(&mut self, number: usize, found: &Found, q: Joints<M>) {
+        let _phase = Phase::Polish.begin();
         if found.free != 0 {
             self.unsound = number;
             return self.refine_member(found, q);
@@ -52,6 +54,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
     /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
     fn refine_member(&mut self, found: &Found, q: Joints<M>) {
+        let _phase = Phase::Member.begin();
         let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
         if self.out[..self.count].iter().any(settles) {
             return;
@@ -109,6 +112,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
     /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
     fn twin(&mut self, found: &Found, end: &Joints<M>, missed: f64) {
+        let _phase = Phase::Twin.begin();
         let Some((way, share)) = self.problem.stillest(end) else { return };
         if share > TWIN * Arithmetic::sqrt(missed) {
             return;
@@ -128,6 +132,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
     /// matters. Where none leads to an answer, from farther ones.
     fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
+        let _phase = Phase::Around.begin();
         let weights = self.problem.weights(&end.0);
         let mut is_found = end.1.accepted;
         let mut farther = 1.0;
@@ -178,6 +183,7 @@ impl<M: Mechanism> Answers<'_, M> {
     #[cold]
     #[inline(never)]
     fn keep_one(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
+        let _phase = Phase::Compare.begin();
         let Found { branch, last, free, .. } = *found;
         let next = if free == 0 { last } else { branch };
         let is_taken = |branch: usize| self.out[..self.count].iter().any(|answer| answer.branch == branch);

@@ -1,13 +1,14 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 29] = [
+pub const RUST: [(&str, &str); 30] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
+    ("counters", include_str!("counters.rs")),
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
