@@ -1,4 +1,4 @@
-//! Lists the printed solvers that are measured: those of `derivations/`, and of the folders in the variable `FOLDERS`, which are separated by colons.
+//! Lists the printed solvers that are measured: some of `derivations/`, or those of the folders in the variable `FOLDERS`, full paths separated by colons.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -9,8 +9,10 @@ const ROBOTS: [&str; 8] =
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("cargo gives it")).join("../../derivations");
-    let more = env::var("FOLDERS").unwrap_or_default();
-    let folders = ROBOTS.iter().map(|robot| root.join(robot)).chain(env::split_paths(&more).filter(|folder| folder.file_name().is_some()));
+    let folders: Vec<PathBuf> = match env::var_os("FOLDERS") {
+        Some(paths) => env::split_paths(&paths).collect(),
+        None => ROBOTS.iter().map(|robot| root.join(robot)).collect(),
+    };
     let (mut modules, mut calls) = (String::new(), String::new());
     for folder in folders {
         let name = folder.file_name().expect("a folder has a name").to_string_lossy().into_owned();

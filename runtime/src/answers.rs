@@ -27,6 +27,11 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     pub unsound: usize,
+    /// Whether on each stratum so far the cases before have lost no answer.
+    pub suffices: bool,
+    /// The last branch, and joints that would be free, of which a candidate that all but held has turned out to be no member of a self-motion where no
+    /// answer is lost without it.
+    pub astray: Option<(usize, u32)>,
     /// The first stratum met that could not be derived.
     pub open: Option<usize>,
     /// The joints that missed the equations by the least share of their size, where they are no answer.
@@ -56,7 +61,11 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
 
     #[inline(always)]
     fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
-        self.is_rare(guard) && (guard.beside || !self.suffice_since(before))
+        self.is_rare(guard) && {
+            let suffices = self.suffice_since(before);
+            self.suffices &= suffices;
+            guard.beside || !suffices
+        }
     }
 
     #[inline(always)]
@@ -111,6 +120,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             count: 0,
             candidates: 0,
             unsound: 0,
+            suffices: true,
+            astray: None,
             open: None,
             nearest: None,
             at: Array::by(places, |_| Array::by(room, |_| 0.0)),

@@ -8,7 +8,7 @@ use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
     BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
-    ROUNDING, SHORT, STIFF,
+    ROUNDING, SHORT, STEEP, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.
@@ -49,15 +49,20 @@ impl<M: Mechanism> Problem<'_, M> {
     fn improved(&self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
+        let (derivatives, values) = self.slopes(q);
         let mut fallen = None;
         for damping in DAMPINGS {
-            let Some(step) = self.newton_step(q, damping, held) else { continue };
+            let triangle = self.triangle_of(&derivatives, &values, damping, held);
+            let Some(step) = triangle.substituted() else { continue };
             let next = self.measured(stepped::<M>(&self.facts(), q, &step));
             if next.1.relative < enough {
                 return Some(next);
             }
             if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
                 return None;
+            }
+            if damping == 0.0 && !fit.accepted && triangle.is_out_of_reach() {
+                return (next.1.relative < fit.relative).then_some(next);
             }
             if leaps && damping == 0.0 && held == 0 && next.1.relative <= OVERSHOT * fit.relative {
                 let end = self.returned(next.0.clone(), fit.relative, held);
@@ -222,9 +227,14 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The triangle of a step's equations.
     fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
-        let at = self.place(q);
-        let (derivatives, right) = (self.derivatives(&at), self.mechanism.values(self.parameters, &at));
+        let (derivatives, right) = self.slopes(q);
         self.triangle_of(&derivatives, &right, damping, held)
+    }
+
+    /// The equations' derivatives by the joints, and their values.
+    fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
+        let at = self.place(q);
+        (self.derivatives(&at), self.mechanism.values(self.parameters, &at))
     }
 
     /// The same with the equations as shares of their sizes.
@@ -302,6 +312,17 @@ impl<M: Mechanism> Triangle<M> {
             }
             mirror[0] = -length;
         }
+    }
+
+    /// Whether no place nearby can solve the equations: most of their values is left by the least-squares step, and where these would be made up for by the
+    /// square of a way, the least pivot outweighs them.
+    fn is_out_of_reach(&self) -> bool {
+        let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
+        let (least, most) =
+            pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
+        let (solved, left) = self.column(self.joints).split_at(self.joints);
+        let left = norm(left);
+        left > norm(solved) && least * least > STEEP * left * most
     }
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.

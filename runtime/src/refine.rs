@@ -33,7 +33,8 @@ impl<M: Mechanism> Answers<'_, M> {
         let end = self.problem.polish(start, 0);
         let miss = end.1.relative;
         let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
-        if !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
+        let holds = missed < ROUNDING || miss < ROUNDING && way <= MERGE;
+        if !(end.1.accepted && holds) {
             self.unsound = number;
         }
         if (ROUNDING..=NEAR).contains(&miss) {
@@ -56,13 +57,22 @@ impl<M: Mechanism> Answers<'_, M> {
     fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
-        if self.out[..self.count].iter().any(settles) {
+        if self.astray == Some((found.branch, found.free)) || self.out[..self.count].iter().any(settles) {
             return;
         }
         let mut end = self.problem.measured(q);
         let missed = end.1.relative;
-        if (ROUNDING..=ADRIFT).contains(&missed) {
+        let is_near = (ROUNDING..=ADRIFT).contains(&missed);
+        if is_near {
             end = self.problem.polish(end, found.free);
+        }
+        if self.suffices {
+            let is_member = end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free);
+            if is_member {
+                return self.keep(found, end);
+            }
+            self.astray = if is_near { Some((found.branch, found.free)) } else { self.astray };
+            return self.miss(end);
         }
         if self.keep_member(found, &end) {
             return;
@@ -291,10 +301,17 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => self.are_blurred(a, b),
-            (false, false) => a.free == b.free && (a.branch == b.branch || problem.leads_to(a, b)),
-            (true, false) => b.relative <= ROUNDING && problem.lies_on_self_motion(&a.q, b.free, ROUNDING),
-            (false, true) => a.relative <= ROUNDING && problem.lies_on_self_motion(&b.q, a.free, ROUNDING),
+            (false, false) => a.free == b.free && (a.branch == b.branch || problem.leads_to(&a.q, &b.q, a.free)),
+            (true, false) => b.relative <= ROUNDING && self.is_on(&b.q, b.free, &a.q),
+            (false, true) => a.relative <= ROUNDING && self.is_on(&a.q, a.free, &b.q),
         }
+    }
+
+    /// Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds
+    /// only almost.
+    fn is_on(&self, member: &Joints<M>, free: u32, isolated: &Joints<M>) -> bool {
+        self.problem.lies_on_self_motion(isolated, free, ROUNDING)
+            && (!self.suffices || self.problem.leads_to(member, isolated, free))
     }
 
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]:

@@ -3,7 +3,6 @@
 use crate::joints::{beyond, differences, is_in, moved};
 use crate::mechanism::{Joints, Mechanism};
 use crate::problem::{End, Problem};
-use crate::solution::Solution;
 use crate::tolerances::{ARRIVED, ASIDE, DOUBLINGS, NARROWS, REGULAR, ROUNDING, SINGULAR, STAGES};
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -12,6 +11,12 @@ impl<M: Mechanism> Problem<'_, M> {
     /// circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
     pub fn lies_on_self_motion(&self, q: &Joints<M>, free: u32, bound: f64) -> bool {
         self.leads_to_self_motion(q, free, bound, self.regularity(q))
+    }
+
+    /// The same within rounding, but for self-motions that go round a small part of the circle only.
+    pub fn lies_on_long_self_motion(&self, q: &Joints<M>, free: u32) -> bool {
+        let leads = |way: f64| self.leads_aside(q, free, way, ROUNDING);
+        self.regularity(q) <= REGULAR && (leads(ASIDE) || leads(-ASIDE))
     }
 
     /// A joint that lies alone on a self-motion, the first of those that some case frees; as a set.
@@ -76,19 +81,19 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// Whether the self-motion of `a` has the member `b`, with the same free joints: as these move there in stages, the other joints follow. Two
     /// self-motions may be next to each other: half-way from where that ends to `b` the equations hold too.
-    pub fn leads_to(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
-        let mut q = a.q.clone();
+    pub fn leads_to(&self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+        let mut q = a.clone();
         let mut accepted = false;
         for stages in (1..=STAGES).rev() {
-            let way = differences::<M>(&self.facts(), &b.q, &q);
-            for i in (0..self.joints()).filter(|&i| is_in(b.free, i)) {
+            let way = differences::<M>(&self.facts(), b, &q);
+            for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
                 q.as_mut()[i] += way.as_ref()[i] / stages as f64;
             }
-            let end: End<M> = self.polished(q, b.free);
+            let end: End<M> = self.polished(q, free);
             (q, accepted) = (end.0, end.1.accepted);
         }
         accepted
-            && self.facts().is_within(q.as_ref(), b.q.as_ref(), ARRIVED)
-            && self.are_joined(&q, &b.q, ROUNDING, b.free)
+            && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED)
+            && self.are_joined(&q, b, ROUNDING, free)
     }
 }

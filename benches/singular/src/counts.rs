@@ -12,6 +12,9 @@ pub fn sets_of<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usiz
     if name.starts_with("ur5") {
         sets.push(stretched(poses));
     }
+    if let Ok(part) = std::env::var("SETS") {
+        sets.retain(|set| set.name.contains(&part));
+    }
     sets
 }
 
