@@ -7,7 +7,7 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
     ROUNDING, SHORT, STEEP, STIFF,
 };
 
@@ -61,7 +61,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
                 return None;
             }
-            if damping == 0.0 && !fit.accepted && triangle.is_out_of_reach() {
+            if damping == 0.0 && fit.relative > ALONE && triangle.is_regular() {
                 return (next.1.relative < fit.relative).then_some(next);
             }
             if leaps && damping == 0.0 && held == 0 && next.1.relative <= OVERSHOT * fit.relative {
@@ -314,15 +314,12 @@ impl<M: Mechanism> Triangle<M> {
         }
     }
 
-    /// Whether no place nearby can solve the equations: most of their values is left by the least-squares step, and where these would be made up for by the
-    /// square of a way, the least pivot outweighs them.
-    fn is_out_of_reach(&self) -> bool {
+    /// Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads.
+    fn is_regular(&self) -> bool {
         let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
         let (least, most) =
             pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
-        let (solved, left) = self.column(self.joints).split_at(self.joints);
-        let left = norm(left);
-        left > norm(solved) && least * least > STEEP * left * most
+        least * least > STEEP * most * norm(self.column(self.joints))
     }
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.

@@ -67,12 +67,7 @@ impl<M: Mechanism> Answers<'_, M> {
             end = self.problem.polish(end, found.free);
         }
         if self.suffices {
-            let is_member = end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free);
-            if is_member {
-                return self.keep(found, end);
-            }
-            self.astray = if is_near { Some((found.branch, found.free)) } else { self.astray };
-            return self.miss(end);
+            return self.keep_long_member(found, end, is_near);
         }
         if self.keep_member(found, &end) {
             return;
@@ -81,6 +76,17 @@ impl<M: Mechanism> Answers<'_, M> {
         if !self.keep_member(found, &end) {
             self.keep_alone(found, end, missed);
         }
+    }
+
+    /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it.
+    fn keep_long_member(&mut self, found: &Found, end: End<M>, is_near: bool) {
+        if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
+            return self.keep(found, end);
+        }
+        if is_near {
+            self.astray = Some((found.branch, found.free));
+        }
+        self.miss(end);
     }
 
     /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an

@@ -141,7 +141,12 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
-    return GB_(is_rare)(c, guard) && (guard.beside || !gb_suffice_since(c, before));
+    if (!GB_(is_rare)(c, guard)) {
+        return false;
+    }
+    const bool suffices = gb_suffice_since(c, before);
+    c->all.suffices = c->all.suffices && suffices;
+    return guard.beside || !suffices;
 #else
     (void)before;
     return GB_(is_rare)(c, guard);

@@ -105,6 +105,14 @@ static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_re
     return end.fit.accepted && gb_is_close(m, end.q, b, 0, GB_ARRIVED) && gb_are_joined(problem, end.q, b, GB_ROUNDING, free);
 }
 
+/* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
+ * almost. */
+static bool gb_is_on(const gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
+{
+    return gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)
+        && (!all->suffices || gb_leads_to(&all->problem, member, isolated, free));
+}
+
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
  * too, as well as at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real relative, const gb_answer *b)
@@ -134,9 +142,9 @@ static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
         return free == b->free && (*gb_branch_of(all, i) == b->branch || gb_leads_to(problem, a, b->q, free));
     }
     if (free == 0) {
-        return b->fit.relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, a, b->free, GB_ROUNDING);
+        return b->fit.relative <= GB_ROUNDING && gb_is_on(all, b->q, b->free, a);
     }
-    return relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, b->q, free, GB_ROUNDING);
+    return relative <= GB_ROUNDING && gb_is_on(all, a, free, b->q);
 }
 
 /* Whether an answer in the list stays where a new one is equal to it: the better one does. But a self-motion that holds within rounding stays against its
@@ -350,21 +358,49 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
 }
 
+/* Whether a candidate for a member need not be looked at: one of its branch has been kept, or is known to be none. */
+static bool gb_is_settled_member(const gb_answers *all, const gb_found_1 *found)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
+            return true;
+        }
+    }
+    return all->astray == found->free && all->astray_branch == found->branch;
+}
+
+/* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
+static void gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_near)
+{
+    if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
+        gb_keep(all, found, end->q, &end->fit);
+        return;
+    }
+    if (is_near) {
+        all->astray = found->free;
+        all->astray_branch = found->branch;
+    }
+    gb_miss(all, end->q, &end->fit);
+}
+
 /* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
  * the circle, or where there is none and an isolated answer stands near the place. */
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     gb_end end;
-    for (size_t i = 0; i < all->count; i++) {
-        if (*gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
-            return;
-        }
+    if (gb_is_settled_member(all, found)) {
+        return;
     }
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
     const gb_real missed = end.fit.relative;
-    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
+    const bool is_near = gb_is_between(missed, GB_ROUNDING, GB_ADRIFT);
+    if (is_near) {
         gb_polish(&all->problem, &end, found->free);
+    }
+    if (all->suffices) {
+        gb_keep_long_member(all, found, &end, is_near);
+        return;
     }
     if (gb_keep_member(all, found, &end)) {
         return;
@@ -402,7 +438,8 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
-    if (!(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
+    const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
+    if (!(end.fit.accepted && holds)) {
         all->unsound = number;
     }
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {

@@ -69,6 +69,13 @@ static bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, 
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
 
+/* The same within rounding, but for self-motions that go round a small part of the circle only. */
+static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_regularity(problem, q) <= GB_REGULAR
+        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
+}
+
 /* A joint that lies alone on a self-motion, the first of those that some case frees; as a set, empty without one. */
 static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real *q, gb_real bound)
 {

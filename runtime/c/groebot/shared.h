@@ -215,6 +215,12 @@ typedef struct {
     /* How many candidates there have been, and had with the last one that did not hold where it was found. */
     size_t candidates;
     size_t unsound;
+    /* Whether on each stratum so far the cases before have lost no answer. */
+    bool suffices;
+    /* The last branch, and joints that would be free, of which a candidate that all but held has turned out to be no member of a self-motion where no answer
+     * is lost without it; no joints without one. */
+    size_t astray_branch;
+    uint32_t astray;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */

@@ -36,6 +36,8 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.room = GB_CAPACITY;
     c->all.count = sought == GB_OTHERS ? c->known : 0;
     c->all.candidates = c->all.unsound = c->waiting = 0;
+    c->all.suffices = true;
+    c->all.astray = 0;
     c->all.is_open = c->all.has_nearest = false;
     c->pairs = pairs;
     c->sought = sought;
