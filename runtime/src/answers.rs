@@ -9,6 +9,7 @@ use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
+use crate::strays::Strays;
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -29,9 +30,8 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub unsound: usize,
     /// Whether on each stratum so far the cases before have lost no answer.
     pub suffices: bool,
-    /// The last branch, and joints that would be free, of which a candidate that all but held has turned out to be no member of a self-motion where no
-    /// answer is lost without it.
-    pub astray: Option<(usize, u32)>,
+    /// Candidates for members of self-motions that were dropped for this.
+    pub strays: Strays,
     /// The first stratum met that could not be derived.
     pub open: Option<usize>,
     /// The joints that missed the equations by the least share of their size, where they are no answer.
@@ -121,7 +121,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             candidates: 0,
             unsound: 0,
             suffices: true,
-            astray: None,
+            strays: Strays::NONE,
             open: None,
             nearest: None,
             at: Array::by(places, |_| Array::by(room, |_| 0.0)),
@@ -137,12 +137,17 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Walks through the blocks, and takes in all candidates.
+    /// Walks through the blocks, and takes in all candidates; where an answer may have been lost, once more.
     #[inline(never)]
     pub fn find(&mut self) -> Result<(), Error> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
         walk(mechanism, parameters, self);
         self.flush();
+        if self.strays.are_doubtful() {
+            self.suffices = false;
+            walk(mechanism, parameters, self);
+            self.flush();
+        }
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
 

@@ -40,6 +40,7 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 pub mod storage;
+mod strays;
 pub mod tolerances;
 pub mod trigonometry;
 

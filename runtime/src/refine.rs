@@ -57,17 +57,19 @@ impl<M: Mechanism> Answers<'_, M> {
     fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
-        if self.astray == Some((found.branch, found.free)) || self.out[..self.count].iter().any(settles) {
+        if self.out[..self.count].iter().any(settles) {
             return;
         }
         let mut end = self.problem.measured(q);
         let missed = end.1.relative;
-        let is_near = (ROUNDING..=ADRIFT).contains(&missed);
-        if is_near {
+        if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
+            return self.miss(end);
+        }
+        if (ROUNDING..=ADRIFT).contains(&missed) {
             end = self.problem.polish(end, found.free);
         }
         if self.suffices {
-            return self.keep_long_member(found, end, is_near);
+            return self.keep_long_member(found, end);
         }
         if self.keep_member(found, &end) {
             return;
@@ -79,13 +81,11 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it.
-    fn keep_long_member(&mut self, found: &Found, end: End<M>, is_near: bool) {
+    fn keep_long_member(&mut self, found: &Found, end: End<M>) {
         if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
             return self.keep(found, end);
         }
-        if is_near {
-            self.astray = Some((found.branch, found.free));
-        }
+        self.strays.mark(found);
         self.miss(end);
     }
 

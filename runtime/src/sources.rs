@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 30] = [
+pub const RUST: [(&str, &str); 31] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -30,6 +30,7 @@ pub const RUST: [(&str, &str); 30] = [
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
     ("storage", include_str!("storage.rs")),
+    ("strays", include_str!("strays.rs")),
     ("tolerances", include_str!("tolerances.rs")),
     ("trigonometry", include_str!("trigonometry.rs")),
 ];

@@ -358,7 +358,7 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
 }
 
-/* Whether a candidate for a member need not be looked at: one of its branch has been kept, or is known to be none. */
+/* Whether a member of a candidate's branch has been kept. */
 static bool gb_is_settled_member(const gb_answers *all, const gb_found_1 *found)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -366,19 +366,61 @@ static bool gb_is_settled_member(const gb_answers *all, const gb_found_1 *found)
             return true;
         }
     }
-    return all->astray == found->free && all->astray_branch == found->branch;
+    return false;
+}
+
+/* What is known of a candidate's kind, or null where there are too many. */
+static gb_kind_of_stray *gb_kind(gb_strays *strays, const gb_found_1 *found)
+{
+    size_t i = 0;
+    while (i < strays->count && !(strays->kinds[i].branch == found->branch && strays->kinds[i].free == found->free)) {
+        i++;
+    }
+    if (i == GB_KINDS) {
+        strays->are_too_many = true;
+        return NULL;
+    }
+    if (i == strays->count) {
+        const gb_kind_of_stray none = {found->branch, 0, R(0.0), found->free, false};
+        strays->kinds[strays->count++] = none;
+    }
+    return &strays->kinds[i];
+}
+
+/* Counts a candidate that misses the equations by so much, and tells whether those of its kind have turned out to be no members. */
+static bool gb_are_known(gb_strays *strays, const gb_found_1 *found, gb_real missed)
+{
+    gb_kind_of_stray *kind = gb_kind(strays, found);
+    if (!kind) {
+        return false;
+    }
+    kind->count++;
+    kind->missed = gb_larger(kind->missed, missed);
+    return kind->is_astray;
+}
+
+/* Whether an answer may have been lost: a kind is there on a part of the circle only, next to whose end rounding may have hidden one, so near the stratum are
+ * its candidates. A free joint is put at eight places round the circle, or at a multiple of it. */
+GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays)
+{
+    bool are_doubtful = strays->are_too_many;
+    for (size_t i = 0; i < strays->count; i++) {
+        const gb_kind_of_stray *kind = &strays->kinds[i];
+        are_doubtful = are_doubtful || (kind->is_astray && kind->missed <= GB_DOUBTED && kind->count % 8 != 0);
+    }
+    return are_doubtful;
 }
 
 /* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
-static void gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_near)
+static void gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
         gb_keep(all, found, end->q, &end->fit);
         return;
     }
-    if (is_near) {
-        all->astray = found->free;
-        all->astray_branch = found->branch;
+    gb_kind_of_stray *kind = gb_kind(&all->strays, found);
+    if (kind) {
+        kind->is_astray = true;
     }
     gb_miss(all, end->q, &end->fit);
 }
@@ -394,12 +436,15 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
     const gb_real missed = end.fit.relative;
-    const bool is_near = gb_is_between(missed, GB_ROUNDING, GB_ADRIFT);
-    if (is_near) {
+    if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
+        gb_miss(all, end.q, &end.fit);
+        return;
+    }
+    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
     if (all->suffices) {
-        gb_keep_long_member(all, found, &end, is_near);
+        gb_keep_long_member(all, found, &end);
         return;
     }
     if (gb_keep_member(all, found, &end)) {

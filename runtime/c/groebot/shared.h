@@ -206,6 +206,22 @@ struct gb_problem {
     const gb_real *extras;
 };
 
+/* Candidates for members of self-motions that are none, where no answer is lost without them, by branch and free joints: how many there are, the most that
+ * one of them misses the equations by, and whether they have turned out to be no members. */
+#define GB_KINDS 16
+typedef struct {
+    size_t branch;
+    size_t count;
+    gb_real missed;
+    uint32_t free;
+    bool is_astray;
+} gb_kind_of_stray;
+typedef struct {
+    gb_kind_of_stray kinds[GB_KINDS];
+    size_t count;
+    bool are_too_many;
+} gb_strays;
+
 /* The answers so far. */
 typedef struct {
     gb_problem problem;
@@ -217,10 +233,8 @@ typedef struct {
     size_t unsound;
     /* Whether on each stratum so far the cases before have lost no answer. */
     bool suffices;
-    /* The last branch, and joints that would be free, of which a candidate that all but held has turned out to be no member of a self-motion where no answer
-     * is lost without it; no joints without one. */
-    size_t astray_branch;
-    uint32_t astray;
+    /* Candidates for members of self-motions that were dropped for this. */
+    gb_strays strays;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */
@@ -248,6 +262,7 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
+GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
 GB_LINKAGE bool gb_is_settled(const gb_problem *problem, const gb_real *q);
