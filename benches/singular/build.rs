@@ -22,7 +22,10 @@ fn main() {
         let _ = writeln!(calls, "visit({name:?}, &robot_{name}::Solver, &robot_{name}::JOINT_NAMES),");
     }
     println!("cargo::rerun-if-env-changed=FOLDERS");
-    let text = format!("{modules}\nmacro_rules! each_robot {{ ($visit:path) => {{{{ use $visit as visit; {} }}}} }}\n", calls.replace(",\n", ";\n"));
+    let text = format!(
+        "{modules}\nmacro_rules! each_robot {{ ($visit:path) => {{{{ use $visit as visit; {} }}}} }}\n",
+        calls.replace(",\n", ";\n")
+    );
     let out = PathBuf::from(env::var("OUT_DIR").expect("cargo gives it")).join("robots.rs");
     fs::write(out, text).expect("a file of the build's own");
 }

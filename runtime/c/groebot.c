@@ -75,6 +75,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/problem.c"
 #include "groebot/newton.c"
 #include "groebot/self_motion.c"
+#include "groebot/strays.c"
 #include "groebot/refine.c"
 #include "groebot/limits.c"
 

@@ -22,15 +22,8 @@ pub enum Phase {
 
 impl Phase {
     /// All phases, in the order of [`take`]'s rows.
-    pub const ALL: [Phase; 7] = [
-        Phase::Walk,
-        Phase::Waiting,
-        Phase::Polish,
-        Phase::Around,
-        Phase::Twin,
-        Phase::Member,
-        Phase::Compare,
-    ];
+    pub const ALL: [Phase; 7] =
+        [Phase::Walk, Phase::Waiting, Phase::Polish, Phase::Around, Phase::Twin, Phase::Member, Phase::Compare];
 }
 
 /// What is counted of each phase.
@@ -86,7 +79,8 @@ mod of_feature {
 
     type Row = [AtomicU64; Event::ALL.len()];
 
-    static COUNTS: [Row; Phase::ALL.len()] = [const { [const { AtomicU64::new(0) }; Event::ALL.len()] }; Phase::ALL.len()];
+    static COUNTS: [Row; Phase::ALL.len()] =
+        [const { [const { AtomicU64::new(0) }; Event::ALL.len()] }; Phase::ALL.len()];
     static PHASE: AtomicUsize = AtomicUsize::new(0);
     static SINCE: AtomicU64 = AtomicU64::new(0);
 

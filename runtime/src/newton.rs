@@ -7,8 +7,8 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
-    ROUNDING, SHORT, STEEP, STIFF,
+    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED,
+    RETURNS, ROUNDING, SHORT, STEEP, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.

@@ -92,8 +92,6 @@ impl<M: Mechanism> Problem<'_, M> {
             let end: End<M> = self.polished(q, free);
             (q, accepted) = (end.0, end.1.accepted);
         }
-        accepted
-            && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED)
-            && self.are_joined(&q, b, ROUNDING, free)
+        accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(&q, b, ROUNDING, free)
     }
 }

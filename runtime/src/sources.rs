@@ -72,7 +72,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 43] = [
+pub const C_PARTS: [(&str, &str); 44] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -95,6 +95,7 @@ pub const C_PARTS: [(&str, &str); 43] = [
     ("groebot/self_motion.c", include_str!("../c/groebot/self_motion.c")),
     ("groebot/shared.h", include_str!("../c/groebot/shared.h")),
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
+    ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),

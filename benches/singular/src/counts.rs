@@ -1,7 +1,7 @@
 //! Joint values that are lost: of each set how many are not among the answers to the pose that they reach.
 
-use groebot_runtime::{Solution, Solve};
 use groebot_runtime::mechanism::Inputs;
+use groebot_runtime::{Solution, Solve};
 
 use crate::path::{Answer, Chain};
 use crate::poses::{Set, sets, stretched};

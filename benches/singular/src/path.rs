@@ -49,7 +49,10 @@ impl<M: Solve> Chain<'_, M> {
     fn tip(&self, q: &[f64]) -> DVector<f64> {
         let facts = self.0.facts();
         let tip = self.0.forward(&self.row(q)).expect("a chain has forward kinematics");
-        DVector::from_iterator(facts.inputs, tip.as_ref().iter().enumerate().map(|(i, x)| if i < 3 { x / facts.scale } else { *x }))
+        DVector::from_iterator(
+            facts.inputs,
+            tip.as_ref().iter().enumerate().map(|(i, x)| if i < 3 { x / facts.scale } else { *x }),
+        )
     }
 
     /// The derivatives of the tip by joints, by central differences.
@@ -76,7 +79,9 @@ impl<M: Solve> Chain<'_, M> {
         let turn = |joint: usize, [a, b]: [usize; 2]| -> f64 {
             (0..3).map(|k| slopes[(3 + 3 * a + k, joint)] * tip[3 + 3 * b + k]).sum()
         };
-        let rows = |i: usize, joint: usize| if i < 3 { slopes[(i, joint)] } else { turn(joint, [[2, 1], [0, 2], [1, 0]][i - 3]) };
+        let rows = |i: usize, joint: usize| {
+            if i < 3 { slopes[(i, joint)] } else { turn(joint, [[2, 1], [0, 2], [1, 0]][i - 3]) }
+        };
         DMatrix::from_fn(6, 6, rows).determinant()
     }
 
@@ -167,7 +172,13 @@ impl<M: Solve> Chain<'_, M> {
     }
 
     /// The member next to `q` by Gauss-Newton steps of the moving joints, none along `across`.
-    fn corrected(&self, target: &DVector<f64>, mut q: Vec<f64>, moving: &[usize], across: Option<&DVector<f64>>) -> Option<Vec<f64>> {
+    fn corrected(
+        &self,
+        target: &DVector<f64>,
+        mut q: Vec<f64>,
+        moving: &[usize],
+        across: Option<&DVector<f64>>,
+    ) -> Option<Vec<f64>> {
         for _ in 0..CORRECTIONS {
             let missed = self.tip(&q) - target;
             if missed.amax() <= 1e-14 {
