@@ -14,9 +14,7 @@
 //! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
 #![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
 
-use groebot_runtime::{
-    Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely,
-};
+use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
 pub use groebot_runtime::{Error, Solve};
 
 /// Inverse kinematics of `puma`: what is particular to it.
@@ -35,34 +33,17 @@ pub const JOINTS: usize = 6;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 22;
 /// No answer yet: what a buffer is filled with.
-pub const EMPTY: Solution =
-    Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
 /// The names of a target's numbers, in order.
-pub const INPUT_NAMES: [&str; INPUTS] =
-    ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
+pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 /// The names of the joints, in order.
-pub const JOINT_NAMES: [&str; JOINTS] =
-    ["ShoulderYaw", "ShoulderPitch", "ElbowPitch", "WristYaw", "WristPitch", "WristRoll"];
+pub const JOINT_NAMES: [&str; JOINTS] = ["ShoulderYaw", "ShoulderPitch", "ElbowPitch", "WristYaw", "WristPitch", "WristRoll"];
 /// The least and the greatest value of each joint; infinite where the description has none.
-pub const LIMITS: [[f64; 2]; JOINTS] = [
-    [f64::NEG_INFINITY, f64::INFINITY],
-    [f64::NEG_INFINITY, f64::INFINITY],
-    [f64::NEG_INFINITY, f64::INFINITY],
-    [f64::NEG_INFINITY, f64::INFINITY],
-    [f64::NEG_INFINITY, f64::INFINITY],
-    [f64::NEG_INFINITY, f64::INFINITY],
-];
+pub const LIMITS: [[f64; 2]; JOINTS] = [[f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]];
 
 const FACTS: Facts<'static> = Facts {
     inputs: INPUTS,
-    joints: &[
-        Joint::Angle([0, 1]),
-        Joint::Angle([2, 3]),
-        Joint::Angle([4, 5]),
-        Joint::Angle([6, 7]),
-        Joint::Angle([8, 9]),
-        Joint::Angle([10, 11]),
-    ],
+    joints: &[Joint::Angle([0, 1]), Joint::Angle([2, 3]), Joint::Angle([4, 5]), Joint::Angle([6, 7]), Joint::Angle([8, 9]), Joint::Angle([10, 11])],
     last_first: &[5, 4, 3, 1, 2, 0],
     places: 12,
     size_of: &[0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1],
@@ -77,33 +58,16 @@ const FACTS: Facts<'static> = Facts {
     isolated: Some(8),
     freed: &[0, 1, 3],
     conditions: &[Condition::Rotation(3)],
-    reached: &[
-        Reached::Value(0),
-        Reached::Value(1),
-        Reached::Value(2),
-        Reached::Value(3),
-        Reached::Value(6),
-        Reached::Value(9),
-        Reached::Value(4),
-        Reached::Value(7),
-        Reached::Value(10),
-        Reached::Value(5),
-        Reached::Value(8),
-        Reached::Value(11),
-    ],
+    reached: &[Reached::Value(0), Reached::Value(1), Reached::Value(2), Reached::Value(3), Reached::Value(6), Reached::Value(9), Reached::Value(4), Reached::Value(7), Reached::Value(10), Reached::Value(5), Reached::Value(8), Reached::Value(11)],
     ..Facts::NONE
 };
 
 /// Where cases put a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
-    [-0.9210609940028851, -0.3894183423086505],
-    [-0.37592812418099103, -0.926648825310733],
-    [0.38941834230865047, -0.9210609940028851],
-    [0.926648825310733, -0.375928124180991],
-    [0.9210609940028851, 0.3894183423086505],
-    [0.37592812418099114, 0.926648825310733],
-    [-0.38941834230865036, 0.9210609940028851],
-    [-0.9266488253107329, 0.3759281241809912],
+    [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
+    [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
+    [0.9210609940028851, 0.3894183423086505], [0.37592812418099114, 0.926648825310733],
+    [-0.38941834230865036, 0.9210609940028851], [-0.9266488253107329, 0.3759281241809912],
 ];
 
 impl Mechanism for Solver {
@@ -114,98 +78,58 @@ impl Mechanism for Solver {
         FACTS
     }
 
-    fn parameters<N: Number>(&self, target: &[N; 12]) -> [N; 13]
-    where
-        f64: With<N>,
-    {
+    fn parameters<N: Number>(&self, target: &[N; 12]) -> [N; 13] where f64: With<N> {
         let [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_] = *target;
-        let magnitude = N::largest(1.674, &[px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_]);
+        let magnitude = N::largest(1.674, &[
+            px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_,
+        ]);
         [px, py, pz, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, magnitude]
     }
 
     #[inline(always)]
-    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 13], c: &mut C)
-    where
-        f64: With<N>,
-    {
+    fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &[N; 13], c: &mut C) where f64: With<N> {
         block_1(p, c);
     }
 
     #[inline(always)]
-    fn tip<N: Number>(&self, at: &[N; 12]) -> [N; 12]
-    where
-        f64: With<N>,
-    {
+    fn tip<N: Number>(&self, at: &[N; 12]) -> [N; 12] where f64: With<N> {
         tip(at)
     }
 
     #[inline(always)]
-    fn sizes<N: Number>(&self, p: &[N; 13], at: &[N; 12]) -> [N; 2]
-    where
-        f64: With<N>,
-    {
+    fn sizes<N: Number>(&self, p: &[N; 13], at: &[N; 12]) -> [N; 2] where f64: With<N> {
+
         [N::of(1.674), N::of(1.0)]
     }
 }
 
 /// Block 5: WristPitch.
 #[inline(always)]
-fn block_5<N: Number, C: Candidates<N, Solver>>(
-    p: &[N; 13],
-    found4: Found<N>,
-    [c1, s1, c2, s2, c3, s3, c4, s4]: [N; 8],
-    c: &mut C,
-) where
-    f64: With<N>,
-{
+fn block_5<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found4: Found<N>, [c1, s1, c2, s2, c3, s3, c4, s4]: [N; 8], c: &mut C) where f64: With<N> {
     let [_, _, _, r11_, r12_, r13_, r21_, r22_, r23_, r31_, r32_, r33_, _] = *p;
-    let r5 = r33_ * c1 + r13_ * s1;
-    let r9 = r23_ * c2 + s2 * r5;
-    let r11 = c2 * r5 - r23_ * s2;
-    let r19 = c3 * r9 + s3 * r11;
-    let r20 = c4 * (c3 * r11 - s3 * r9) + s4 * (r13_ * c1 - r33_ * s1);
-    let r25 = 1.0 / N::root(r20 * r20 + r19 * r19);
-    let c5 = r20 * r25;
-    let s5 = 0.0 - r19 * r25;
-    let r34 = r32_ * c1 + r12_ * s1;
-    let r43 = c4 * (r12_ * c1 - r32_ * s1);
-    let r44 = c3 * (c2 * r34 - r22_ * s2) - s3 * (r22_ * c2 + s2 * r34);
-    let r45 = s4 * r44;
-    let r51 = r31_ * c1 + r11_ * s1;
-    let r61 = c3 * (c2 * r51 - r21_ * s2) - s3 * (r21_ * c2 + s2 * r51);
-    let r63 = c4 * (r11_ * c1 - r31_ * s1) - s4 * r61;
-    let r64 = r45 - r43;
-    let r69 = 1.0 / N::root(r63 * r63 + r64 * r64);
-    let c6 = r63 * r69;
-    let s6 = r64 * r69;
+    let r5 = r33_ * c1 + r13_ * s1; let r9 = r23_ * c2 + s2 * r5; let r11 = c2 * r5 - r23_ * s2;
+    let r19 = c3 * r9 + s3 * r11; let r20 = c4 * (c3 * r11 - s3 * r9) + s4 * (r13_ * c1 - r33_ * s1);
+    let r25 = 1.0 / N::root(r20 * r20 + r19 * r19); let c5 = r20 * r25; let s5 = 0.0 - r19 * r25;
+    let r34 = r32_ * c1 + r12_ * s1; let r43 = c4 * (r12_ * c1 - r32_ * s1);
+    let r44 = c3 * (c2 * r34 - r22_ * s2) - s3 * (r22_ * c2 + s2 * r34); let r45 = s4 * r44;
+    let r51 = r31_ * c1 + r11_ * s1; let r61 = c3 * (c2 * r51 - r21_ * s2) - s3 * (r21_ * c2 + s2 * r51);
+    let r63 = c4 * (r11_ * c1 - r31_ * s1) - s4 * r61; let r64 = r45 - r43;
+    let r69 = 1.0 / N::root(r63 * r63 + r64 * r64); let c6 = r63 * r69; let s6 = r64 * r69;
     c.finish(&Solver, found4, &[c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6]);
 }
 
 /// Block 4: WristYaw.
 #[inline(always)]
-fn block_4<N: Number, C: Candidates<N, Solver>>(
-    p: &[N; 13],
-    found3: Found<N>,
-    [c1, s1, c2, s2, c3, s3, f1, f2]: [N; 8],
-    c: &mut C,
-) where
-    f64: With<N>,
-{
+fn block_4<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found3: Found<N>, [c1, s1, c2, s2, c3, s3, f1, f2]: [N; 8], c: &mut C) where f64: With<N> {
     let [_, _, _, _, _, r13_, _, _, r23_, _, _, r33_, _] = *p;
-    let before4 = c.count();
-    let r5 = r33_ * c1 + r13_ * s1;
-    let r13 = r33_ * s1 - r13_ * c1;
+    let before4 = c.count(); let r5 = r33_ * c1 + r13_ * s1; let r13 = r33_ * s1 - r13_ * c1;
     let r14 = c3 * (c2 * r5 - r23_ * s2) - s3 * (r23_ * c2 + s2 * r5);
     // Case 1: generic, where A^2 + B^2 is not zero.
-    let r15 = r13 * r13;
-    let r16 = r14 * r14;
-    let r17 = r15 + r16;
+    let r15 = r13 * r13; let r16 = r14 * r14; let r17 = r15 + r16;
     if c.is_usual(N::away(r17, N::of(6784.0))) {
         let roots1 = N::square_roots(0.0 - r15 - r16, f2 * (20.591260281974 * f1));
         if let Some(&w4) = roots1.as_slice().first() {
-            let r24 = 1.0 / r17;
-            let c4 = 0.0 - w4 * r14 * r24;
-            let s4 = w4 * r13 * r24;
+            let r24 = 1.0 / r17; let c4 = 0.0 - w4 * r14 * r24; let s4 = w4 * r13 * r24;
             let found4 = found3.next(3, 0).by_pair(&roots1);
             block_5(p, found4, [c1, s1, c2, s2, c3, s3, c4, s4], c);
         }
@@ -221,46 +145,28 @@ fn block_4<N: Number, C: Candidates<N, Solver>>(
 
 /// Block 2: ElbowPitch.
 #[inline(always)]
-fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [c1, s1, f1]: [N; 3], c: &mut C)
-where
-    f64: With<N>,
-{
+fn block_2<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], found1: Found<N>, [c1, s1, f1]: [N; 3], c: &mut C) where f64: With<N> {
     let [px, py, pz, _, _, r13_, _, _, r23_, _, _, r33_, magnitude] = *p;
     let r14 = 2.0 * (px * (px - 0.15 * r13_)) + 2.0 * (py * (py - 0.15 * r23_));
     let r17 = r14 + 2.0 * (pz * (pz - 0.15 * r33_)) - px * px;
-    let r23 = r17 - py * py - pz * pz - 1.32 * py + 0.198 * r23_;
-    let r24 = r23 + 0.084852;
+    let r23 = r17 - py * py - pz * pz - 1.32 * py + 0.198 * r23_; let r24 = r23 + 0.084852;
     let roots1 = N::square_roots(r24 * r24 - 0.13931406950400002, 1.4142135623730951 * f1);
     for (i1, &w3) in roots1.as_slice().iter().enumerate() {
-        let c3 = 7.178025906215364 * (0.373248 * r24);
-        let s3 = 7.178025906215364 * (0.373248 * w3);
+        let c3 = 7.178025906215364 * (0.373248 * r24); let s3 = 7.178025906215364 * (0.373248 * w3);
         let found2 = found1.next(2, i1).by_root(&roots1, i1);
         // Block 3: ShoulderPitch.
-        let before3 = c.count();
-        let r39 = 0.432 * (c3 + 1.0);
-        let r40 = 0.432 * s3;
-        let r43 = py - 0.15 * r23_ - 0.66;
-        let r44 = c1 * (pz - 0.15 * r33_) + s1 * (px - 0.15 * r13_);
-        let r48 = N::abs(magnitude + 3.858);
-        let r49 = N::abs(2.0 * magnitude + 6.396);
+        let before3 = c.count(); let r39 = 0.432 * (c3 + 1.0); let r40 = 0.432 * s3;
+        let r43 = py - 0.15 * r23_ - 0.66; let r44 = c1 * (pz - 0.15 * r33_) + s1 * (px - 0.15 * r13_);
+        let r48 = N::abs(magnitude + 3.858); let r49 = N::abs(2.0 * magnitude + 6.396);
         // Case 1: generic, where A^2 + B^2 is not zero.
         if c.is_usual(N::away(r39 * r39 + r40 * r40, N::of(414.76608000000004))) {
-            let f2 = N::of(1.0);
-            let r55 = r39 * r44 - r40 * r43;
-            let r59 = r40 * r44 - (0.0 - r39 * r43);
-            let r64 = 1.0 / N::root(r59 * r59 + r55 * r55);
-            let c2 = r59 * r64;
-            let s2 = r55 * r64;
+            let f2 = N::of(1.0); let r55 = r39 * r44 - r40 * r43; let r59 = r40 * r44 - (0.0 - r39 * r43);
+            let r64 = 1.0 / N::root(r59 * r59 + r55 * r55); let c2 = r59 * r64; let s2 = r55 * r64;
             let found3 = found2.next(2, 0);
             block_4(p, found3, [c1, s1, c2, s2, c3, s3, f1, f2], c);
         }
         // Case 2: A = 0, B = 0, Y = 0, X = 0, where A^2 + B^2 is near zero and Y is near zero and X is near zero; free: ShoulderPitch.
-        if c.is_due(
-            before3,
-            N::near(r39 * r39 + r40 * r40, N::of(2.5922880000000007e-6))
-                & N::near(r44, 0.01 * r49)
-                & N::near(r43, 0.01 * r48),
-        ) {
+        if c.is_due(before3, N::near(r39 * r39 + r40 * r40, N::of(2.5922880000000007e-6)) & N::near(r44, 0.01 * r49) & N::near(r43, 0.01 * r48)) {
             let f2 = N::of(1000000.0);
             for [c2, s2] in SAMPLES_1.map(|row| row.map(N::of)) {
                 let found3 = found2.next(2, 1).freeing(0b10);
@@ -272,28 +178,16 @@ where
 
 /// Block 1: ShoulderYaw.
 #[inline(always)]
-fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C)
-where
-    f64: With<N>,
-{
+fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f64: With<N> {
     let [px, _, pz, _, _, r13_, _, _, _, _, _, r33_, magnitude] = *p;
-    let before1 = c.count();
-    let r1 = 0.15 * r13_ - px;
-    let r3 = pz - 0.15 * r33_;
+    let before1 = c.count(); let r1 = 0.15 * r13_ - px; let r3 = pz - 0.15 * r33_;
     let r5 = N::abs(magnitude + 3.198);
     // Case 1: generic, where A^2 + B^2 is not zero.
-    let r6 = r1 * r1;
-    let r7 = r3 * r3;
-    let r8 = r6 + r7;
-    let r9 = r5 * r5;
-    let r10 = r9 + r9;
+    let r6 = r1 * r1; let r7 = r3 * r3; let r8 = r6 + r7; let r9 = r5 * r5; let r10 = r9 + r9;
     if c.is_usual(N::away(r8, 16.0 * r10)) {
-        let f1 = N::of(1.0);
-        let roots1 = N::square_roots(0.0 - r6 - r7, N::root(r10));
+        let f1 = N::of(1.0); let roots1 = N::square_roots(0.0 - r6 - r7, N::root(r10));
         for (i1, &w1) in roots1.as_slice().iter().enumerate() {
-            let r17 = 1.0 / r8;
-            let c1 = 0.0 - w1 * r3 * r17;
-            let s1 = w1 * r1 * r17;
+            let r17 = 1.0 / r8; let c1 = 0.0 - w1 * r3 * r17; let s1 = w1 * r1 * r17;
             let found1 = Found::first(i1, 2).by_root(&roots1, i1);
             block_2(p, found1, [c1, s1, f1], c);
         }
@@ -311,43 +205,16 @@ where
 
 /// What the equations compare with parameters.
 #[inline(always)]
-fn tip<N: Number>(at: &[N; 12]) -> [N; 12]
-where
-    f64: With<N>,
-{
+fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;
-    let r0 = s1 * s2;
-    let r1 = c1 * s2;
-    let r2 = s1 * c2;
-    let r3 = c1 * c2;
-    let r4 = c3 * r0;
-    let r5 = s3 * r2;
-    let r6 = c2 * c3;
-    let r7 = s2 * s3;
-    let r8 = c3 * r1;
-    let r9 = s3 * r3;
-    let r17 = s3 * r0 - c3 * r2;
-    let r19 = c2 * s3 + s2 * c3;
-    let r20 = s4 * r19;
-    let r22 = s3 * r1 - c3 * r3;
-    let r26 = c4 * r19;
-    let r29 = r4 + r5;
-    let r31 = c1 * s4 - c4 * r17;
-    let r33 = r6 - r7;
-    let r36 = r8 + r9;
-    let r38 = s1 * s4 + c4 * r22;
-    let r40 = s5 * r29;
-    let r41 = c5 * r31;
-    let r42 = s5 * r33;
-    let r43 = c5 * r26;
-    let r44 = s5 * r36;
-    let r45 = c5 * r38;
-    let r46 = c1 * c4 + s4 * r17;
-    let r48 = c5 * r29 + s5 * r31;
-    let r51 = c5 * r33 - s5 * r26;
-    let r53 = s1 * c4 - s4 * r22;
-    let r55 = c5 * r36 - s5 * r38;
-    let r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
+    let r0 = s1 * s2; let r1 = c1 * s2; let r2 = s1 * c2; let r3 = c1 * c2; let r4 = c3 * r0; let r5 = s3 * r2;
+    let r6 = c2 * c3; let r7 = s2 * s3; let r8 = c3 * r1; let r9 = s3 * r3; let r17 = s3 * r0 - c3 * r2;
+    let r19 = c2 * s3 + s2 * c3; let r20 = s4 * r19; let r22 = s3 * r1 - c3 * r3; let r26 = c4 * r19;
+    let r29 = r4 + r5; let r31 = c1 * s4 - c4 * r17; let r33 = r6 - r7; let r36 = r8 + r9;
+    let r38 = s1 * s4 + c4 * r22; let r40 = s5 * r29; let r41 = c5 * r31; let r42 = s5 * r33;
+    let r43 = c5 * r26; let r44 = s5 * r36; let r45 = c5 * r38; let r46 = c1 * c4 + s4 * r17;
+    let r48 = c5 * r29 + s5 * r31; let r51 = c5 * r33 - s5 * r26; let r53 = s1 * c4 - s4 * r22;
+    let r55 = c5 * r36 - s5 * r38; let r69 = 0.432 * c2 + 0.432 * r6 - 0.432 * r7 - 0.15 * r42;
     let r78 = 0.432 * r0 + 0.432 * r4 + 0.432 * r5 - 0.15 * r40;
     let r87 = 0.432 * r1 + 0.432 * r8 + 0.432 * r9 - 0.15 * r44;
     [

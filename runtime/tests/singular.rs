@@ -8,6 +8,7 @@ use groebot_runtime::Solve;
 
 use super::random;
 
+#[rustfmt::skip]
 #[path = "../../derivations/puma/5_solver.rs"]
 mod puma;
 
