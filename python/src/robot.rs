@@ -131,7 +131,7 @@ impl Robot {
     #[getter]
     fn notes(&self) -> Vec<String> {
         match self.robot.path(self.base.as_deref(), self.tip.as_deref()) {
-            Ok(path) => self.robot.passed_over(&path),
+            Ok(path) => self.robot.ignored(&path),
             // There is no chain yet: all of them.
             Err(_) => {
                 let faults = self.robot.faults().iter().map(|fault| fault.error.to_string());

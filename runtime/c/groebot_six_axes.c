@@ -129,6 +129,10 @@ static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 #define GB_SIX_DEEPEST R(1.0)
 /* A way of so many length scales stands for an infinite one. */
 #define GB_SIX_LONG GB_EITHER(1e4, 1e2)
+/* Targets next to one where complex solutions nearly meet, for a robot that is a little off: how many times as far as that robot is off, in turn to one side and
+ * the other. */
+#define GB_SIX_MEETINGS 4
+static const gb_real gb_six_meetings[GB_SIX_MEETINGS] = {R(30.0), R(30.0), R(1e3), R(1e3)};
 /* Stages in which a candidate next to the target is led to it. */
 #ifdef GB_FLOAT
 #define GB_SIX_STAGES 8
@@ -137,9 +141,9 @@ static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 #endif
 /* By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of isolated
  * ones are only found next to it. */
-#define GB_SIX_ATTEMPTS 8
+#define GB_SIX_ATTEMPTS 10
 static const gb_real gb_six_disturbances[GB_SIX_ATTEMPTS] = {
-    R(0.0), R(0.0), R(0.0), R(0.0), GB_EITHER(1e-4, 1e-2), GB_EITHER(1e-4, 1e-2), GB_EITHER(1e-3, 3e-2), GB_EITHER(1e-3, 3e-2),
+    R(0.0), R(0.0), R(0.0), R(0.0), GB_EITHER(1e-4, 1e-2), GB_EITHER(1e-4, 1e-2), GB_EITHER(1e-3, 3e-2), GB_EITHER(1e-3, 3e-2), R(1e-2), R(1e-2),
 };
 /* The axis of the motions that put targets aside. */
 static const gb_real gb_six_direction[3] = {R(0.48), R(0.6), R(0.64)};

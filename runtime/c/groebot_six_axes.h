@@ -46,6 +46,9 @@ typedef struct {
     /* The eigenvalue problems, in the order in which they are tried, and how many there are: one at least. */
     gb_formulation formulations[GB_SIX_FORMULATIONS];
     size_t formulation_count;
+    /* How far the robot for which answers are wanted may be from this one (shares of `length`, and rad); zero where it is this one. Two complex solutions that
+     * are as near to each other are lost answers: of that robot they may be real. */
+    gb_real within;
 } gb_chain;
 
 /* Joint values that reach the target, or some to start from once more, near an answer that was lost. */

@@ -4,12 +4,12 @@ use core::ops::Range;
 
 use crate::approach::{LANES, Ways};
 use crate::measure::{Fits, joints};
-use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places};
+use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
-use crate::strays::Strays;
+use crate::strays::{Merged, Strays};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -28,10 +28,18 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     pub unsound: usize,
+    /// The same with the last one of close roots.
+    pub doubted: usize,
     /// Whether on each stratum so far the cases before have lost no answer.
     pub suffices: bool,
     /// Candidates for members of self-motions that were dropped for this.
     pub strays: Strays,
+    /// The last member of a self-motion that has been found to be on one of its branch in the list, with its branch and free joints.
+    pub joined: Option<(usize, u32, Joints<M>)>,
+    /// Whether the member that is kept is on none of these.
+    pub is_another: bool,
+    /// Members with several free joints that were found to be on a self-motion of the list.
+    pub merged: Merged,
     /// The first stratum met that could not be derived.
     pub open: Option<usize>,
     /// The joints that missed the equations by the least share of their size, where they are no answer.
@@ -64,7 +72,8 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
         self.is_rare(guard) && {
             let suffices = self.suffice_since(before);
             self.suffices &= suffices;
-            guard.beside || !suffices
+            // A double root is off by the square root of what rounding leaves: a stratum may be nearer than that.
+            guard.beside || !suffices || self.doubted > before
         }
     }
 
@@ -81,13 +90,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
     }
 
     fn elect(&mut self, claims: &[f64]) -> usize {
-        let (mut most, mut place) = (-1.0, claims.len());
-        for (i, &claim) in claims.iter().enumerate() {
-            if claim > most {
-                (most, place) = (claim, i);
-            }
-        }
-        place
+        elected(claims.iter().copied())
     }
 
     #[inline(always)]
@@ -120,8 +123,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             count: 0,
             candidates: 0,
             unsound: 0,
+            doubted: 0,
             suffices: true,
             strays: Strays::NONE,
+            joined: None,
+            is_another: false,
+            merged: Merged::NONE,
             open: None,
             nearest: None,
             at: Array::by(places, |_| Array::by(room, |_| 0.0)),

@@ -5,7 +5,7 @@ use crate::answers::FAR_APART;
 use crate::conditions::fulfil;
 use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
-    Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places,
+    Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, elected,
 };
 use crate::number::{Guard, Number};
 use crate::problem::fit;
@@ -230,16 +230,10 @@ impl<M: Mechanism, const W: usize> Candidates<Lanes<W>, M> for Bundle<M, W> {
     /// All targets must agree.
     #[inline(always)]
     fn elect(&mut self, claims: &[Lanes<W>]) -> usize {
-        let elected = |lane: usize| {
-            let mut best = (-1.0, claims.len());
-            for (i, claim) in claims.iter().enumerate() {
-                best = if claim.0[lane] > best.0 { (claim.0[lane], i) } else { best };
-            }
-            best.1
-        };
-        let first = elected(0);
+        let of = |lane: usize| elected(claims.iter().map(|claim| claim.0[lane]));
+        let first = of(0);
         for lane in 1..W {
-            self.doubt.0[lane] |= if elected(lane) == first { 0 } else { !0 };
+            self.doubt.0[lane] |= if of(lane) == first { 0 } else { !0 };
         }
         first
     }

@@ -10,13 +10,13 @@ use crate::exactly::solve_ideal;
 use crate::joints::place;
 use crate::limits::{strides_within, turned_within};
 use crate::mechanism::{
-    Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes,
+    Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes, elected,
 };
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, POLISHED};
+use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, POLISHED, ROUNDING};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -74,16 +74,18 @@ pub(crate) fn reached<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
     read_off::<M>(&facts, &mechanism.described(&nothing, &place::<M>(&facts, q, None)), q)
 }
 
-/// Candidates for a target, which the joints may miss, each brought nearest to it on the ideal mechanism and handed on until that is enough.
-struct Fitting<'a, M: Mechanism, F: FnMut(&Found, End<M>) -> bool> {
-    problem: Problem<'a, M>,
+/// Candidates for a target, which the joints may miss, handed on until that is enough.
+struct Proposals<'a, F> {
+    facts: Facts<'a>,
     take: F,
     is_done: bool,
     candidates: usize,
+    /// The joints that some candidate frees.
+    free: u32,
     open: Option<usize>,
 }
 
-impl<M: Mechanism, F: FnMut(&Found, End<M>) -> bool> Candidates<f64, M> for Fitting<'_, M, F> {
+impl<M: Mechanism, F: FnMut(&Found, Joints<M>) -> bool> Candidates<f64, M> for Proposals<'_, F> {
     fn is_usual(&mut self, guard: Guard<f64>) -> bool {
         guard.here
     }
@@ -107,68 +109,99 @@ impl<M: Mechanism, F: FnMut(&Found, End<M>) -> bool> Candidates<f64, M> for Fitt
     }
 
     fn elect(&mut self, claims: &[f64]) -> usize {
-        let (mut most, mut place) = (-1.0, claims.len());
-        for (i, &claim) in claims.iter().enumerate() {
-            if claim > most {
-                (most, place) = (claim, i);
-            }
-        }
-        place
+        elected(claims.iter().copied())
     }
 
     fn take(&mut self, found: Found, at: &Places<M>) {
         self.candidates += 1;
+        self.free |= found.free;
         if self.is_done {
             return;
         }
-        let joints = self.problem.facts().joints;
-        let q = Array::by(joints.len(), |i| match joints[i] {
+        let joints = self.facts.joints;
+        let q: Joints<M> = Array::by(joints.len(), |i| match joints[i] {
             Joint::Angle([c, s]) => angle(at.as_ref()[c], at.as_ref()[s]),
             Joint::Length(place) => at.as_ref()[place],
         });
-        // On a stratum joints only seem to be free where the other equations tell them.
-        let end = self.problem.fitted(q, 0, LEAPS[0]);
-        self.is_done = end.1.residual.is_finite() && (self.take)(&found, end);
+        // Next to a stratum formulas may divide zero by zero.
+        self.is_done = q.as_ref().iter().all(|value| value.is_finite()) && (self.take)(&found, q);
     }
 }
 
-/// Hands on the candidates for a target.
-fn fit_all<M: Mechanism>(
+/// Hands on the candidates for a target until `take` has enough; the joints that some candidate frees.
+fn propose<M: Mechanism>(
     mechanism: &M,
     p: &Parameters<M>,
-    take: impl FnMut(&Found, End<M>) -> bool,
-) -> Result<(), Error> {
-    let problem = Problem::new(mechanism, p);
-    let mut fitting = Fitting { problem, take, is_done: false, candidates: 0, open: None };
-    mechanism.walk(p, &mut fitting);
-    fitting.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
+    take: impl FnMut(&Found, Joints<M>) -> bool,
+) -> Result<u32, Error> {
+    let facts = mechanism.facts();
+    let mut proposals = Proposals { facts, take, is_done: false, candidates: 0, free: 0, open: None };
+    mechanism.walk(p, &mut proposals);
+    proposals.open.map_or(Ok(proposals.free), |number| Err(Error::OpenStratum(number)))
 }
 
-/// The joints with which the ideal mechanism is nearest to a target, if there are any candidates.
-fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<Option<End<M>>, Error> {
-    let mut best: Option<End<M>> = None;
-    fit_all(mechanism, p, |_, end| {
-        if best.as_ref().is_none_or(|(_, fit)| end.1.relative < fit.relative) {
+/// The joints with which the ideal mechanism is nearest to a target, if there are any candidates, and the joints that some of these free.
+fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<(Option<End<M>>, u32), Error> {
+    let (problem, mut best) = (Problem::new(mechanism, p), None::<End<M>>);
+    let free = propose(mechanism, p, |_, q| {
+        // On a stratum joints only seem to be free where the other equations tell them.
+        let end = problem.fitted(q, 0, LEAPS[0]);
+        let is_nearer = best.as_ref().is_none_or(|(_, fit)| end.1.relative < fit.relative);
+        if is_nearer {
             best = Some(end);
         }
         best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHED)
     })?;
-    Ok(best)
+    Ok((best, free))
+}
+
+/// A member of a self-motion of the ideal mechanism that comes within the tolerance of a target, where a candidate leads to one.
+fn find_member<M: Mechanism>(mechanism: &M, p: &Parameters<M>, within: f64) -> Result<Option<Joints<M>>, Error> {
+    let (problem, mut member) = (Problem::new(mechanism, p), None);
+    propose(mechanism, p, |found, q| {
+        if found.free != 0 {
+            member = onto_self_motion(&problem, q, found.free, within);
+        }
+        member.is_some()
+    })?;
+    Ok(member)
+}
+
+/// The joints next to `q` at which the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target.
+fn onto_self_motion<M: Mechanism>(problem: &Problem<'_, M>, q: Joints<M>, free: u32, within: f64) -> Option<Joints<M>> {
+    let is_within = |fit: Fit| fit.relative <= within;
+    let (q, fit) = problem.fitted(q, free, LEAPS[0]);
+    let q = if is_within(fit) { problem.freed(q, free) } else { None }?;
+    let p = ideal_parameters(problem.mechanism, &q)?;
+    let ideal = Problem::new(problem.mechanism, &p);
+    (is_within(problem.measure(&q)) && ideal.lies_on_self_motion(&q, free, ROUNDING)).then_some(q)
 }
 
 /// Adds joints with which the ideal mechanism comes within the tolerance of the target, too, and that are far from all answers to the target next to it: where it
-/// reaches one pose in more ways than most, these part by as much as the target is off.
+/// reaches one pose in more ways than most, these part by as much as the target is off, and where two answers would meet just out of reach they are one. Joints are
+/// no other answer where they are of a self-motion that the mechanism has at the target next to it, which `q` reaches.
 fn add_others<M: Mechanism>(
     mechanism: &M,
-    p: &Parameters<M>,
-    within: f64,
+    (p, within): (&Parameters<M>, f64),
+    q: &Joints<M>,
     (out, count): (&mut [Solution<M>], usize),
 ) -> Result<usize, Error> {
     let (facts, problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p), count);
-    fit_all(mechanism, p, |found, (q, fit)| {
-        let is_far = |other: &Solution<M>| !facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
-        let is_other = found.free == 0 && fit.relative <= within && out[..count].iter().all(is_far);
-        if is_other && count < out.len() && problem.is_settled(&q) {
+    let free = out[..count].iter().fold(0, |free, answer| free | answer.free);
+    let ideal = if free == 0 { None } else { ideal_parameters(mechanism, q) };
+    let is_member = |q: &Joints<M>| ideal.as_ref().is_some_and(|p| Problem::new(mechanism, p).has_member(q, free));
+    propose(mechanism, p, |found, q| {
+        let is_far = |q: &Joints<M>| {
+            let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
+            !out[..count].iter().any(is_close)
+        };
+        if count == out.len() || found.free == 0 && !is_far(&q) {
+            return false;
+        }
+        let (q, fit) = problem.fitted(q, 0, LEAPS[0]);
+        // On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these.
+        let is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
+        if fit.relative <= within && is_far(&q) && !is_member(&q) && is_alone() {
             let Fit { residual, relative, .. } = fit;
             out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
             count += 1;
@@ -197,7 +230,7 @@ pub(crate) fn solve_described<M: Mechanism>(
     let p = mechanism.parameters(target);
     let described = Described(mechanism);
     let problem = Problem::new(&described, &p);
-    let Some((q, fit)) = closest(mechanism, &p)? else { return Ok((0, None)) };
+    let (Some((q, fit)), free) = closest(mechanism, &p)? else { return Ok((0, None)) };
     let within = f64::max(within, ACCEPT);
     let is_reached = fit.relative <= within;
     if !is_reached {
@@ -206,10 +239,11 @@ pub(crate) fn solve_described<M: Mechanism>(
         fit_to(&problem, &mut nearest);
         return Ok((0, Some(nearest)));
     }
+    let member = if free == 0 { None } else { find_member(mechanism, &p, within)? };
+    let q = member.unwrap_or(q);
     let count = solve_ideal(mechanism, &ideal_target(mechanism, &q), out)?;
-    let count = add_others(mechanism, &p, within, (&mut *out, count))?;
-    out[..count].iter_mut().for_each(|answer| fit_to(&problem, answer));
-    Ok((distinct(mechanism, out, count), None))
+    let count = add_others(mechanism, (&p, within), &q, (&mut *out, count))?;
+    Ok((fit_all(&problem, &mut out[..count]), None))
 }
 
 /// The target that the ideal mechanism reaches.
@@ -218,20 +252,38 @@ fn ideal_target<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
     read_off::<M>(&facts, &mechanism.tip(&place::<M>(&facts, q, None)), q)
 }
 
+/// The parameters of that target.
+fn ideal_parameters<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Option<Parameters<M>> {
+    let mut target = ideal_target(mechanism, q);
+    conform(mechanism.facts().conditions, target.as_mut()).ok()?;
+    Some(mechanism.parameters(&target))
+}
+
 /// Brings an answer of the ideal mechanism to where the described one is nearest to the target.
 fn fit_to<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
     let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 
-/// Keeps the first of answers that have become one; their number.
-fn distinct<M: Mechanism>(mechanism: &M, out: &mut [Solution<M>], count: usize) -> usize {
-    let facts = mechanism.facts();
+/// Brings all answers there, and keeps those that are new; their number. Where one would become another one it stays: the ideal mechanism tells them apart.
+fn fit_all<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, out: &mut [Solution<M>]) -> usize {
+    let facts = problem.facts();
     let mut kept = 0;
-    for k in 0..count {
-        let is_same = |i: usize| facts.is_close(out[i].q.as_ref(), out[k].q.as_ref(), out[i].free | out[k].free, MERGE);
-        if !(0..kept).any(is_same) {
-            out.swap(kept, k);
+    for k in 0..out.len() {
+        let is_new = |answer: &Solution<M>, before: &[Solution<M>]| {
+            let is_same =
+                |a: &Solution<M>| facts.is_close(a.q.as_ref(), answer.q.as_ref(), a.free | answer.free, MERGE);
+            !before.iter().any(is_same)
+        };
+        let mut answer = out[k].clone();
+        fit_to(problem, &mut answer);
+        if !is_new(&answer, &out[..kept]) {
+            answer = out[k].clone();
+            let Fit { residual, relative, .. } = problem.measure(&answer.q);
+            (answer.residual, answer.relative) = (residual, relative);
+        }
+        if is_new(&answer, &out[..kept]) {
+            out[kept] = answer;
             kept += 1;
         }
     }
@@ -246,10 +298,13 @@ pub(crate) fn within_limits<M: Mechanism>(
     limits: &Joints<M, [f64; 2]>,
 ) -> Option<(Joints<M>, f64)> {
     let strides = || {
-        let mut target = ideal_target(mechanism, &answer.q);
-        conform(mechanism.facts().conditions, target.as_mut()).ok()?;
-        let ideal = mechanism.parameters(&target);
-        Some(strides_within(&Problem::new(mechanism, &ideal), answer, limits)?.0)
+        let within = f64::max(mechanism.facts().within?, ACCEPT);
+        let own = Problem::new(mechanism, p);
+        let q = if answer.free == 0 { None } else { onto_self_motion(&own, answer.q.clone(), answer.free, within) }?;
+        let ideal = ideal_parameters(mechanism, &q)?;
+        let member = Solution { q, ..answer.clone() };
+        let turned = turned_within::<M>(&mechanism.facts(), &member.q, limits);
+        turned.or_else(|| Some(strides_within(&Problem::new(mechanism, &ideal), &member, limits)?.0))
     };
     let q = turned_within::<M>(&mechanism.facts(), &answer.q, limits).or_else(strides)?;
     let described = Described(mechanism);

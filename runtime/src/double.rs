@@ -1,6 +1,6 @@
 //! One number.
 
-use crate::number::{Number, Roots};
+use crate::number::{Number, Roots, Scale};
 use crate::roots;
 use crate::tolerances::TINY;
 
@@ -35,7 +35,11 @@ impl Number for f64 {
     }
 
     fn real_roots<const D: usize>(polynomials: &[&[f64]], scale: f64) -> Roots<f64, D> {
-        roots::of_the_leading(polynomials, scale)
+        roots::of_the_leading(polynomials, Scale::typical(scale))
+    }
+
+    fn half_angle_roots<const D: usize>(polynomial: &[f64], spread: f64) -> Roots<f64, D> {
+        roots::of_the_leading(&[polynomial], Scale::half_angle(spread))
     }
 
     #[inline(always)]

@@ -46,7 +46,7 @@ impl Facts<'_> {
 
     /// The value of a joint, an angle in (-pi, pi].
     #[inline(always)]
-    fn wrapped(&self, joint: usize, value: f64) -> f64 {
+    pub(crate) fn wrapped(&self, joint: usize, value: f64) -> f64 {
         if self.joints[joint].is_angle() { wrap(value) } else { value }
     }
 

@@ -4,7 +4,7 @@ use core::array::from_fn;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use crate::arithmetic::Arithmetic;
-use crate::number::{Number, Roots};
+use crate::number::{Number, Roots, Scale};
 use crate::roots::{self, MOST};
 use crate::tolerances::{MEETING, TINY};
 
@@ -144,7 +144,11 @@ impl<const W: usize> Number for Lanes<W> {
     }
 
     fn real_roots<const D: usize>(polynomials: &[&[Self]], scale: Self) -> Roots<Self, D> {
-        roots_by_lane(polynomials, scale)
+        roots_by_lane(polynomials, |lane| Scale::typical(scale.0[lane]))
+    }
+
+    fn half_angle_roots<const D: usize>(polynomial: &[Self], spread: Self) -> Roots<Self, D> {
+        roots_by_lane(&[polynomial], |lane| Scale::half_angle(spread.0[lane]))
     }
 
     fn alone<A, const L: usize>(_: &[Self; L], _: impl FnOnce(&[f64; L]) -> A) -> Option<A> {
@@ -164,7 +168,10 @@ impl<const W: usize> Number for Lanes<W> {
 }
 
 /// By number: those that have fewer roots than others have none in the last places.
-fn roots_by_lane<const W: usize, const D: usize>(polynomials: &[&[Lanes<W>]], scale: Lanes<W>) -> Roots<Lanes<W>, D> {
+fn roots_by_lane<const W: usize, const D: usize>(
+    polynomials: &[&[Lanes<W>]],
+    scale: impl Fn(usize) -> Scale,
+) -> Roots<Lanes<W>, D> {
     let mut roots = Roots {
         values: [Lanes([f64::NAN; W]); D],
         count: D,
@@ -179,7 +186,7 @@ fn roots_by_lane<const W: usize, const D: usize>(polynomials: &[&[Lanes<W>]], sc
         for (list, (row, given)) in lists.iter_mut().zip(numbers.iter().zip(polynomials)) {
             *list = &row[..given.len()];
         }
-        let own: Roots<f64, D> = roots::of_the_leading(&lists[..polynomials.len().min(4)], scale.0[lane]);
+        let own: Roots<f64, D> = roots::of_the_leading(&lists[..polynomials.len().min(4)], scale(lane));
         for (index, root) in own.as_slice().iter().enumerate() {
             roots.values[index].0[lane] = *root;
             roots.doubts[index].dead.0[lane] = 0;

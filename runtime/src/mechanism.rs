@@ -23,9 +23,9 @@ pub type Abreast<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Candidate
 /// A row with one value for each answer that a target can have.
 pub type Answered<M, T> = <<M as Mechanism>::Storage as Storage>::Answers<T>;
 
-/// A derived solver: what a printed file, or a program that is read, tells of a mechanism and its task. [`crate::solve`] does the rest.
+/// A derived solver: the description of a mechanism and its task in a printed file, or in a program that is read. [`crate::solve`] does the rest.
 pub trait Mechanism: Sized {
-    /// Where its numbers stand.
+    /// Where its numbers are stored.
     type Storage: Storage;
     /// Whether targets of a batch are solved one after the other.
     const IS_SINGLE: bool = false;
@@ -146,7 +146,7 @@ pub struct Facts<'a> {
     pub freed: &'a [usize],
     /// What a target must fulfil.
     pub conditions: &'a [Condition],
-    /// By number of a target, where the tip tells it; empty where it does not.
+    /// By number of a target, where the tip gives it; empty where it does not.
     pub reached: &'a [Reached],
     /// The formulas are those of a mechanism near the one that the equations are of: so many equations lead on from there.
     pub nearby: Option<usize>,
@@ -184,7 +184,7 @@ impl Facts<'_> {
     };
 }
 
-/// Where a joint stands among the numbers that the equations read.
+/// Where a joint is among the numbers that the equations read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
     /// It turns: its cosine and its sine.
@@ -289,9 +289,9 @@ impl<N: Number> Found<N> {
 
 /// Takes candidates in, and decides which cases run.
 pub trait Candidates<N: Number, M: Mechanism> {
-    /// Whether a case that hardly ever does not run runs.
+    /// Whether a case runs that usually does.
     fn is_usual(&mut self, guard: Guard<N>) -> bool;
-    /// Whether one that hardly ever runs does.
+    /// Whether a case runs that rarely does.
     fn is_rare(&mut self, guard: Guard<N>) -> bool;
     /// Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed.
     fn is_due(&mut self, before: usize, guard: Guard<N>) -> bool;
@@ -318,7 +318,17 @@ pub trait Candidates<N: Number, M: Mechanism> {
     }
 }
 
-/// What hardly ever happens, apart from what often does.
+/// The place of the greatest claim that is not negative, the first of equals; the number of claims without one.
+#[inline(always)]
+pub(crate) fn elected(claims: impl ExactSizeIterator<Item = f64>) -> usize {
+    let mut best = (-1.0, claims.len());
+    for (place, claim) in claims.enumerate() {
+        best = if claim > best.0 { (claim, place) } else { best };
+    }
+    best.1
+}
+
+/// Runs what rarely happens, out of line.
 #[cold]
 #[inline(never)]
 pub fn rarely<T>(what: impl FnOnce() -> T) -> T {

@@ -7,12 +7,12 @@ use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, MERGE, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED,
-    RETURNS, ROUNDING, SHORT, STEEP, STIFF,
+    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ROUNDING, SHORT, STEEP, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.
-struct Triangle<M: Mechanism> {
+pub(crate) struct Triangle<M: Mechanism> {
     numbers: <M::Storage as Storage>::Triangle,
     /// The length of a column.
     rows: usize,
@@ -135,7 +135,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-    fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
+    pub fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
         self.triangle(q, damping, held).substituted()
     }
 
@@ -154,13 +154,6 @@ impl<M: Mechanism> Problem<'_, M> {
             }
         }
         self.measured(q)
-    }
-
-    /// Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers
-    /// would meet and none is, the plain step is long.
-    pub fn is_settled(&self, q: &Joints<M>) -> bool {
-        let step = self.shares(q, 0.0, 0).substituted();
-        step.is_some_and(|step| self.facts().longest(step.as_ref()) <= MERGE)
     }
 
     /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.
@@ -194,7 +187,12 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
     /// hold, or a root is double.
     pub fn regularity(&self, q: &Joints<M>) -> f64 {
-        let triangle = self.triangle(q, 0.0, 0);
+        self.regularity_of(q, 0)
+    }
+
+    /// The same where joints are `held`.
+    pub fn regularity_of(&self, q: &Joints<M>, held: u32) -> f64 {
+        let triangle = self.triangle(q, 0.0, held);
         let pivots = (0..self.joints()).map(|i| triangle.entry(i, i).abs());
         let (least, most) =
             pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
@@ -238,7 +236,13 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The same with the equations as shares of their sizes.
-    fn shares(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+    pub(crate) fn shares(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+        let (derivatives, right) = self.shared(q);
+        self.triangle_of(&derivatives, &right, damping, held)
+    }
+
+    /// The derivatives of the equations and their values, as shares of their sizes.
+    pub(crate) fn shared(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
         let at = self.place(q);
         let (mut derivatives, (mut right, sizes)) = (self.derivatives(&at), self.equations(&at));
         for (i, &size) in self.facts().size_of.iter().enumerate() {
@@ -246,11 +250,18 @@ impl<M: Mechanism> Problem<'_, M> {
             right.as_mut()[i] /= size;
             derivatives.as_mut()[i].as_mut().iter_mut().for_each(|entry| *entry /= size);
         }
-        self.triangle_of(&derivatives, &right, damping, held)
+        (derivatives, right)
+    }
+
+    /// Room for a triangle, all zeros.
+    pub(crate) fn no_triangle(&self) -> Triangle<M> {
+        let joints = self.joints();
+        let rows = self.facts().size_of.len() + joints;
+        Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints }
     }
 
     /// The triangle of equations with these derivatives and values.
-    fn triangle_of(
+    pub(crate) fn triangle_of(
         &self,
         derivatives: &Equations<M, Joints<M>>,
         right: &Equations<M>,
@@ -259,8 +270,7 @@ impl<M: Mechanism> Problem<'_, M> {
     ) -> Triangle<M> {
         Event::Step.count();
         let (joints, equations) = (self.joints(), self.facts().size_of.len());
-        let rows = equations + joints;
-        let mut triangle: Triangle<M> = Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints };
+        let mut triangle = self.no_triangle();
         let mut size = 0.0;
         for i in (0..joints).filter(|i| !is_in(held, *i)) {
             let mut square = 0.0;
@@ -285,16 +295,16 @@ impl<M: Mechanism> Triangle<M> {
         &self.numbers.as_ref()[column * self.rows..][..self.rows]
     }
 
-    fn column_mut(&mut self, column: usize) -> &mut [f64] {
+    pub fn column_mut(&mut self, column: usize) -> &mut [f64] {
         &mut self.numbers.as_mut()[column * self.rows..][..self.rows]
     }
 
-    fn entry(&self, column: usize, row: usize) -> f64 {
+    pub fn entry(&self, column: usize, row: usize) -> f64 {
         self.numbers.as_ref()[column * self.rows + row]
     }
 
     /// Turns columns into a triangle by reflections.
-    fn reflect(&mut self) {
+    pub fn reflect(&mut self) {
         for pivot in 0..self.joints {
             let (before, behind) = self.numbers.as_mut().split_at_mut((pivot + 1) * self.rows);
             let mirror = &mut before[pivot * self.rows..][pivot..];
@@ -323,7 +333,7 @@ impl<M: Mechanism> Triangle<M> {
     }
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.
-    fn substituted(&self) -> Option<Joints<M>> {
+    pub fn substituted(&self) -> Option<Joints<M>> {
         let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
         for row in (0..self.joints).rev() {
             let pivot = self.entry(row, row);

@@ -46,6 +46,9 @@ pub trait Number:
     fn roots_of_square(constant: Self, scale: Self, tangent: f64) -> Roots<Self, 2>;
     /// The real roots of the first polynomial whose leading coefficient counts, or of the last one, ascending; coefficients from the constant on.
     fn real_roots<const D: usize>(polynomials: &[&[Self]], scale: Self) -> Roots<Self, D>;
+    /// The real roots of a polynomial for the tangent of half an angle, of which one misses the axis by no more than rounding times a power of `spread`: its
+    /// terms count with so many times the greater of the tangent and one.
+    fn half_angle_roots<const D: usize>(polynomial: &[Self], spread: Self) -> Roots<Self, D>;
 
     /// What is computed of numbers one by one; nothing of several targets, which such programs do not solve at once.
     fn alone<A, const L: usize>(numbers: &[Self; L], value: impl FnOnce(&[f64; L]) -> A) -> Option<A>;
@@ -203,5 +206,32 @@ impl<N: Number, const D: usize> Roots<N, D> {
     #[inline(always)]
     pub fn doubt(&self, index: usize) -> N::Doubt {
         self.doubts[index]
+    }
+}
+
+/// What a polynomial's terms are measured at, to tell a double root from a miss.
+#[derive(Clone, Copy)]
+pub(crate) struct Scale {
+    /// The unknown's typical size.
+    pub typical: f64,
+    /// How many times the greater of this and the root.
+    pub spread: f64,
+}
+
+impl Scale {
+    #[inline(always)]
+    pub fn typical(size: f64) -> Self {
+        Scale { typical: size, spread: 1.0 }
+    }
+
+    #[inline(always)]
+    pub fn half_angle(spread: f64) -> Self {
+        Scale { typical: 1.0, spread }
+    }
+
+    /// What the terms at `x` are measured at.
+    #[inline(always)]
+    pub fn at(self, x: f64) -> f64 {
+        self.spread * f64::max(self.typical, x.abs())
     }
 }

@@ -3,6 +3,7 @@
 //! near a limit there is no answer, and the caller goes the general way.
 
 use crate::arithmetic::Arithmetic;
+use crate::number::Scale;
 
 /// The leading coefficient is more than this share of the largest one: the change of the unknown then costs few digits.
 const LED: f64 = 1e-2;
@@ -20,10 +21,10 @@ const RESOLVENT_STEPS: usize = 24;
 /// Real roots in ascending order: the first so many of the four.
 type Ordinary = ([f64; 4], usize);
 
-/// All real roots of the quartic with these coefficients, constant term first; `scale` is the typical size of the unknown. `None` where
+/// All real roots of the quartic with these coefficients, constant term first; `scale` has the typical size of the unknown. `None` where
 /// the quartic is not ordinary: its leading coefficient is small, roots are next to each other or complex ones next to the axis, or
 /// the steps do not settle.
-pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Ordinary> {
+pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Ordinary> {
     let [e, d, c, b, lead] = *coefficients;
     let largest = coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()));
     if !(lead.abs() > LED * largest && largest < f64::INFINITY) {
@@ -33,28 +34,28 @@ pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: f64) -> Option<Ordi
     let monic = [e * inverse, d * inverse, c * inverse, b * inverse];
     let (mut roots, count) = approximate_roots(&monic, scale)?;
     for root in &mut roots {
-        *root = settled(&monic, *root, scale);
+        *root = settled(&monic, *root, scale.at(0.0));
     }
     if count == 4 {
         let (low, high) = (f64::min(roots[1], roots[3]), f64::max(roots[0], roots[2]));
         roots = [f64::min(roots[0], roots[2]), f64::min(low, high), f64::max(low, high), f64::max(roots[1], roots[3])];
     }
     // A root that is not settled is not a number, and no distance holds for it.
-    let size = |x: f64| f64::max(scale, x.abs());
-    let apart = |pair: &[f64]| pair[1] - pair[0] > DISTINCT * f64::max(size(pair[0]), size(pair[1]));
+    let apart = |pair: &[f64]| pair[1] - pair[0] > DISTINCT * f64::max(scale.at(pair[0]), scale.at(pair[1]));
     roots[..count].windows(2).all(apart).then_some((roots, count))
 }
 
 /// The roots of the two real quadratics whose product is `x^4 + b x^3 + c x^2 + d x + e`: two of either, ascending, the second two next to
 /// the first.
-fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<Ordinary> {
+fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary> {
     // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
     let (quarter, square) = (0.25 * b, b * b);
     let p = c - 0.375 * square;
     let q = d - 0.5 * b * (c - 0.25 * square);
     let r = e - quarter * (d - quarter * (c - 0.1875 * square));
     // (y^2 + h y + f) (y^2 - h y + g) with z = h^2.
-    let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, scale * scale)?;
+    let typical = scale.at(0.0);
+    let z = resolved(2.0 * p, p * p - 4.0 * r, q * q, typical * typical)?;
     let h = Arithmetic::sqrt(z);
     let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
     let (f, g) = (mean - half, mean + half);
@@ -70,8 +71,8 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: f64) -> Option<Ordinary> {
             roots[count] = middle - apart - quarter;
             roots[count + 1] = middle + apart - quarter;
             count += 2;
-        } else if !(apart > DISTINCT * f64::max(scale, Arithmetic::sqrt(size))
-            && (other + 0.75 * z).abs() > DISTINCT * f64::max(size, scale * scale))
+        } else if !(apart > DISTINCT * scale.at(Arithmetic::sqrt(size))
+            && (other + 0.75 * z).abs() > DISTINCT * f64::max(size, typical * typical))
         {
             return None;
         }

@@ -10,8 +10,8 @@ use crate::problem::{End, Fit};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{
-    ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, ROUNDING, STEEP, TWIN,
-    TWINS_AT,
+    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP,
+    TWIN, TWINS_AT,
 };
 
 /// The most answers of a target.
@@ -33,96 +33,58 @@ impl<M: Mechanism> Answers<'_, M> {
         let end = self.problem.polish(start, 0);
         let miss = end.1.relative;
         let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
+        let is_nearby = self.problem.facts().nearby.is_some();
+        let is_beside = (ROUNDING..=if is_nearby { OFF } else { NEAR }).contains(&missed);
         let holds = missed < ROUNDING || miss < ROUNDING && way <= MERGE;
         if !(end.1.accepted && holds) {
             self.unsound = number;
         }
+        if found.close {
+            self.doubted = number;
+        }
+        if is_nearby && is_beside && self.keep_moving(found, &end) {
+            return;
+        }
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
-        } else if (ROUNDING..=NEAR).contains(&missed) && way > LEVER * Arithmetic::sqrt(missed) {
+        } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
             self.around(found, &end, missed);
             // Such a candidate stands between two answers: starts from the other side too.
             let way = differences::<M>(&self.problem.facts(), &q, &end.0);
             let start = self.problem.polished(shifted::<M>(&self.problem.facts(), &q, &way), 0);
             self.keep(found, start);
         }
-        if self.problem.facts().nearby.is_some() && (ROUNDING..=NEAR).contains(&missed) {
+        if is_nearby && is_beside {
             self.twin(found, &end.0, missed);
         }
         self.keep(found, end);
     }
 
-    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
-    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
-    fn refine_member(&mut self, found: &Found, q: Joints<M>) {
-        let _phase = Phase::Member.begin();
-        let settles = |a: &Solution<M>| a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free;
-        if self.out[..self.count].iter().any(settles) {
-            return;
-        }
-        let mut end = self.problem.measured(q);
-        let missed = end.1.relative;
-        if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
-            return self.miss(end);
-        }
-        if (ROUNDING..=ADRIFT).contains(&missed) {
-            end = self.problem.polish(end, found.free);
-        }
-        if self.suffices {
-            return self.keep_long_member(found, end);
-        }
-        if self.keep_member(found, &end) {
-            return;
-        }
-        end = self.problem.polish(end, 0);
-        if !self.keep_member(found, &end) {
-            self.keep_alone(found, end, missed);
-        }
-    }
-
-    /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it.
-    fn keep_long_member(&mut self, found: &Found, end: End<M>) {
-        if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
-            return self.keep(found, end);
-        }
-        self.strays.mark(found);
-        self.miss(end);
-    }
-
-    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
-    /// isolated answer. One that has not been found before may have another next to it.
-    fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
-        if end.1.relative > ALONE {
-            return self.miss(end);
-        }
-        let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
-        let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
-        let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
-        let alone = Found { free: joint.unwrap_or(0), ..*found };
-        let known = self.count;
-        self.keep(&alone, end.clone());
-        if joint.is_none() && self.count > known && (ROUNDING..=NEAR).contains(&missed) {
-            self.around(&alone, &end, missed);
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
-        let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
-        if is_member {
-            self.keep(found, end.clone());
-        }
-        is_member
-    }
-
     /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
     pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
         let Approach { end, fit, missed, pivot } = approach;
-        self.keep(found, (end.clone(), fit));
-        if pivot < missed * if found.close { STEEP } else { MILD } {
+        let is_steep = pivot < missed * if found.close { STEEP } else { MILD };
+        if is_steep {
             self.unsound = number;
+        }
+        if is_steep && self.keep_moving(found, &(end.clone(), fit)) {
+            return;
+        }
+        self.keep(found, (end.clone(), fit));
+        if is_steep {
             self.twin(found, &end, missed);
         }
+    }
+
+    /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
+    /// self-motion as to an isolated answer. Whether it is one.
+    fn keep_moving(&mut self, found: &Found, end: &End<M>) -> bool {
+        let is_sharp = end.1.relative <= ROUNDING;
+        let joint = if is_sharp { self.problem.joint_on_self_motion(&end.0, ROUNDING) } else { None };
+        if let Some(free) = joint {
+            self.keep(&Found { free, ..*found }, end.clone());
+        }
+        joint.is_some()
     }
 
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
@@ -147,7 +109,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
     /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
+    pub fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
         let _phase = Phase::Around.begin();
         let weights = self.problem.weights(&end.0);
         let mut is_found = end.1.accepted;
@@ -171,7 +133,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Remembers a candidate that is no answer if it comes nearest so far.
-    fn miss(&mut self, end: End<M>) {
+    pub fn miss(&mut self, end: End<M>) {
         let is_nearer = self.nearest.as_ref().is_none_or(|nearest| end.1.relative < nearest.1.relative);
         if !end.1.accepted && end.1.relative.is_finite() && is_nearer {
             self.nearest = Some(end);
@@ -212,6 +174,7 @@ impl<M: Mechanism> Answers<'_, M> {
             let other = &self.out[i];
             if self.is_one(other, &answer) {
                 if holds_against(other, &answer) {
+                    self.remember_merged(i, answer.relative, found);
                     return;
                 }
                 doubles[i / WORD] |= 1 << (i % WORD);
@@ -307,7 +270,11 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => self.are_blurred(a, b),
-            (false, false) => a.free == b.free && (a.branch == b.branch || problem.leads_to(&a.q, &b.q, a.free)),
+            (false, false) => {
+                let are_apart = self.is_another && a.relative <= ROUNDING && a.branch == b.branch;
+                let is_alike = a.free == b.free && !are_apart;
+                is_alike && (self.are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free))
+            }
             (true, false) => b.relative <= ROUNDING && self.is_on(&b.q, b.free, &a.q),
             (false, true) => a.relative <= ROUNDING && self.is_on(&a.q, a.free, &b.q),
         }
@@ -318,6 +285,12 @@ impl<M: Mechanism> Answers<'_, M> {
     fn is_on(&self, member: &Joints<M>, free: u32, isolated: &Joints<M>) -> bool {
         self.problem.lies_on_self_motion(isolated, free, ROUNDING)
             && (!self.suffices || self.problem.leads_to(member, isolated, free))
+    }
+
+    /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
+    fn are_by_branch(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
+        let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
+        a.branch == b.branch && !(are_sharp && self.problem.is_on_curve(&b.q, b.free))
     }
 
     /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]:

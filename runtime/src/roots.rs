@@ -1,8 +1,8 @@
 //! Real roots of polynomials of one unknown. Main type: [`Roots`].
 
 use crate::arithmetic::Arithmetic;
-use crate::number::Number;
 pub use crate::number::Roots;
+use crate::number::{Number, Scale};
 use crate::quartic;
 use crate::tolerances::{MEETING, NEGLIGIBLE, PIVOT, TANGENT};
 
@@ -48,16 +48,20 @@ pub(crate) fn of_square(constant: f64, scale: f64, tangent: f64) -> Roots<f64, 2
 }
 
 /// The roots of the first polynomial whose leading coefficient is not negligible, or of the last one.
-pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: f64) -> Roots<f64, D> {
+pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: Scale) -> Roots<f64, D> {
     let leads =
         |coefficients: &&&[f64]| coefficients.last().is_some_and(|lead| lead.abs() > PIVOT * largest(coefficients));
     let Some((last, earlier)) = polynomials.split_last() else { return Roots::NONE };
-    real_roots(earlier.iter().find(leads).unwrap_or(last), scale)
+    scaled_roots(earlier.iter().find(leads).unwrap_or(last), scale)
 }
 
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
 /// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
 pub fn real_roots<const D: usize>(coefficients: &[f64], scale: f64) -> Roots<f64, D> {
+    scaled_roots(coefficients, Scale::typical(scale))
+}
+
+fn scaled_roots<const D: usize>(coefficients: &[f64], scale: Scale) -> Roots<f64, D> {
     if let Some(roots) = coefficients.try_into().ok().and_then(|quartic| quartic::ordinary_roots(quartic, scale)) {
         let mut found = Roots::NONE;
         roots.0[..roots.1].iter().for_each(|x| found.push(*x));
@@ -65,12 +69,12 @@ pub fn real_roots<const D: usize>(coefficients: &[f64], scale: f64) -> Roots<f64
     }
     let mut roots = all_real_roots::<MOST>(coefficients, scale);
     let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    let is_close = |pair: &[f64]| pair[1] - pair[0] <= MEETING * scale;
+    let is_close = |pair: &[f64]| pair[1] - pair[0] <= MEETING * scale.at(0.0);
     roots.doubts[0] = is_double || roots.as_slice().windows(2).any(is_close);
     roots.within()
 }
 
-fn all_real_roots<const L: usize>(coefficients: &[f64], scale: f64) -> Roots<f64, L> {
+fn all_real_roots<const L: usize>(coefficients: &[f64], scale: Scale) -> Roots<f64, L> {
     let Some(p) = Polynomial::new(coefficients, scale) else { return Roots::NONE };
     if p.degree < 2 {
         return p.linear_root();
@@ -91,13 +95,12 @@ fn largest(coefficients: &[f64]) -> f64 {
 struct Polynomial {
     a: [f64; MOST],
     degree: usize,
-    /// The unknown's typical size.
-    scale: f64,
+    scale: Scale,
 }
 
 impl Polynomial {
     /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
-    fn new(coefficients: &[f64], scale: f64) -> Option<Self> {
+    fn new(coefficients: &[f64], scale: Scale) -> Option<Self> {
         let largest = largest(coefficients);
         let mut length = coefficients.len();
         while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
@@ -134,8 +137,8 @@ impl Polynomial {
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
         let discriminant = b * b - 4.0 * a * c;
         let size = b * b + (4.0 * a * c).abs();
-        let typical = 2.0 * a * self.scale;
-        if discriminant < -TANGENT * f64::max(size, typical * typical) {
+        let (typical, spread) = (2.0 * a * self.scale.at(0.0), self.scale.spread);
+        if discriminant < -TANGENT * f64::max(size * (spread * spread), typical * typical) {
             return roots;
         }
         if discriminant <= ROUNDING * size {
@@ -201,23 +204,23 @@ impl Polynomial {
 
     /// `-1`, `0` or `1`: the sign of `p(x)`, zero when rounding decides it.
     fn sign(&self, x: f64) -> f64 {
-        let (value, size) = self.value_and_size(x, 0.0);
+        let (value, size) = self.value_and_size(x, x.abs());
         let noise = ROUNDING * self.degree as f64 * size;
         if value == 0.0 || (noise.is_finite() && value.abs() <= noise) { 0.0 } else { 1.0_f64.copysign(value) }
     }
 
     /// Whether `p(x)` is negligible.
     fn touches(&self, x: f64) -> bool {
-        let (value, size) = self.value_and_size(x, self.scale);
+        let (value, size) = self.value_and_size(x, self.scale.at(x));
         size.is_finite() && value.abs() <= TANGENT * size
     }
 
-    /// `p(x)` and `sum |a_i y^i|` for the larger `y` of `|x|` and `scale`.
-    fn value_and_size(&self, x: f64, scale: f64) -> (f64, f64) {
+    /// `p(x)` and `sum |a_i y^i|`.
+    fn value_and_size(&self, x: f64, y: f64) -> (f64, f64) {
         let (mut value, mut size) = (0.0, 0.0);
         for a in self.a[..=self.degree].iter().rev() {
             value = value * x + a;
-            size = size * f64::max(x.abs(), scale) + a.abs();
+            size = size * y + a.abs();
         }
         (value, size)
     }

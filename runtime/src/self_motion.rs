@@ -1,9 +1,14 @@
 //! Whether answers are members of a self-motion, and of which: free joints are moved, and the others follow.
 
-use crate::joints::{beyond, differences, is_in, moved};
+use core::f64::consts::TAU;
+
+use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Joints, Mechanism};
-use crate::problem::{End, Problem};
-use crate::tolerances::{ARRIVED, ASIDE, DOUBLINGS, NARROWS, REGULAR, ROUNDING, SINGULAR, STAGES};
+use crate::problem::Problem;
+use crate::storage::Array;
+use crate::tolerances::{
+    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
+};
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
@@ -19,14 +24,24 @@ impl<M: Mechanism> Problem<'_, M> {
         self.regularity(q) <= REGULAR && (leads(ASIDE) || leads(-ASIDE))
     }
 
-    /// A joint that lies alone on a self-motion, the first of those that some case frees; as a set.
+    /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
+    /// a nearby mechanism and free none, any joint.
     pub fn joint_on_self_motion(&self, q: &Joints<M>, bound: f64) -> Option<u32> {
-        if self.facts().freed.is_empty() {
+        let facts = self.facts();
+        let is_any = facts.freed.is_empty() && facts.nearby.is_some();
+        if facts.freed.is_empty() && !is_any {
             return None;
         }
         let regularity = self.regularity(q);
-        let mut alone = self.facts().freed.iter().map(|joint| 1 << joint);
+        let may = |joint: &&usize| is_any || facts.freed.contains(joint);
+        let mut alone = facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint);
         alone.find(|free| self.leads_to_self_motion(q, *free, bound, regularity))
+    }
+
+    /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.
+    pub fn has_member(&self, q: &Joints<M>, free: u32) -> bool {
+        let (q, fit) = self.polished(q.clone(), 0);
+        fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
     }
 
     fn leads_to_self_motion(&self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
@@ -79,19 +94,90 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.accepted && self.are_joined(&back, q, bound, free)
     }
 
-    /// Whether the self-motion of `a` has the member `b`, with the same free joints: as these move there in stages, the other joints follow. Two
-    /// self-motions may be next to each other: half-way from where that ends to `b` the equations hold too.
+    /// Whether the self-motion that `q` is a member of is a curve there, along which one free joint tells all others.
+    pub fn is_on_curve(&self, q: &Joints<M>, free: u32) -> bool {
+        free.is_power_of_two() && self.regularity_of(q, free) > REGULAR
+    }
+
+    /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
+    /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
     pub fn leads_to(&self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
-        let mut q = a.clone();
-        let mut accepted = false;
-        for stages in (1..=STAGES).rev() {
-            let way = differences::<M>(&self.facts(), b, &q);
-            for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
-                q.as_mut()[i] += way.as_ref()[i] / stages as f64;
-            }
-            let end: End<M> = self.polished(q, free);
-            (q, accepted) = (end.0, end.1.accepted);
+        let short = differences::<M>(&self.facts(), b, a);
+        let long = self.other_way(&short, free);
+        if self.is_straight(a, &short) || long.as_ref().is_some_and(|long| self.is_straight(a, long)) {
+            return true;
         }
-        accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(&q, b, ROUNDING, free)
+        let arrives = self.leads_along(a, b, free, &short);
+        arrives.or_else(|| self.leads_along(a, b, free, &long?)).unwrap_or(false)
+    }
+
+    /// The way on which a free joint goes the other way round, if it is one that turns.
+    fn other_way(&self, way: &Joints<M>, free: u32) -> Option<Joints<M>> {
+        let joint = free.trailing_zeros() as usize;
+        let turns = free.is_power_of_two() && self.facts().joints[joint].is_angle();
+        let mut other = way.clone();
+        if turns {
+            other.as_mut()[joint] -= if way.as_ref()[joint] < 0.0 { -TAU } else { TAU };
+        }
+        turns.then_some(other)
+    }
+
+    /// Whether the equations hold on the straight line along `way`, as they do where axes coincide.
+    fn is_straight(&self, a: &Joints<M>, way: &Joints<M>) -> bool {
+        let at = |share: f64| Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
+        [0.5, 0.25, 0.75].iter().all(|share| self.measure(&at(*share)).relative <= ROUNDING)
+    }
+
+    /// Whether the joints come to `b` as the free ones go `way` from `a` and the others follow, in steps with which they keep up; none where they
+    /// do not.
+    fn leads_along(&self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
+        let facts = self.facts();
+        let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { way.as_ref()[i] } else { 0.0 });
+        let (length, [shortest, first, longest]) = (facts.longest(freed.as_ref()), ALONG);
+        let (mut before, mut at) = (a.clone(), a.clone());
+        let (mut gone, mut last, mut pace) = (0.0, 1.0, first);
+        for _ in 0..PACES {
+            let is_last = pace >= length - gone;
+            let (step, share) = if is_last { (length - gone, 1.0) } else { (pace, (gone + pace) / length) };
+            let mut ahead = beyond::<M>(&facts, &before, &at, step / last);
+            for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
+                ahead.as_mut()[i] = facts.wrapped(i, a.as_ref()[i] + share * way.as_ref()[i]);
+            }
+            let next = self.followed(ahead, free);
+            if let Some(next) = next {
+                if is_last {
+                    return Some(self.is_there(&next, b, free));
+                }
+                (before, at) = (at, next);
+                (gone, last, pace) = (gone + step, step, f64::min(2.0 * pace, longest));
+            } else if pace > shortest {
+                pace *= 0.25;
+            } else {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps, and with more care where these come next to it.
+    fn followed(&self, ahead: Joints<M>, free: u32) -> Option<Joints<M>> {
+        let mut end = self.measured(ahead.clone());
+        for _ in 0..RETURNS {
+            if end.1.accepted {
+                break;
+            }
+            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
+        }
+        if !end.1.accepted && end.1.relative <= ASTRAY {
+            end = self.polish(end, free);
+        }
+        let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;
+        (end.1.accepted && is_near).then_some(end.0)
+    }
+
+    /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
+    fn is_there(&self, q: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+        self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(q, b, ROUNDING, free)
     }
 }

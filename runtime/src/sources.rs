@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 31] = [
+pub const RUST: [(&str, &str); 33] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -13,11 +13,13 @@ pub const RUST: [(&str, &str); 31] = [
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
     ("exactly", include_str!("exactly.rs")),
+    ("freedom", include_str!("freedom.rs")),
     ("joints", include_str!("joints.rs")),
     ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
+    ("members", include_str!("members.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
     ("problem", include_str!("problem.rs")),
@@ -62,17 +64,17 @@ pub const SIX_AXES: [(&str, &str); 20] = [
     ("vector", include_str!("six_axes/vector.rs")),
 ];
 
-/// The header of the run time in C, and its source.
+/// The header of the run time in C.
 pub const C_HEADER: &str = include_str!("../c/groebot.h");
-/// As [`C_HEADER`] tells.
+/// The source that belongs to [`C_HEADER`].
 pub const C: &str = include_str!("../c/groebot.c");
-/// The same of six joints in any place.
+/// The header of the run time in C for six joints in any place.
 pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
-/// As [`C_SIX_AXES_HEADER`] tells.
+/// The source that belongs to [`C_SIX_AXES_HEADER`].
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 44] = [
+pub const C_PARTS: [(&str, &str); 45] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -80,6 +82,7 @@ pub const C_PARTS: [(&str, &str); 44] = [
     ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
     ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
     ("groebot/described.h", include_str!("../c/groebot/described.h")),
+    ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),

@@ -1,4 +1,4 @@
-//! Where numbers of a mechanism stand: arrays whose lengths are known when a solver is compiled ([`Fixed`]), or lists of one that is read.
+//! Storage of a mechanism's numbers: arrays whose lengths are known when a solver is compiled ([`Fixed`]), or lists of one that is read.
 
 use core::array::from_fn;
 

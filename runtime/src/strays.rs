@@ -4,7 +4,7 @@ use crate::mechanism::Found;
 use crate::tolerances::DOUBTED;
 
 /// How many kinds are told apart.
-const ROOM: usize = 16;
+const KINDS: usize = 16;
 /// A free joint is put at so many places round the circle, or at a multiple of it.
 const PLACES: usize = 8;
 
@@ -21,14 +21,14 @@ struct Kind {
 
 /// What is known of candidates by kind.
 pub(crate) struct Strays {
-    kinds: [Kind; ROOM],
+    kinds: [Kind; KINDS],
     count: usize,
     are_too_many: bool,
 }
 
 impl Strays {
     pub const NONE: Self = Strays {
-        kinds: [Kind { branch: 0, free: 0, count: 0, missed: 0.0, is_astray: false }; ROOM],
+        kinds: [Kind { branch: 0, free: 0, count: 0, missed: 0.0, is_astray: false }; KINDS],
         count: 0,
         are_too_many: false,
     };
@@ -58,7 +58,7 @@ impl Strays {
     fn kind(&mut self, found: &Found) -> Option<&mut Kind> {
         let is_it = |kind: &Kind| (kind.branch, kind.free) == (found.branch, found.free);
         let place = self.kinds[..self.count].iter().position(is_it).unwrap_or(self.count);
-        if place == ROOM {
+        if place == KINDS {
             self.are_too_many = true;
             return None;
         }
@@ -67,5 +67,26 @@ impl Strays {
             self.count += 1;
         }
         Some(&mut self.kinds[place])
+    }
+}
+
+/// Branches and free joints of members that are on a self-motion of another branch, as many as there is room for.
+pub(crate) struct Merged {
+    kinds: [(usize, u32); KINDS],
+    count: usize,
+}
+
+impl Merged {
+    pub const NONE: Self = Merged { kinds: [(0, 0); KINDS], count: 0 };
+
+    pub fn remember(&mut self, found: &Found) {
+        if self.count < KINDS {
+            self.kinds[self.count] = (found.branch, found.free);
+            self.count += 1;
+        }
+    }
+
+    pub fn contains(&self, found: &Found) -> bool {
+        self.kinds[..self.count].contains(&(found.branch, found.free))
     }
 }

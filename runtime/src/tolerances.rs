@@ -19,6 +19,8 @@ pub const TANGENT: f64 = 1e-10;
 pub const GRAZING: f64 = 1e-6;
 /// A case for a stratum also runs where the stratum's factor is below this share of its scale.
 pub const NEAR: f64 = 1e-3;
+/// A candidate of a nearby mechanism's formulas that misses the equations by no more may have two answers next to it.
+pub const OFF: f64 = 1e-2;
 /// Where all candidates of the cases before have held where they were found, it runs below this share only: a stratum on which they would have
 /// lost an answer is as near as rounding.
 pub const BESIDE: f64 = 1e-7;
@@ -33,6 +35,11 @@ pub const NEGLIGIBLE: f64 = 1e-290;
 pub const POLISH_STEPS: usize = 32;
 /// Least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
 pub const FITTING_STEPS: usize = 16;
+/// The shares that what a target is missed by has in the steps to where a joint moves freely. Where it does is left open by at most their product with the miss
+/// and themselves: rounding in the end.
+pub const FREEING: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-8];
+/// How far (rad, or relative to the length scale) joints are moved to either side to see how derivatives change: what is left out is the square of that.
+pub const BENT: f64 = 1e-4;
 /// Shares of the squared Jacobian's size that are added to it where a plain Newton step fails, as at a singular configuration. The last is
 /// for an answer that is singular twice: there one direction's derivative is rounding, which leads the plain step astray, and another's falls
 /// with the square root of the miss, so that the other shares outweigh it while the miss is still more than an answer may have.
@@ -109,8 +116,15 @@ pub const INVERSIONS: usize = 3;
 pub const ALIKE: f64 = 2.5e-15;
 /// A self-motion that is followed to where another's member has its free joints is that other self-motion when the joints come this near.
 pub const ARRIVED: f64 = 1e-3;
-/// In how many stages a self-motion is followed from one member to another.
-pub const STAGES: usize = 4;
+/// The shortest, the first and the longest step (rad, or relative to the length scale) of a free joint from one member of a self-motion to another.
+/// One that is barred by less than the shortest is taken for one.
+pub const ALONG: [f64; 3] = [6e-3, 2.5e-2, 0.2];
+/// Where a step brings other joints farther than this from the line of the step before, it may lead to another self-motion: a shorter one is made.
+pub const LEAPT: f64 = 0.1;
+/// Where the equations are missed by more than this behind a few Newton steps, the joints do not follow.
+pub const ASTRAY: f64 = 1e-4;
+/// The most steps from one member to another.
+pub const PACES: usize = 100;
 /// A target's rotation or unit vector may be this far from one.
 pub const CONSISTENT: f64 = 1e-9;
 /// How far (rad, or the unit of length) a joint may be beyond a limit: rounding makes that of a joint at its limit.

@@ -47,6 +47,27 @@ fn squares_miss_by_little_or_have_no_root() {
     assert!(f64::square_roots(-1e-12, 1.0).doubt(0) && !f64::square_roots(-1.0, 1.0).doubt(0));
 }
 
+/// The tangent of half of 169 degrees: a double root that misses the axis by 1e-5 of the terms there.
+#[test]
+fn the_tangent_of_half_an_angle_is_measured_where_it_is() {
+    let mut raised = with_roots(&[-1.0, 0.5, 10.0, 10.0]);
+    let size = raised.iter().rev().fold(0.0, |size: f64, a| size * 10.0 + a.abs());
+    raised[0] += 1e-5 * size * 1.0_f64.copysign(raised[4]);
+    let exact: Roots<f64, 4> = f64::half_angle_roots(&raised, 1.0);
+    assert_eq!(exact.count(), 2, "{:?}", exact.as_slice());
+    // 40^4 times the 1e-10 of rounding are 2.6e-4 of the greatest term.
+    let spread: Roots<f64, 4> = f64::half_angle_roots(&raised, 40.0);
+    assert!(
+        spread.count() == 3 && spread.doubt(2) && (spread.as_slice()[2] - 10.0).abs() < 0.1,
+        "{:?}",
+        spread.as_slice()
+    );
+    let wide: Vec<Lanes<2>> = raised.iter().map(|a| Lanes([*a, *a])).collect();
+    let lanes: Roots<Lanes<2>, 4> = Lanes::half_angle_roots(&wide, Lanes([1.0, 40.0]));
+    assert_eq!(lanes.as_slice()[2].0[1], spread.as_slice()[2]);
+    assert!(lanes.as_slice()[2].0[0].is_nan());
+}
+
 #[test]
 fn the_first_polynomial_that_leads_is_solved() {
     let roots: Roots<f64, 2> = f64::real_roots(&[&[1.0, 1.0, 1e-12], &[-2.0, 1.0]], 1.0);

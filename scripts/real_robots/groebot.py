@@ -1,5 +1,6 @@
 """Runs `groebot derive` and `groebot solve`, and reads what they wrote."""
 
+import collections
 import csv
 import json
 import os
@@ -77,6 +78,8 @@ def derive(program: Path, chain: Chain, folder: Path, budget: float) -> Run:
     command = [str(program), "derive", str(chain.path()), "--base", chain.base, "--tip", chain.tip, "--task", chain.task]
     if chain.direction:
         command += ["--direction", chain.direction]
+    if chain.given:
+        command += ["--given", chain.given]
     return run([*command, "--out", str(folder), "--time", f"{budget:g}"], most=budget + 60)
 
 
@@ -102,6 +105,13 @@ def _answers(output: str, derivation: Derivation, count: int) -> Answers:
             answers.solutions[int(row[0]) - 1].append(dict(zip(derivation.joints, map(float, row[values]))))
             answers.free += bool(row[free])
     return answers
+
+
+def weak_spots(derivation: Derivation) -> str:
+    """The failing rows of 6_check.csv, by kind of target and fault: such as `3 singular: missing`."""
+    with open(derivation.folder / "6_check.csv", newline="") as file:
+        failing = [(row["kind"], row["verdict"].removeprefix("FAIL ")) for row in csv.DictReader(file) if row["verdict"].startswith("FAIL")]
+    return "; ".join(f"{count} {kind}: {fault}" for (kind, fault), count in collections.Counter(failing).items())
 
 
 def reason(done: Run) -> str:

@@ -32,6 +32,10 @@ class Row:
     task: str
     status: str = "failed"
     reason: str = ""
+    exit: int = 0
+    """The exit status of `groebot derive`."""
+    weak: str = ""
+    """Which targets of its check fail, where that is WEAK_SPOTS."""
     joints: int = 0
     given: str = ""
     wall: float = math.nan
@@ -66,11 +70,12 @@ def row(chain: Chain, program: Path, out: Path, budget: float, count: int) -> Ro
         return result
     result.joints = len(witness.joints)
     done = groebot.derive(program, chain, out / chain.id, budget)
-    result.wall, result.cpu = done.wall, done.cpu
+    result.wall, result.cpu, result.exit = done.wall, done.cpu, done.status
     if done.status not in (0, WEAK_SPOTS):
         result.status, result.reason = "refused", groebot.reason(done)
         return result
     derivation = groebot.Derivation.read(out / chain.id)
+    result.weak = groebot.weak_spots(derivation)
     _describe(result, derivation)
     _solve(result, program, Task(chain, witness, derivation), count)
     return result

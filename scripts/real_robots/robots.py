@@ -20,6 +20,7 @@ class Chain:
     tip: str
     task: str = "pose"
     direction: str = ""
+    given: str = ""
     ci: bool = False
 
     @property

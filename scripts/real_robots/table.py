@@ -21,10 +21,12 @@ within their limits, and checks every answer ([scripts/real_robots](../scripts/r
   parentheses tell how many of the ordinary ones are.
 * *residual*: the most by which a coordinate (metres, entries of a rotation) of an answer's pose differs from the target.
 * *C*, *Rust*: the printed solvers, in kilobytes.
+* *exit*: the exit status of `derive`. 3 is a solver that was written, and whose check (`6_check.csv`, 240 targets, half of them singular or next
+  to such) failed at singular targets; they are listed below the table.
 """
 
-COLUMNS = ("robot", "chain", "joints", "task", "seconds", "solutions", "found", "residual", "C", "Rust")
-RULE = "| --- | --- | --: | --- | --: | --: | --: | --: | --: | --: |"
+COLUMNS = ("robot", "chain", "joints", "task", "seconds", "solutions", "found", "residual", "C", "Rust", "exit")
+RULE = "| --- | --- | --: | --- | --: | --: | --: | --: | --: | --: | --: |"
 
 
 def page(rows: list[Row], command: str) -> str:
@@ -43,9 +45,9 @@ def _line(row: Row) -> str:
     seconds = f"{row.cpu:.2f}" if row.cpu == row.cpu else ""
     start = [row.robot, f"`{row.id}`", str(row.joints), task, seconds]
     if row.status != "derived":
-        return _cells([*start, "", f"{row.status}: {shortened(row.reason)}", "", "", ""])
+        return _cells([*start, "", f"{row.status}: {shortened(row.reason)}", "", "", "", str(row.exit)])
     sizes = [f"{size / 1000:.0f}" for size in (row.c_bytes, row.rust_bytes)]
-    return _cells([*start, f"{row.most} of {row.complex_solutions}", found(row), f"{row.residual:.0e}", *sizes])
+    return _cells([*start, f"{row.most} of {row.complex_solutions}", found(row), f"{row.residual:.0e}", *sizes, str(row.exit)])
 
 
 def found(row: Row) -> str:
@@ -72,8 +74,14 @@ def _totals(rows: list[Row]) -> list[str]:
         f"of ordinary poses {_share(derived, 'ordinary_found', 'ordinary')}.",
         f"* A derivation takes {statistics.median(seconds):.2f} s in the median, {max(seconds):.1f} s at most. A solver in C has "
         f"{statistics.median(sizes):.0f} KB in the median, {max(sizes):.0f} KB at most.",
-        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers stand twice.",
+        *_weak([row for row in derived if row.weak]),
+        f"* The largest residual is {max(row.residual for row in derived):.0e}; {sum(row.doubles for row in derived)} answers are duplicates.",
     ]
+
+
+def _weak(rows: list[Row]) -> list[str]:
+    """How many derivations end with status 3, and at what targets each."""
+    return [f"* {len(rows)} derivations end with status 3" + (":" if rows else "."), *(f"  * `{row.id}`: {row.weak}" for row in rows)]
 
 
 def _share(rows: list[Row], part: str, whole: str) -> str:

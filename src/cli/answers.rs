@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::columns::heading;
+use super::following::{followers, leaders};
 use super::json::FORMAT;
 use crate::kinematics::{Placed, Solution};
 use crate::solver::{Joint, Program, Unit};
@@ -111,6 +112,7 @@ pub fn text(answer: &Answer<'_>) -> String {
     let mut rows = vec![header(program)];
     rows.extend(answer.solutions.iter().map(|solution| cells(answer, solution)));
     text += &table(&rows);
+    text += &followers(program.joints.iter().map(|joint| joint.name.as_str()).zip(program.follows()));
     if answer.solutions.iter().any(|solution| !solution.free.is_empty()) {
         text += "  A free joint may take any value: the row is one member of a self-motion.\n";
     }
@@ -167,6 +169,9 @@ struct Page<'a> {
     target: &'a [f64],
     unit: Units<'a>,
     joints: Vec<&'a str>,
+    /// By joint the one that it follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follows: Option<Vec<Option<&'a str>>>,
     solutions: Vec<Entry<'a>>,
     /// Why there is no solution, where that is known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -212,6 +217,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
             joints: program.joints.iter().map(|joint| answer.angles.symbol(joint.unit)).collect(),
         },
         joints: program.joints.iter().map(|joint| joint.name.as_str()).collect(),
+        follows: leaders(program.follows().into_iter()),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),
     };

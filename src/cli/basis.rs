@@ -49,7 +49,7 @@ pub struct Arguments {
     /// Prove the basis and write the proof, by default beside FILE as NAME.certificate.json
     #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
     certificate: Option<Option<PathBuf>>,
-    /// Tell the basis at every value of the parameters: strata of the parameter space, in words, proved
+    /// Print the basis at every value of the parameters: strata of the parameter space, in words, proved
     #[arg(long, conflicts_with_all = ["certificate", "eliminate", "output_format", "prove"])]
     cover: bool,
     /// Let nothing rest on primes or chance: prove the basis, or take exact steps alone

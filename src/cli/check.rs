@@ -60,8 +60,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let motion = motion.map(|verdict| verdict.map(|proof| proof.to_string()));
     findings.extend(motion.map(|verdict| Finding { what: DYNAMICS.to_owned(), verdict }));
     if arguments.json {
-        console::print(&json::text(&told(&findings)))?;
+        console::print(&json::text(&told(&findings, &source.notes)))?;
     } else {
+        console::tell(&source.notes);
         console::print(&page(&findings, Paint::of(&std::io::stdout())))?;
     }
     match findings.iter().find_map(|finding| finding.verdict.as_ref().err()) {
@@ -222,13 +223,14 @@ fn differs(what: &str) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
-fn told(findings: &[Finding]) -> serde_json::Value {
+fn told(findings: &[Finding], notes: &[String]) -> serde_json::Value {
     let one = |Finding { what, verdict }: &Finding| {
         let text = verdict.as_ref().map_or_else(ToString::to_string, Clone::clone);
         serde_json::json!({ "what": what, "holds": verdict.is_ok(), "text": text })
     };
     let holds = findings.iter().all(|finding| finding.verdict.is_ok());
-    serde_json::json!({ "format": json::FORMAT, "holds": holds, "findings": findings.iter().map(one).collect::<Vec<_>>() })
+    let findings: Vec<_> = findings.iter().map(one).collect();
+    serde_json::json!({ "format": json::FORMAT, "holds": holds, "findings": findings, "notes": notes })
 }
 
 fn page(findings: &[Finding], paint: Paint) -> String {

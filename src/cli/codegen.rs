@@ -26,7 +26,7 @@ const EXAMPLES: &str = "Examples:
   groebot codegen derivations/ur5 --lang rust --single-file -o src/ur5.rs
   groebot codegen derivations/nao_leg_sagittal --lang latex -o leg.tex
 
-The head of each file says how it is used; docs/generated_code.md and docs/ikfast.md tell more.";
+The head of each file describes its use; see also docs/generated_code.md and docs/ikfast.md.";
 
 /// Prints the solver of a derivation as C, Rust or IKFast's C++, or its formulas as LaTeX
 #[derive(clap::Args)]

@@ -135,12 +135,13 @@ impl Columns {
         if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
             return Err(self.unknown(unknown));
         }
-        // In tables that these commands write, a joint may have the name of a number of the pose, and a given joint stands twice.
+        // In tables that these commands write, a joint may have the name of a number of the pose, and a given joint has two columns.
         let is_written = names.iter().any(|name| name == "outside_limits");
         let is_repeated =
             |(place, name): &(usize, &str)| !is_written && names.iter().take(*place).any(|before| before == *name);
         if let Some((place, name)) = names.iter().enumerate().find(is_repeated) {
-            let text = format!("column {} of the first row, `{}`, stands twice; give it once", place + 1, shown(name));
+            let text =
+                format!("column {} of the first row, `{}`, is given twice; give it once", place + 1, shown(name));
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
         let solutions = names.iter().position(|name| name == "solutions");
@@ -171,7 +172,7 @@ impl Columns {
         }
     }
 
-    /// Whether a column of this name is read or passed over.
+    /// Whether a column of this name is read or ignored.
     fn is_known(&self, name: &str) -> bool {
         let bare = split(name).0;
         let own = self.forms.iter().flatten().map(|field| field.name.as_str());
@@ -201,7 +202,7 @@ impl Columns {
             }
         }
         let text = format!(
-            "the column `{}` is not known; {} are read, and passed over are joints, poses and {}",
+            "the column `{}` is not known; allowed: {}; ignored: joints, poses and {}",
             shown(name),
             read.join(", "),
             BESIDE.join(", ")

@@ -174,7 +174,9 @@ pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::
         target.join(",")
     );
     let text = if row.is_weak_spot() {
-        format!("at a singular target an answer is wrong or missing (without --strict that is told, no error): {text}")
+        format!(
+            "at a singular target an answer is wrong or missing (without --strict it is reported, and no error): {text}"
+        )
     } else {
         format!("at an ordinary target an answer is wrong or missing: {text}")
     };

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::derive::explain::{Line, Part};
 use crate::derive::{Ends, Source};
 use crate::document::shown;
 use crate::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
@@ -111,6 +112,12 @@ impl TipLink {
     pub fn note(&self) -> Option<String> {
         let text = || format!("tip link `{}`: {}; --tip chooses another", shown(&self.name), self.chosen_by);
         (!self.is_given).then(text)
+    }
+
+    /// That sentence as a paragraph of a report.
+    pub fn paragraph(&self) -> Option<Part> {
+        let line = || Line::of("Tip link ").name(&self.name).and(&format!(": {}; ", self.chosen_by));
+        (!self.is_given).then(|| Part::Paragraph(line().name("--tip").and(" chooses another.")))
     }
 
     /// That sentence as a line of its own.

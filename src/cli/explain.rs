@@ -1,8 +1,8 @@
-//! `groebot explain`: the derivation told to a student, as Markdown or as LaTeX.
+//! `groebot explain`: the derivation explained to a student, as Markdown or as LaTeX.
 
 use std::path::{Path, PathBuf};
 
-use super::ends::EndArguments;
+use super::ends::{EndArguments, TipLink};
 use super::files::is_derived;
 use super::{Outcome, check, console};
 use crate::Watch;
@@ -17,7 +17,7 @@ const EXAMPLES: &str = "Examples:
 
 /// Explains a derivation: its equations, what cancels, bases, branches, singularities
 ///
-/// A folder's stored proof is checked again, as by `groebot check`, and what it proves is told; a file is derived first.
+/// A folder's stored proof is checked again, as by `groebot check`, and its derivation is explained; a file is derived first.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -36,7 +36,11 @@ pub struct Arguments {
 
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let document = told(&arguments.input, &arguments.ends.ends()?)?;
+    let (source, mut document) = told(&arguments.input, &arguments.ends.ends()?)?;
+    console::tell(&source.notes);
+    // A stored proof is of its own tip link.
+    let tip = TipLink::of_source(&source).filter(|_| !is_derived(&arguments.input));
+    document.parts.splice(..0, tip.as_ref().and_then(TipLink::paragraph));
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
     match &arguments.output {
         None => console::print(&text),
@@ -49,13 +53,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// # Errors
 /// As [`Source::read`], [`check::reprove`] and [`explain`].
 pub(super) fn document(input: &Path) -> crate::Result<Document> {
-    told(input, &Ends::default())
+    told(input, &Ends::default()).map(|(_, document)| document)
 }
 
-fn told(input: &Path, ends: &Ends) -> crate::Result<Document> {
+fn told(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
     let mut source = Source::read_between(input, ends)?;
     source.choose_given(&Watch::none())?;
-    explain(&prove(input, &source)?)
+    let document = explain(&prove(input, &source)?)?;
+    Ok((source, document))
 }
 
 /// From the stored proof where there is one.

@@ -81,7 +81,7 @@ impl Arguments {
     /// The robot in a format that tells no motion.
     fn robot(&self) -> Result<String> {
         if ["csv", "json", "wrl"].iter().any(|end| moving::ends(&self.input, end)) {
-            let text = "urdf and mjcf tell a robot, no motion and no scene; give --to glb, x3d or wrl, or a robot";
+            let text = "urdf and mjcf describe a robot, no motion and no scene; give --to glb, x3d or wrl, or a robot";
             return Err(refused(text).in_file(&self.input));
         }
         if self.robot.is_some() || self.meshes {
@@ -96,7 +96,8 @@ impl Arguments {
         let file = &self.input;
         let motion = moving::motion(file)?.map(|motion| motion.trajectory);
         if motion.is_none() && self.robot.is_some() {
-            let text = "--robot says who moves, but this is no motion; give one in CSV or JSON, or leave it out";
+            let text =
+                "--robot names the robot that moves, but this is no motion; give one in CSV or JSON, or leave it out";
             return Err(refused(text).in_file(file));
         }
         if moving::ends(file, "wrl") {

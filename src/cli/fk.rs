@@ -20,10 +20,10 @@ const EXAMPLES: &str = "Examples:
   groebot fk robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
   groebot fk robot.urdf --tip tool0 < joints.csv > poses.csv
 
-Joint values stand in the order of the chain, base to tip; `groebot info` shows it. Angles are in radians, or in degrees with
---degrees; lengths are in the unit of the description. A CSV may start with a line of the joints' names, which then says the order of
-its columns: A1_deg or A1_rad is A1 in that unit. What else `fk`, `ik` and `solve` write is passed over, and so are targets without a solution; another
-name is refused. A value outside its limits is told, and is no error.";
+Joint values are in the order of the chain, base to tip; `groebot info` shows it. Angles are in radians, or in degrees with
+--degrees; lengths are in the unit of the description. A CSV may start with a line of the joints' names, which then gives the order of
+its columns: A1_deg or A1_rad is A1 in that unit. Other columns that `fk`, `ik` and `solve` write are ignored, and so are targets without a solution; another
+name is refused. A value outside its limits is reported, and is no error.";
 
 /// Forward kinematics: the pose of the tip for joint values
 #[derive(clap::Args)]
@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Description::Robot(robot) => robot.joints().iter().map(|joint| joint.name.clone()).collect(),
         _ => Vec::new(),
     };
-    let notes = input.passed_over(&ends)?;
+    let notes = input.ignored(&ends)?;
     if !arguments.json {
         console::tell(&notes);
     }

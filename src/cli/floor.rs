@@ -16,7 +16,7 @@ use crate::{Error, ErrorKind, Result};
 /// How a map is read, and what of its furniture is moved.
 #[derive(clap::Args)]
 pub struct FloorArguments {
-    /// The side of a cell of a map that does not tell it [m]
+    /// The side of a cell of a map whose file does not give it [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.05, allow_hyphen_values = true)]
     resolution: f64,
     /// Take cells that have not been seen to be free
@@ -98,7 +98,7 @@ pub fn moved(told: &str) -> Result<(&str, Option<Footprint>)> {
 /// Where a walk begins and ends.
 #[derive(clap::Args)]
 pub struct PlaceArguments {
-    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]; the start that a room tells, or 0,0
+    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]; the start that a room gives, or 0,0
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
     /// Where it is to get, and to look there

@@ -32,7 +32,7 @@ const EXAMPLES: &str = "Examples:
 poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and may begin with time (seconds); a row of names is optional. Of all
 solutions within the limits the path has the fewest jumps between branches, and of such paths the shortest. A step is a jump where a joint goes
 further than its speed (velocity in the URDF) allows in the time, or without times or speeds more than half a radian or a tenth of the reach. Each
-jump is told with its place and reason; with --strict it is an error.";
+jump is reported with its place and reason; with --strict it is an error.";
 
 /// Follows poses by the solutions that stay continuous
 #[derive(clap::Args)]
@@ -46,7 +46,7 @@ pub struct Arguments {
     /// The poses, CSV; `-`: from standard input
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
-    /// The time between two poses, where the file tells none; without it joints may be as fast as they like [s]
+    /// The time between two poses, where the file has none; without it joints may be as fast as they like [s]
     #[arg(long, value_name = "SECONDS")]
     every: Option<f64>,
     /// Where the path goes, CSV: a trajectory
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;
     if !arguments.quiet {
-        console::tell(&input.passed_over(&ends)?);
+        console::tell(&input.ignored(&ends)?);
     }
     let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;

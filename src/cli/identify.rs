@@ -18,10 +18,10 @@ const EXAMPLES: &str = "Examples:
 
 log.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description), v0.., a0.. and tau0.., of motions that were measured.
 
-Told are the base parameters, sums of what bodies weigh (m, mx, my, mz: mass, and mass times centre; Ixx to Izz: inertia about the origin; each in the frame of its
-link, with what is fixed to it) which alone matter for motion, with 95 % confidence, and whether bodies can weigh that.";
+Reported are the base parameters, sums of the inertial parameters of bodies (m, mx, my, mz: mass, and mass times centre; Ixx to Izz: inertia about the origin; each in the frame of its
+link, with the links fixed to it) which alone matter for motion, with 95 % confidence, and whether bodies can have them.";
 
-/// Tells what bodies weigh by least squares on base parameters, from a log of motions and torques
+/// Identifies inertial parameters by least squares on base parameters, from a log of motions and torques
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -56,6 +56,8 @@ struct Report<'a> {
     /// In words, and, where bodies can weigh it, what they do.
     consistency: String,
     bodies: Vec<(String, f64)>,
+    /// What of the robot's file was ignored.
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -76,13 +78,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let log = read(arguments)?;
     let found = equations.identify(&log, arguments.friction).map_err(|error| error.in_file(&arguments.log))?;
     let names = equations.parameter_names();
-    let report = report(&found, log.len(), equations.joints(), &names);
+    let report = Report { notes: &robot.parts().notes, ..report(&found, log.len(), equations.joints(), &names) };
     if let Some(file) = &arguments.out {
         write_atomically(file, table(&report).as_bytes())?;
     }
     if arguments.json {
         return console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"));
     }
+    console::tell(report.notes);
     console::print(&text(&report))
 }
 
@@ -124,6 +127,7 @@ fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], name
         consistent,
         consistency,
         bodies,
+        notes: &[],
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Arguments {
     /// JSON, of a chain or a robot
     #[arg(long)]
     json: bool,
-    /// Joint values of a robot at which its centre of mass is told, in the order in which they are listed [rad or m] [default: all zero]
+    /// Joint values of a robot at which its centre of mass is computed, in the order in which they are listed [rad or m] [default: all zero]
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     q: Option<Vec<f64>>,
 }

@@ -7,6 +7,7 @@ use num_traits::ToPrimitive;
 use serde_json::{Value, json};
 
 use super::ends::TipLink;
+use super::following::leaders;
 use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Candidate, Choice};
 use crate::derive::{Proved, Source, System};
@@ -39,6 +40,7 @@ impl Told<'_> {
             "task": program.about.as_ref().map(|about| about.task.as_str()),
             "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
             "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
+            "follows": leaders(program.follows().into_iter()),
             "solutions": self.derivation.dimension(),
             "method": method(self.derivation),
             "ideal": self.source.ideal.as_ref().map(|(_, report)| ideal(report)),
@@ -170,8 +172,8 @@ pub fn system(system: &System) -> Value {
     })
 }
 
-/// The order of subproblems of a chain.
-pub fn plan(chain: &Chain, plan: &Plan, tip: Option<&TipLink>) -> Value {
+/// The order of subproblems of a chain, and what of its robot was ignored.
+pub fn plan(chain: &Chain, plan: &Plan, notes: &[String], tip: Option<&TipLink>) -> Value {
     let steps = plan.steps.iter().map(|step| {
         let joints: Vec<&str> = step.joints.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect();
         json!({ "subproblem": step.subproblem.name(), "joints": joints, "answers": step.answers, "text": step.text })
@@ -183,6 +185,7 @@ pub fn plan(chain: &Chain, plan: &Plan, tip: Option<&TipLink>) -> Value {
         "tip_link": tip,
         "steps": steps.collect::<Vec<_>>(),
         "solutions": plan.most_solutions(),
+        "notes": notes,
     })
 }
 

@@ -1,7 +1,7 @@
 //! The command-line tool: one file a subcommand.
 //!
 //! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no way, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no path, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
 
 mod algebra;
 mod answers;
@@ -24,6 +24,7 @@ mod files;
 mod fk;
 mod floor;
 mod follow;
+mod following;
 mod forms;
 mod identify;
 mod ik;
@@ -80,7 +81,7 @@ const EXAMPLES: &str = "Examples:
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no way, 5 the robot falls, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no path, 5 the robot falls, 130 interrupted.";
 
 /// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
 #[derive(Parser)]
@@ -118,15 +119,15 @@ enum Command {
 
 /// Why a subcommand ends early.
 enum Halt {
-    /// An error that is still to be told.
+    /// An error that is still to be reported.
     Error(Error),
     /// Nobody reads standard output any more.
     PipeClosed,
-    /// There is no way; that has been told.
+    /// There is no path; that has been reported.
     NoWay,
-    /// A robot fell; that has been told.
+    /// A robot fell; that has been reported.
     Fell,
-    /// A solver was derived and written, and misses answers at some singular targets; that has been told.
+    /// A solver was derived and written, and misses answers at some singular targets; that has been reported.
     WeakSpots,
 }
 

@@ -1,4 +1,4 @@
-//! `groebot navigate`: a humanoid finds its way over a map, step by step.
+//! `groebot navigate`: a humanoid plans its path over a map, step by step.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -25,12 +25,12 @@ const EXAMPLES: &str = "Examples:
   groebot navigate rh0 --map living_room.toml --furniture piano=1.2,0.4 --goal 4,3
   groebot navigate talos.urdf --left left_sole_link --right right_sole_link --map room.yaml --goal 3,1
 
-Metres, and degrees for headings; radians in files. The way is that of the middle of the feet: first with room for the robot however it is turned, where there is none with room for
+Metres, and degrees for headings; radians in files. The path is that of the middle of the feet: first with room for the robot however it is turned, where there is none with room for
 the core of its body. Steps follow it as far as legs and limits reach, or are searched where that fails; each is a walk of its own by one step goal,
 checked at every sample: soles on free cells, the body so far from obstacles, joints within limits and speeds, the zero moment point within its margin.
-Where there is no way the exit status is 4, and picture and JSON show the cells that enclose start or goal.";
+Where there is no path the exit status is 4, and picture and JSON show the cells that enclose start or goal.";
 
-/// Finds the way of a humanoid over a map, its footsteps, and the joint angles of the walk
+/// Plans the path of a humanoid over a map, its footsteps, and the joint angles of the walk
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -46,7 +46,7 @@ pub struct Arguments {
     floor: FloorArguments,
     #[command(flatten)]
     places: PlaceArguments,
-    /// How the way is found
+    /// How the path is found
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
     /// The body from above, instead of what the description's shapes say: how long and how wide [m]
@@ -61,10 +61,10 @@ pub struct Arguments {
     /// Where the joint angles go: CSV, or JSON when the name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where the picture of map, way and footsteps goes, SVG
+    /// Where the picture of map, path and footsteps goes, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Way, footsteps and refused steps as JSON instead of the summary
+    /// Path, footsteps and refused steps as JSON instead of the summary
     #[arg(long)]
     json: bool,
     /// No progress and no summary
@@ -74,7 +74,7 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 pub(super) enum MethodName {
-    /// The shortest way
+    /// The shortest path
     Exact,
     /// Down a field of fast marching
     Fmm,
@@ -88,6 +88,7 @@ pub(super) enum MethodName {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
+    let notes = named.robot.parts().notes.clone();
     let (map, told) = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
@@ -106,7 +107,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     if arguments.json {
-        console::print(&super::json::text(&arguments.told(&pilot, &found, milliseconds)))?;
+        let mut told = arguments.told(&pilot, &found, milliseconds);
+        told["notes"] = notes.into();
+        console::print(&super::json::text(&told))?;
+    } else if !arguments.quiet {
+        console::tell(&notes);
     }
     match found {
         Ok(_) if arguments.json || arguments.quiet => Ok(()),
@@ -194,7 +199,7 @@ fn steps(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Us
     };
     let usual = usual.filter(|usual| usual.gait.is_one_step());
     usual.ok_or_else(|| {
-        bad("a way is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has")
+        bad("a path is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has")
     })
 }
 

@@ -11,7 +11,7 @@ use crate::{Error, ErrorKind, Result};
 /// The links between which joints move, and gravity.
 #[derive(clap::Args)]
 pub struct PartArguments {
-    /// The link from which joints move: those that do not lie between it and the tip stand still at zero
+    /// The link from which joints move: those that are not between it and the tip are held at zero
     #[arg(long, value_name = "LINK")]
     pub base: Option<String>,
     /// The link up to which joints move

@@ -18,13 +18,13 @@ use crate::{Error, ErrorKind, Result, Watch};
 const EXAMPLES: &str = "Examples:
   groebot path map.pgm --start 1,1 --goal 8,5
   groebot path room.yaml --start 1,1 --goal 8,5 --radius 0.2 --method fmm --json
-  groebot path maze.map --resolution 1 --start 0.5,0.5 --goal 40.5,30.5 --method octile -o way.csv
+  groebot path maze.map --resolution 1 --start 0.5,0.5 --goal 40.5,30.5 --method octile -o path.csv
 
-Metres. `exact` is the shortest way for a point; it may touch obstacles, which --radius grows. `fmm` goes down a field of fast marching and `m3r` down one of the thesis' own, over the
-middles of cells; `octile` is the shortest way over eight neighbours, from the middle of a cell to that of another one. A map without speeds has a field in metres. Where there is no way the exit status is 4, and what is told is a set of cells that no
-way leaves.";
+Metres. `exact` is the shortest path for a point; it may touch obstacles, which --radius grows. `fmm` goes down a field of fast marching and `m3r` down one of the thesis' own, over the
+middles of cells; `octile` is the shortest path over eight neighbours, from the middle of a cell to that of another one. A map without speeds has a field in metres. Where there is no path the exit status is 4, and the output is a set of cells that no
+path leaves.";
 
-/// Finds a way over a map
+/// Finds a path over a map
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -42,7 +42,7 @@ pub struct Arguments {
     /// How it is found
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
-    /// Pull the way taut as a string
+    /// Pull the path taut as a string
     #[arg(long)]
     taut: bool,
     /// Round its corners by arcs of this radius where the map leaves room [m]; points are then a twentieth of a cell apart
@@ -51,7 +51,7 @@ pub struct Arguments {
     /// Keep obstacles, and what has not been seen, the radius of a round robot away [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true)]
     radius: f64,
-    /// Where the corners of the way go, CSV
+    /// Where the corners of the path go, CSV
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// JSON instead of text
@@ -61,13 +61,13 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// The shortest way; the quickest one where the map tells speeds
+    /// The shortest path; the quickest one where the map has speeds
     Exact,
     /// Down a field of fast marching
     Fmm,
     /// Down a field of the thesis' M3R
     M3r,
-    /// The shortest way over eight neighbours
+    /// The shortest path over eight neighbours
     Octile,
     /// Down an artificial potential field, which may be stuck
     Potential,
@@ -199,7 +199,7 @@ impl Found {
                 let rows: String =
                     way.points.iter().map(|point| format!("  {:.4} {:.4}\n", point.x, point.y)).collect();
                 format!(
-                    "way of {:.4} m{proved}, {} points, {milliseconds:.2} ms\n{rows}",
+                    "path of {:.4} m{proved}, {} points, {milliseconds:.2} ms\n{rows}",
                     way.length(),
                     way.points.len()
                 )
@@ -207,7 +207,7 @@ impl Found {
             Err(enclosure) => {
                 let area = enclosure.cells.len() as f64 * map.resolution().powi(2);
                 format!(
-                    "there is no way: {} cells ({area:.2} m^2) that no way leaves enclose start or goal, {milliseconds:.2} ms\n",
+                    "there is no path: {} cells ({area:.2} m^2) that no path leaves enclose start or goal, {milliseconds:.2} ms\n",
                     enclosure.cells.len()
                 )
             }

@@ -114,7 +114,7 @@ impl Stage {
         };
         if !status.success() {
             let errors = fs::read_to_string(at("errors.txt")).unwrap_or_default();
-            let last = errors.lines().last().unwrap_or("it tells nothing");
+            let last = errors.lines().last().unwrap_or("no message");
             return Err(match status.code() {
                 Some(NO_MUJOCO) => self.no_mujoco(last),
                 _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo does not play this: {last}")),
@@ -122,7 +122,7 @@ impl Stage {
         }
         let told = read_text(&at("told.json"), TOLD_LIMIT)?;
         let told = serde_json::from_str(&told).map_err(|error| {
-            Error::new(ErrorKind::Syntax, format!("what {} tells is not understood: {error}", self.python.display()))
+            Error::new(ErrorKind::Syntax, format!("the output of {} is not understood: {error}", self.python.display()))
         })?;
         Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, told))
     }

@@ -17,7 +17,7 @@ const EXAMPLES: &str = "Examples:
   groebot plan robot.urdf --base base_link --tip tool0
   groebot plan derivations/nao_leg_sagittal
 
-Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-Geo; docs/subproblems.md tells each.";
+Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-Geo; docs/subproblems.md describes each.";
 
 /// Prints how screw theory solves a chain: which joints cancel, which subproblem is left
 #[derive(clap::Args)]
@@ -63,6 +63,11 @@ impl Asked {
     /// The link where it ends, of a robot.
     pub fn tip(&self) -> Option<TipLink> {
         TipLink::of_source(&self.source)
+    }
+
+    /// What of a robot was ignored.
+    pub fn notes(&self) -> &[String] {
+        &self.source.notes
     }
 
     /// Its screw solver.
@@ -114,9 +119,7 @@ impl Mechanism {
         if let Some(chain) = self.known_robot()? {
             return Source::of_chain(self.ends.ask(chain)?, &ends);
         }
-        let source = Source::of(InputFile::read(&self.input)?, &ends)?;
-        console::tell(&source.notes);
-        Ok(source)
+        Source::of(InputFile::read(&self.input)?, &ends)
     }
 
     /// A robot of [`robots`], where no file has its name.
@@ -145,8 +148,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let asked = arguments.mechanism.asked()?;
     let (chain, solver, tip) = (asked.chain()?, asked.solver()?, asked.tip());
     if arguments.json {
-        return console::print(&json::text(&json::plan(chain, solver.plan(), tip.as_ref())));
+        return console::print(&json::text(&json::plan(chain, solver.plan(), asked.notes(), tip.as_ref())));
     }
+    console::tell(asked.notes());
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
     let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(told_choice).unwrap_or_default();
     console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.asked(), solver.plan()))

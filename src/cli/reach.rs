@@ -27,7 +27,7 @@ const EXAMPLES: &str = "Examples:
   groebot reach derivations/iiwa14 --given 0.5 --measure limits --plot within.svg
   groebot view derivations/ur5 --reach ur5.json -o ur5.html
 
-An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, as far as the chain is long about its first joint. At each place are orientations, spread evenly over all that the task tells apart: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
+An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, as far as the chain is long about its first joint. At each place are orientations, spread evenly over all that the task distinguishes: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
 manipulability (of each orientation that of the best answer).";
 
 /// Counts what a derived solver reaches, place by place

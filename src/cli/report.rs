@@ -49,7 +49,7 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
         Proved::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
     }
     meant(&mut page, told);
-    passed_over(&mut page, told);
+    ignored(&mut page, told);
     checks(&mut page, told.checked);
     written(&mut page, told);
     Ok(page.text)
@@ -91,7 +91,7 @@ fn meant(page: &mut Page, told: &Report<'_>) {
 }
 
 /// What of the description was ignored.
-fn passed_over(page: &mut Page, told: &Report<'_>) {
+fn ignored(page: &mut Page, told: &Report<'_>) {
     if !told.source.notes.is_empty() {
         page.heading("Notes");
         told.source.notes.iter().for_each(|note| page.line(note));

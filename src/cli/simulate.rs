@@ -1,4 +1,4 @@
-//! `groebot simulate`: a walk is played open loop in MuJoCo, and what the robot does stands beside what was planned.
+//! `groebot simulate`: a walk is played open loop in MuJoCo, and compared with the plan.
 
 use std::path::PathBuf;
 
@@ -28,12 +28,12 @@ MuJoCo is an outside program: a Python with it is GROEBOT_PYTHON, or python3 (py
 
 Motors: position servos of one kind, torque = stiffness (command - q) - damping (q' - planned q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness
 in m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, m the robot's mass, l 0.63 of the height of its torso. Nothing is fed back but the servos' own angles. A body that is
-described as a point has moments 0.2 m l^2. Where the walk tells torques (`walk --torques`) the sag that they foretell stands beside the answer's deviation.
+described as a point has moments 0.2 m l^2. Where the walk has torques (`walk --torques`) the sag that they predict is reported beside the answer's deviation.
 The answer is a trajectory of the same times until the robot falls: joints, base, soles and whether they press, ZMP by the contact forces of 20 ms, torques.
 
 The exit status is 5 when the robot falls, of --vary when it falls in any run.";
 
-/// Plays a walk open loop in MuJoCo, and tells how far joints, zero moment point and way are from the plan
+/// Plays a walk open loop in MuJoCo, and reports how far joints, zero moment point and path are from the plan
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -73,7 +73,7 @@ pub struct Arguments {
     /// How late commands are [s]
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     latency: f64,
-    /// Slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them together: what falls and what stands
+    /// Slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them together: which falls and which does not
     #[arg(long, conflicts_with_all = ["out", "plot", "plot_rates", "plot_torques"])]
     vary: bool,
     /// Give up after this time
@@ -99,6 +99,10 @@ pub struct Arguments {
 /// Plays, compares and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
     let (plan, robot, meshes) = arguments.read()?;
+    let notes = &robot.parts().notes;
+    if !arguments.json {
+        console::tell(notes);
+    }
     let nominal = arguments.case()?;
     let feet = [&arguments.left[..], &arguments.right];
     let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right name the soles"))?;
@@ -107,15 +111,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.vary {
         let runs = varied(&stage, &plan, &nominal, &session.watch)?;
         drop(session);
-        return tell_all(&runs, arguments.json);
+        return tell_all(&runs, notes, arguments.json);
     }
     let (answer, told) = stage.play(&nominal, &session.watch)?;
     drop(session);
     let compared = Comparison::of(&plan, &answer, told.stiffness / nominal.mass)?;
     arguments.write(&plan, &answer, &legs)?;
     if arguments.json {
-        let value =
-            json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared });
+        let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared, "notes": notes });
         console::print(&super::json::text(&value))?;
     } else {
         console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&told), motors(&told)))?;
@@ -250,10 +253,10 @@ fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Re
     cases.iter().enumerate().map(one).collect()
 }
 
-fn tell_all(runs: &[Run], as_json: bool) -> Outcome {
+fn tell_all(runs: &[Run], notes: &[String], as_json: bool) -> Outcome {
     if as_json {
         let run = |Run { case, told, compared }: &Run| json!({ "case": case, "run": told, "comparison": compared });
-        let value = json!({ "format": FORMAT, "runs": runs.iter().map(run).collect::<Vec<_>>() });
+        let value = json!({ "format": FORMAT, "runs": runs.iter().map(run).collect::<Vec<_>>(), "notes": notes });
         console::print(&super::json::text(&value))?;
     } else {
         let rows: String = runs.iter().map(row).collect();
@@ -288,7 +291,7 @@ fn row(Run { case, told, compared }: &Run) -> String {
 
 fn verdict(told: &Told) -> String {
     let Told { mujoco, mass, fell, .. } = told;
-    let fate = fell.map_or("it stands to the end".to_owned(), |time| format!("it falls at {time:.2} s"));
+    let fate = fell.map_or("it does not fall".to_owned(), |time| format!("it falls at {time:.2} s"));
     format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
 }
 

@@ -26,8 +26,8 @@ const EXAMPLES: &str = "Examples:
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 
 Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
-one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then says
-the order of its columns: x_m or x_mm is px in that unit, and so are phi_deg and A1_deg; what else `fk`, `ik` and `solve` write is passed over, another
+one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then gives
+the order of its columns: x_m or x_mm is px in that unit, and so are phi_deg and A1_deg; other columns that `fk`, `ik` and `solve` write are ignored, another
 name is refused. Angles of answers are turned into their joint's limits where whole turns do that. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
 solutions (JSON), or a row with 0 solutions (CSV); of chains that share actuators, text and JSON of a --target say which chain fails, and how.";
 

@@ -107,7 +107,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
     }
 
-    /// The target of a row; none for the row of names, and for one that is passed over.
+    /// The target of a row; none for the row of names, and for one that is ignored.
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {

@@ -29,8 +29,8 @@ const EXAMPLES: &str = "Examples:
   groebot task rh0 --room encirclement --goal 7,3 --then 'chair=2.2,5,30@12' -o task.json
   groebot task nao --room room.toml --start 0.5,0.5 --goal chair --then goal=lamp@10 --json
 
-RH0 5.5: a way through the room, footsteps, joint angles, step by step; what --then tells changes on the way, and the way is found anew from where the robot is. Then every sample is checked again: the distance of each link from each piece of
-furniture, the walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point, limits and speeds of the joints. The exit status is 1 where a check fails, 4 where there is no way.
+RH0 5.5: a path through the room, footsteps, joint angles, step by step; --then changes the room or the goal meanwhile, and the path is planned anew from where the robot is. Then every sample is checked again: the distance of each link from each piece of
+furniture, the walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point, limits and speeds of the joints. The exit status is 1 where a check fails, 4 where there is no path.
 Metres, and degrees for headings and yaws. A goal that names furniture is before it, there where the robot is first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";
 
 /// Lets a humanoid do the full task: through a furnished room to a goal, every sample checked
@@ -57,22 +57,22 @@ pub struct Arguments {
     /// What changes behind so many steps: furniture, or the goal
     #[arg(long, value_name = "NAME=X,Y[,YAW]@STEPS or NAME=none@STEPS or goal=GOAL@STEPS")]
     then: Vec<String>,
-    /// How ways are found
+    /// How paths are found
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
     /// How far the body keeps away from obstacles [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
     apart: f64,
-    /// Where walk, ways and checks go, JSON, which `groebot view` reads
+    /// Where walk, paths and checks go, JSON, which `groebot view` reads
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Where a page goes that shows it, HTML
     #[arg(long, value_name = "FILE")]
     view: Option<PathBuf>,
-    /// Where the picture of room, last way and footsteps goes, SVG; where there is a way
+    /// Where the picture of room, last path and footsteps goes, SVG; where there is a path
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Ways and checks as JSON instead of the summary
+    /// Paths and checks as JSON instead of the summary
     #[arg(long)]
     json: bool,
     /// No progress and no summary
@@ -93,12 +93,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Ok(performed) => performed,
         Err(blocked) => {
             drop(session);
-            return arguments.refuse(&blocked);
+            return arguments.refuse(&blocked, &named.robot.parts().notes);
         }
     };
     let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
     drop(session);
-    let mut told = told(&performed, &checks);
+    let (mut told, notes) = (told(&performed, &checks), named.robot.parts().notes.clone());
     arguments.write(&named, &performed, &told)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
         let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
@@ -107,8 +107,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     if arguments.json {
         (told["format"], told["holds"]) = (FORMAT.into(), checks.hold().into());
+        told["notes"] = notes.into();
         console::print(&super::json::text(&told))?;
     } else if !arguments.quiet {
+        console::tell(&notes);
         console::print(&Summary::of(&named.walker.biped, &performed.walk).to_string())?;
         console::print(&summary(&performed, &checks))?;
     }
@@ -122,7 +124,7 @@ impl Arguments {
             (Some(numbers), _) => start_at(numbers)?,
             (None, Some([x, y, yaw])) => Footprint { x, y, yaw },
             (None, None) => {
-                let text = "the room tells no start; give --start X,Y[,HEADING]";
+                let text = "the room has no start; give --start X,Y[,HEADING]";
                 return Err(Error::new(ErrorKind::MissingKey, text));
             }
         };
@@ -158,10 +160,10 @@ impl Arguments {
     }
 
     /// Tells that there is no way.
-    fn refuse(&self, blocked: &Blocked) -> Outcome {
+    fn refuse(&self, blocked: &Blocked, notes: &[String]) -> Outcome {
         let enclosure = floor::enclosure(&blocked.map, &blocked.enclosure);
         if self.json {
-            let told = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure });
+            let told = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure, "notes": notes });
             console::print(&super::json::text(&told))?;
         }
         eprintln!("error: {blocked}");
@@ -225,7 +227,7 @@ fn told(performed: &Performed, checks: &Checks) -> Value {
 fn summary(performed: &Performed, checks: &Checks) -> String {
     let stage = |own: &crate::sim::Stage| {
         let length = own.course.way.length();
-        format!("  way             {length:.3} m behind step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
+        format!("  path            {length:.3} m after step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
     };
     let ways: String = performed.stages.iter().map(stage).collect();
     let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == Thing::Floor) == is_floor);

@@ -30,7 +30,7 @@ while each torque is held for a step. Written by -o are t, q0.., v0.., tau0.. (w
 Laws: open-loop is RH0 (2-46), computed-torque (2-47), work-space (2-50), gravity-compensation N - Kv e' - Kp e. Gains are Kp = w^2 and Kv = 2 w for --frequency w,
 of gravity-compensation times 1 kg m^2.";
 
-/// Lets a robot follow a trajectory under a control law, and tells errors and torques
+/// Lets a robot follow a trajectory under a control law, and reports errors and torques
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -123,6 +123,8 @@ struct Summary {
     format: u32,
     steps: usize,
     joints: Vec<JointSummary>,
+    /// What of the robot's file was ignored.
+    notes: Vec<String>,
 }
 
 #[derive(serde::Serialize)]
@@ -164,10 +166,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let Some(file) = &arguments.plot {
         write_atomically(file, errors_and_torques(&samples, known.joints()).as_bytes())?;
     }
-    let summary = summary(&samples, known.joints(), &efforts);
+    let summary = Summary { notes: robot.parts().notes.clone(), ..summary(&samples, known.joints(), &efforts) };
     if arguments.json {
         return console::print(&(serde_json::to_string_pretty(&summary).expect("numbers and names") + "\n"));
     }
+    console::tell(&summary.notes);
     console::print(&text(&summary))
 }
 
@@ -235,7 +238,8 @@ fn summary(samples: &[Sample], names: &[String], efforts: &[Option<f64>]) -> Sum
             effort: efforts[joint],
         }
     };
-    Summary { format: 1, steps: samples.len() - 1, joints: names.iter().enumerate().map(joint).collect() }
+    let joints = names.iter().enumerate().map(joint).collect();
+    Summary { format: 1, steps: samples.len() - 1, joints, notes: Vec::new() }
 }
 
 fn text(summary: &Summary) -> String {

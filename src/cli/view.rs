@@ -33,7 +33,7 @@ const EXAMPLES: &str = "Examples:
   groebot view derivations/ur5 --reach ur5.json -o reach.html
   groebot view rh0 --room living-room --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
-With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: it opens in a browser without a server and asks nobody for anything. A walk's JSON tells footsteps and phases beside what its CSV tells.
+With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: a self-contained HTML file that makes no network requests. A walk's JSON has footsteps and phases, which its CSV has not.
 Robots of groebot: nao, rh0, teo.";
 
 /// Writes a page to see a robot and its motion in a browser
@@ -94,7 +94,7 @@ impl Arguments {
                 Ok(if let Some(task) = task { page.with_task(task) } else { page })
             }
             None if self.robot.is_some() => {
-                let text = "--robot says who walks, but this is no walk; give a walk in CSV or JSON, or leave it out";
+                let text = "--robot names the robot that walks, but this is no walk; give a walk in CSV or JSON, or leave it out";
                 Err(Error::new(ErrorKind::BadValue, text).in_file(file))
             }
             None if file.is_dir() => derivation(file),

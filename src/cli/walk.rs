@@ -103,7 +103,7 @@ pub struct Arguments {
     /// z_d, H_p: how high a foot is lifted [m]
     #[arg(long, value_name = "METRES")]
     lift: Option<f64>,
-    /// W_p: half of the way from foot to foot, sideways [m] [default: as wide as the hips]
+    /// W_p: half of the distance from foot to foot, sideways [m] [default: as wide as the hips]
     #[arg(long, value_name = "METRES")]
     half_width: Option<f64>,
     /// A, W_p - RA_AS: how far to the side the centre of mass goes [m]
@@ -112,7 +112,7 @@ pub struct Arguments {
     /// K_CM: half of how far the trunk goes down until lift-off and landing [m]; for one step goal
     #[arg(long, value_name = "METRES")]
     dip: Option<f64>,
-    /// Po_CM: the power of the way sideways; for RH0's laws
+    /// Po_CM: the power of the sideways distance; for RH0's laws
     #[arg(long, value_name = "NUMBER")]
     power: Option<f64>,
     /// Start and end in the crouch, without lowering and rising; for one step goal
@@ -133,7 +133,7 @@ pub struct Arguments {
     /// The share of a step in which both feet stand
     #[arg(long, value_name = "SHARE")]
     double_support: Option<f64>,
-    /// How long the robot stands before the first and behind the last step [s]
+    /// How long the robot stands before the first and after the last step [s]
     #[arg(long, value_name = "SECONDS")]
     rest: Option<f64>,
     /// S_D: the time between two rows [s]
@@ -160,10 +160,10 @@ pub struct Arguments {
     /// Where the picture goes, SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Tell what motors and floor give: columns of torques and forces, and the greatest torques beside the motors' efforts
+    /// Add the torques of the motors and the forces of the floor: columns of torques and forces, and the greatest torques beside the motors' efforts
     #[arg(long)]
     torques: bool,
-    /// Tell the torques of two chains too, each on a foot of its own, RH0 (3-40) and (3-41), what goes between them through the trunk, and how they differ
+    /// Add the torques of two chains, each on a foot of its own, RH0 (3-40) and (3-41), what goes between them through the trunk, and how they differ
     #[arg(long, requires = "torques")]
     chains: bool,
     /// No progress and no summary

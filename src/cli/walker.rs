@@ -118,8 +118,8 @@ impl SoleArguments {
         match (&self.left, &self.right) {
             (Some(left), Some(right)) => Ok([left, right]),
             _ => {
-                let ends: Vec<String> =
-                    robot.leaves().into_iter().take(20).map(|link| format!("`{}`", shown(link))).collect();
+                let ends = robot.suggested_tips(robot.root_place()).into_iter().take(20);
+                let ends: Vec<String> = ends.map(|link| format!("`{}`", shown(link))).collect();
                 let text =
                     format!("which links are the soles? give --left and --right; the limbs end in {}", ends.join(", "));
                 Err(Error::new(ErrorKind::MissingKey, text))
@@ -134,7 +134,7 @@ fn outlines(outline: &[f64]) -> Result<(f64, [Vec<Point2<f64>>; 2])> {
         [back, front, right, left] => (back, front, right, left, 0.0),
         [back, front, right, left, height] => (back, front, right, left, height),
         _ => {
-            let text = "--outline takes four or five numbers: behind, ahead, right, left, height, such as -0.1,0.12,-0.06,0.06,-0.1";
+            let text = "--outline takes four or five numbers: back, front, right, left, height, such as -0.1,0.12,-0.06,0.06,-0.1";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
     };

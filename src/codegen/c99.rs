@@ -133,7 +133,15 @@ impl Dialect for C {
         format!("const GB_(roots) roots{number} = GB_({function})({constant}, {typical});")
     }
 
-    fn find_roots(&self, number: usize, _: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
+    fn find_roots(
+        &self,
+        number: usize,
+        _: usize,
+        polynomials: &[Vec<String>],
+        typical: &str,
+        half_angle: bool,
+    ) -> Vec<String> {
+        let function = if half_angle { "half_angle_roots" } else { "polynomial_roots" };
         let mut lines = Vec::new();
         for (index, list) in polynomials.iter().enumerate() {
             lines.extend(spread(&format!("const T choice{number}_{index}[] = {{"), list, "};"));
@@ -142,9 +150,7 @@ impl Dialect for C {
         let lists: Vec<String> = polynomials.iter().enumerate().map(of).collect();
         lines.push(format!("const GB_(polynomial) choices{number}[] = {{{}}};", lists.join(", ")));
         let count = polynomials.len();
-        lines.push(format!(
-            "const GB_(roots) roots{number} = GB_(polynomial_roots)(choices{number}, {count}, {typical});"
-        ));
+        lines.push(format!("const GB_(roots) roots{number} = GB_({function})(choices{number}, {count}, {typical});"));
         lines
     }
 
@@ -184,14 +190,14 @@ impl Dialect for C {
     }
 
     fn chain(&self, six: &SixAxes) -> String {
-        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations, within } = six.chain();
         let rigid = |motion: &Rigid| format!("{{{}, {}}}", braces(&motion.rotation), braces(&motion.translation));
         let steps: Vec<String> = steps.iter().map(rigid).collect();
         let list = formulations.as_slice();
         let formulation = |one: &groebot_runtime::six_axes::Formulation| format!("{{{}, {}}}", one.hidden, one.second);
         let formulations: Vec<String> = list.iter().map(formulation).collect();
         format!(
-            "{{\n    {},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n}}",
+            "{{\n    {},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n    {},\n    {{{}}},\n    {},\n    {},\n}}",
             braces(&directions),
             braces(&points),
             braces(&across),
@@ -201,7 +207,8 @@ impl Dialect for C {
             rigid(&back),
             self.literal(length),
             formulations.join(", "),
-            list.len()
+            list.len(),
+            self.literal(within)
         )
     }
 

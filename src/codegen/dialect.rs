@@ -7,8 +7,16 @@ use crate::solver::eigenvalue::SixAxes;
 pub(super) trait Dialect: Expressions {
     /// Roots of `x^2 + constant`; `typical` is the unknown's typical size, and they are `grazing` where what the constant follows from is less exact.
     fn find_square_roots(&self, number: usize, constant: &str, typical: &str, grazing: bool) -> String;
-    /// The roots of the first polynomial that leads, each a list of coefficients, of a degree of at most `degree`.
-    fn find_roots(&self, number: usize, degree: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String>;
+    /// The roots of the first polynomial that leads, each a list of coefficients, of a degree of at most `degree`; of a half angle's
+    /// polynomial with its spread as typical size.
+    fn find_roots(
+        &self,
+        number: usize,
+        degree: usize,
+        polynomials: &[Vec<String>],
+        typical: &str,
+        half_angle: bool,
+    ) -> Vec<String>;
     /// The loop over roots, and over their values if they have a name; over the first alone where it stands for a pair.
     fn open_roots(&self, number: usize, name: Option<&str>, is_pair: bool) -> Vec<String>;
     /// The loop over the rows of the table of samples with a number, of which there are `rows`.

@@ -15,6 +15,8 @@ use crate::{Error, ErrorKind, Result};
 
 const SKELETON: &str = include_str!("skeleton/ikfast.cpp.txt");
 
+/// Targets in single precision are rounded by up to this, as shares of the sizes of the equations: several units in the last place of a number.
+const SINGLE: f64 = 1e-6;
 /// A digit of a branch number is below this: a solution's indices are bytes, and the greatest byte stands for none.
 const MOST_DIGITS: usize = 250;
 
@@ -41,7 +43,7 @@ pub fn emit(program: &Program, options: &Options) -> Result<String> {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task that IKFast has no
-/// type for, or in single precision with one that asks for more than the joints can do; [`ErrorKind::BadValue`] for a namespace that is no word.
+/// type for, or in single precision with one whose equations accept no rounded target; [`ErrorKind::BadValue`] for a namespace that is no word.
 pub fn emit_beside(program: &Program, options: &Options, stem: &str) -> Result<String> {
     file(program, options, Some(stem))
 }
@@ -55,11 +57,11 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
         )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
-    if options.single && program.isolated.is_none() && !program.nearby {
-        let text = "in single precision targets are rounded, and the task asks for more than the joints can do: none would be consistent; take \
-                    double precision";
-        return Err(refuse(text.to_owned()));
-    }
+    let program = &if options.single { program.tolerant(SINGLE) } else { Some(program.clone()) }.ok_or_else(|| {
+        let text = "the task asks for more than the joints can do, and no target that is rounded to single precision is consistent; leave --float out, so that \
+                    callers use double precision";
+        refuse(text.to_owned())
+    })?;
     if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || WORDS.is_reserved(name)) {
         return Err(Error::new(
             ErrorKind::BadValue,

@@ -80,7 +80,21 @@ impl Dialect for Rust {
         format!("let roots{number} = N::{function}({constant}, {typical});")
     }
 
-    fn find_roots(&self, number: usize, degree: usize, polynomials: &[Vec<String>], typical: &str) -> Vec<String> {
+    fn find_roots(
+        &self,
+        number: usize,
+        degree: usize,
+        polynomials: &[Vec<String>],
+        typical: &str,
+        half_angle: bool,
+    ) -> Vec<String> {
+        if half_angle {
+            return spread(
+                &format!("let roots{number} = N::half_angle_roots::<{degree}>(&["),
+                &polynomials[0],
+                &format!("], {typical});"),
+            );
+        }
         let lists: Vec<String> = polynomials.iter().map(|list| format!("&[{}]", list.join(", "))).collect();
         spread(&format!("let roots{number} = N::real_roots::<{degree}>(&["), &lists, &format!("], {typical});"))
     }
@@ -111,12 +125,12 @@ impl Dialect for Rust {
     }
 
     fn chain(&self, six: &SixAxes) -> String {
-        let Chain { directions, points, across, slides, steps, last, back, length, formulations } = six.chain();
+        let Chain { directions, points, across, slides, steps, last, back, length, formulations, within } = six.chain();
         let formulations: Vec<String> = formulations.as_slice().iter().map(|one| format!("{one:?}")).collect();
         format!(
             "Chain {{\n    directions: {directions:?},\n    points: {points:?},\n    across: {across:?},\n    slides: {slides:?},\n    \
              steps: {steps:?},\n    last: {last:?},\n    back: {back:?},\n    length: {length:?},\n    \
-             formulations: Formulations::new(&[{}]),\n}}",
+             formulations: Formulations::new(&[{}]),\n    within: {within:?},\n}}",
             formulations.join(", ")
         )
     }

@@ -233,9 +233,9 @@ impl<'a> Walk<'a> {
                     self.push([self.dialect.declare(&printer.unknowns()[*unknown], &value)]);
                 }
                 Step::Set { .. } => {}
-                Step::Roots { unknown, polynomials, typical } => {
+                Step::Roots { unknown, polynomials, typical, half_angle } => {
                     let is_pair = scene.layout.is_mirror(case);
-                    self.roots(step, (*unknown, polynomials, *typical), is_pair, printer);
+                    self.roots(step, (*unknown, polynomials, *typical, *half_angle), is_pair, printer);
                     how.push(if is_pair { How::Pair(number) } else { How::Root(number) });
                     if !is_pair {
                         terms.push(multiple(stride, &format!("i{number}")));
@@ -284,7 +284,7 @@ impl<'a> Walk<'a> {
     fn roots(
         &mut self,
         step: &Step,
-        (unknown, polynomials, typical): (usize, &[Vec<Operand>], Option<Operand>),
+        (unknown, polynomials, typical, half_angle): (usize, &[Vec<Operand>], Option<Operand>, bool),
         is_pair: bool,
         printer: &mut Printer<'_>,
     ) {
@@ -293,7 +293,7 @@ impl<'a> Walk<'a> {
         let number = self.loops;
         let usual = if program.is_plain(unknown) { Operand::Magnitude } else { Operand::Constant(1.0) };
         let mut typed = |operand: Operand| printer.operand(operand);
-        let finds = match square(polynomials) {
+        let finds = match square(polynomials).filter(|_| !half_angle) {
             Some(constant) => {
                 let (constant, typical) = (typed(constant), typed(typical.unwrap_or(usual)));
                 vec![dialect.find_square_roots(number, &constant, &typical, program.degree() > 2)]
@@ -302,7 +302,7 @@ impl<'a> Walk<'a> {
                 let lists: Vec<Vec<String>> =
                     polynomials.iter().map(|list| list.iter().map(|&c| typed(c)).collect()).collect();
                 let typical = typed(typical.unwrap_or(usual));
-                dialect.find_roots(number, step.slots(), &lists, &typical)
+                dialect.find_roots(number, step.slots(), &lists, &typical, half_angle)
             }
         };
         let lines = printer.settle();

@@ -213,7 +213,7 @@ impl Prover for Replay<'_> {
         let claim = match self.entries.next() {
             Some(entry) if entry.stratum == label => &entry.claim,
             Some(entry) => {
-                return Err(refused(format!("stratum `{label}` is missing; `{}` stands there", entry.stratum)));
+                return Err(refused(format!("stratum `{label}` is missing; `{}` is in its place", entry.stratum)));
             }
             None => return Err(refused(format!("stratum `{label}` is missing"))),
         };

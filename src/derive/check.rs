@@ -143,7 +143,7 @@ fn check_angle(input: &Input, is_angle: bool, parameter: &Parameter, i: usize) -
     let text = if is_angle {
         format!("parameter `{}` is a cosine or sine of `{}`, which is no angle", parameter.name, input.name)
     } else {
-        format!("the angle `{}` cannot stand in equations; use its cosine and sine", input.name)
+        format!("the angle `{}` cannot be used in equations; use its cosine and sine", input.name)
     };
     Err(mistake(Part::Parameter(i), ErrorKind::BadValue, text))
 }
@@ -186,7 +186,7 @@ fn check_order(order: &[String], unknowns: &[&str]) -> Checked {
             return bad(ErrorKind::UnknownName, format!("`{name}` is no unknown"));
         }
         if !seen.insert(name.as_str()) {
-            return bad(ErrorKind::DuplicateName, format!("`{name}` stands twice"));
+            return bad(ErrorKind::DuplicateName, format!("`{name}` is given twice"));
         }
     }
     match unknowns.iter().find(|unknown| !seen.contains(*unknown)) {

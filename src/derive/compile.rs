@@ -246,7 +246,7 @@ impl<'a> Compiler<'a> {
             .map(|coefficients| coefficients.iter().map(|c| assembler.horner(&flatten(ring, c), &symbols)).collect())
             .collect();
         push_code(steps, assembler);
-        steps.push(Step::Roots { unknown, polynomials, typical: None });
+        steps.push(Step::Roots { unknown, polynomials, typical: None, half_angle: false });
         Ok(())
     }
 

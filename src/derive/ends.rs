@@ -51,7 +51,7 @@ pub struct Ends {
 }
 
 impl Ends {
-    /// The name that stands for the planner's choice in the place of a given joint.
+    /// The name that requests the planner's choice instead of a given joint.
     pub const AUTO: &'static str = "auto";
 
     /// What the file at `path` asks.

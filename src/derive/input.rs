@@ -94,13 +94,13 @@ impl InputFile {
         robot.path(ends.base.as_deref(), ends.tip.as_deref()).map(Some).map_err(|error| error.in_file(&self.path))
     }
 
-    /// What of a robot is [passed over](Robot::passed_over), for its chain between `ends`; nothing of other inputs.
+    /// What of a robot is [ignored](Robot::ignored), for its chain between `ends`; nothing of other inputs.
     ///
     /// # Errors
     /// As [`InputFile::path`].
-    pub fn passed_over(&self, ends: &Ends) -> Result<Vec<String>> {
+    pub fn ignored(&self, ends: &Ends) -> Result<Vec<String>> {
         let Description::Robot(robot) = &self.description else { return Ok(Vec::new()) };
-        Ok(self.path(ends)?.map(|path| robot.passed_over(&path)).unwrap_or_default())
+        Ok(self.path(ends)?.map(|path| robot.ignored(&path)).unwrap_or_default())
     }
 
     /// The link on a path that carries its first joint that moves.
@@ -213,7 +213,7 @@ impl Source {
     /// # Errors
     /// As [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
     pub fn of(input: InputFile, ends: &Ends) -> Result<Source> {
-        let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.passed_over(ends)?);
+        let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.ignored(ends)?);
         let mut ends = ends.or(&input.ends);
         if let Some(LinkPath { tip, choice: TipChoice::OnlyFrame(_), .. }) = &way {
             ends.tip = Some(tip.clone());
@@ -341,18 +341,18 @@ impl Source {
 
 /// The error of a chain with several joints too many: which of them may be given.
 fn proposed(chain: &Chain, choice: &Choice) -> Error {
-    let share =
-        choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint)).map_or(0.0, |one| one.share);
+    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
+    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
     let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
     let text = format!(
-        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}, with solutions on {:.0} % of the last one's range",
+        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
         choice.given.len(),
         chain.task().name(),
         chain.task().freedoms(),
         chain.independent().len() + chain.given_inputs().len(),
         Ends::AUTO,
         options.join(" "),
-        100.0 * share
+        share.unwrap_or_default()
     );
     Error::new(ErrorKind::PositiveDimensional, text)
 }

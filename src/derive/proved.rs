@@ -125,7 +125,7 @@ impl Proved {
         }
     }
 
-    /// The same, its program told what it comes from: the task, the links, a hash and the limits of `source`.
+    /// Same derivation, with the task, the links, a hash, the limits and the followers of `source` in its program.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
         let solutions = self.dimension();
@@ -163,7 +163,7 @@ fn equations(source: &Source) -> Result<&super::System> {
     source.system.as_ref().ok_or_else(none)
 }
 
-/// What `source` says of itself, with the limits of the program's joints.
+/// What `source` says of itself, with limits and leaders of the program's joints.
 fn about(source: &Source, program: &Program) -> About {
     let actuators = match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.joints().iter().map(|joint| (joint.name.as_str(), joint.limits)).collect(),
@@ -174,6 +174,9 @@ fn about(source: &Source, program: &Program) -> About {
     };
     let limits = |name: &str| actuators.iter().find(|(actuator, _)| *actuator == name).and_then(|(_, limits)| *limits);
     let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
+    let joints = source.chain.as_ref().map_or(&[][..], Chain::joints);
+    let follows = |name: &str| joints.iter().find(|joint| joint.name == name).and_then(|joint| joint.mimic.clone());
+    let follows: Vec<_> = program.joints.iter().map(|joint| follows(&joint.name)).collect();
     let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
     let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
     About {
@@ -183,6 +186,7 @@ fn about(source: &Source, program: &Program) -> About {
         solutions: None,
         hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
+        follows: if follows.iter().all(Option::is_none) { Vec::new() } else { follows },
     }
 }
 

@@ -26,7 +26,7 @@ pub struct Symbol {
     pub positive: bool,
 }
 
-/// `name` stands for `value`, an expression in parameters that are left.
+/// `name` is replaced by `value`, an expression in parameters that are left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Substitution {
     /// The parameter that is replaced.

@@ -12,7 +12,7 @@ use crate::Result;
 ///
 /// It holds that: names are identifiers and mean one thing; every name in an equation is an unknown or a parameter;
 /// a parameter's square mentions earlier parameters only; no equation divides by an unknown; `order` is a permutation
-/// of the unknowns; the circle relation of every angle stands once, at the end of the equations.
+/// of the unknowns; the circle relation of every angle is given once, at the end of the equations.
 ///
 /// Its `Display` is the stage file `1_equations.txt`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

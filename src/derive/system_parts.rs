@@ -57,7 +57,7 @@ pub enum ParameterSource {
 /// A name that the equations mention and whose value is known when they are solved.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Parameter {
-    /// The name, as it stands in the equations.
+    /// The name, as used in the equations.
     pub name: String,
     /// Where its value comes from.
     pub source: ParameterSource,

@@ -123,7 +123,7 @@ fn decode_utf8(bytes: &[u8]) -> Result<XmlText> {
         at += chunk.invalid().len();
         lines.push(line);
     }
-    let note = lines.first().map(|line| format!("line {line}: bytes of a comment are not UTF-8; they are passed over"));
+    let note = lines.first().map(|line| format!("line {line}: bytes of a comment are not UTF-8; they are ignored"));
     Ok(XmlText { text: as_utf8(&text).into_owned(), notes: note.into_iter().collect() })
 }
 

@@ -317,7 +317,7 @@ impl<'d> Node<'d> {
             DeValue::Array(_) => "an array",
             DeValue::Table(_) => "a table",
         };
-        self.error(ErrorKind::BadValue, format!("{found} stands here; give {wanted}"))
+        self.error(ErrorKind::BadValue, format!("{found} is not allowed here; give {wanted}"))
     }
 }
 

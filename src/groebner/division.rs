@@ -14,7 +14,7 @@ pub struct Division<E> {
     pub remainder: Polynomial<E>,
 }
 
-/// Divides `f` by `divisors`; the first that fits is taken. Zero divisors are passed over.
+/// Divides `f` by `divisors`; the first that fits is taken. Zero divisors are skipped.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes.

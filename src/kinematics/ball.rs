@@ -7,7 +7,7 @@ use super::{Chain, JointKind};
 /// How often each point is moved; the way over them then shrinks no more.
 const SWEEPS: usize = 200;
 
-/// What a point of a chain's tip never leaves while prismatic joints stand at zero, in the chain's length unit.
+/// What a point of a chain's tip never leaves while prismatic joints are at zero, in the chain's length unit.
 ///
 /// A point of an axis and one of the next axis stay as far apart as they are, whatever the joints do: the way from the first axis over one point of each is never shorter than its ends are apart. The points are moved along their axes until that way is short.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -163,7 +163,7 @@ fn check_form(table: Table<'_>, form: Form) -> Result<()> {
     }
     let (own, form) = (own.key(), form.key());
     let message =
-        format!("`{own}` stands here, but the first joint has `{form}`; give all joints and the tip a `{form}`");
+        format!("`{own}` is given here, but the first joint has `{form}`; give all joints and the tip a `{form}`");
     Err(table.required(own)?.error(ErrorKind::BadValue, message))
 }
 

@@ -14,7 +14,7 @@ use crate::document::shown;
 use crate::number::BigRational;
 use crate::spatial::{Axis, Relation, Screw};
 
-/// Where the frames of a table stand.
+/// Where the frames of a table are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DhConvention {
     /// Frame i is at the far end of link i: A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i).
@@ -55,7 +55,7 @@ pub struct DhTable {
     pub source: Option<String>,
     /// The unit of every length.
     pub length_unit: LengthUnit,
-    /// Where the frames stand.
+    /// Where the frames are.
     pub convention: DhConvention,
     /// Frame 0 in the base frame.
     pub base: Placement,
@@ -165,7 +165,7 @@ impl DhTable {
         ((joints, frame.then(&self.tool)), told)
     }
 
-    /// The same mechanism in screw axes, its numbers as they are told.
+    /// Same mechanism in screw axes, its numbers as described.
     ///
     /// # Errors
     /// As [`Chain::new`].

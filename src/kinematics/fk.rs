@@ -43,7 +43,7 @@ impl Chain {
     }
 
     /// The length of the zigzag from the first joint's point over the other joints' points to the tip, in the chain's
-    /// length unit. While prismatic joints stand at zero, the tip is never further from the first joint's point.
+    /// length unit. While prismatic joints are at zero, the tip is never further from the first joint's point.
     pub fn reach(&self) -> f64 {
         self.numeric.reach
     }

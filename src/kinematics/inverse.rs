@@ -13,7 +13,7 @@ pub struct Solution {
     /// The joint values, base to tip: radians in (-pi, pi], lengths in the solver's unit; zero for a free joint.
     pub q: Vec<f64>,
     /// The largest miss, measured at `q`: of the equations of a derived solver, in their own unit; of other solvers the distance of the tip
-    /// from its target in the chain's unit, or its angle \[rad\]. [`Target::missed`] tells both.
+    /// from its target in the chain's unit, or its angle \[rad\]. [`Target::missed`] gives both.
     pub residual: f64,
     /// Which roots of which equations it comes from: a branch keeps its number from target to target.
     pub branch: usize,

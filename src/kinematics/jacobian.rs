@@ -27,7 +27,7 @@ pub fn spatial(screws: &[Screw], q: &[f64]) -> Result<Jacobian> {
     Ok(columns(&twists))
 }
 
-/// The body Jacobian at `q`, RH0 (2-24): column i is the twist of joint i where it stands, in the frame of the tip.
+/// The body Jacobian at `q`, RH0 (2-24): column i is the twist of joint i at its place, in the frame of the tip.
 /// Times the joint velocities it is the tip's body velocity `g^-1 g'`, RH0 (2-23).
 ///
 /// `base_from_tip` is the pose of the tip at the zero configuration.

@@ -126,9 +126,9 @@ impl Robot {
     }
 
     /// Faults of the robot off the path, and what the reader ignored: nothing of it touches the chain along `path`.
-    pub fn passed_over(&self, path: &LinkPath) -> Vec<String> {
+    pub fn ignored(&self, path: &LinkPath) -> Vec<String> {
         let beside = self.faults().iter().filter(|fault| !self.is_on(path, fault));
-        let beside = beside.map(|fault| format!("passed over, for it is not in the chain: {}", fault.error));
+        let beside = beside.map(|fault| format!("ignored, as it is not in the chain: {}", fault.error));
         self.parts().notes.iter().cloned().chain(beside).collect()
     }
 
@@ -146,7 +146,7 @@ impl Robot {
     }
 
     /// What a user of the chain along `path` should know: numbers that were taken for others, joints that follow or lead, joints
-    /// that are passed upwards, and what is [passed over](Robot::passed_over).
+    /// that are passed upwards, and what is [ignored](Robot::ignored).
     pub fn notes(&self, path: &LinkPath) -> Vec<String> {
         let mut notes = Vec::new();
         let mimics = self.mimics(path);
@@ -174,7 +174,7 @@ impl Robot {
                 up.join(", ")
             ));
         }
-        notes.extend(self.passed_over(path));
+        notes.extend(self.ignored(path));
         notes
     }
 

@@ -1,6 +1,6 @@
 //! How much of each joint's range has solutions, of a chain with more joints than its task determines: [`Chain::shares`].
 //!
-//! Where the tip stands still, the joints can still move: the self-motion. A joint that is swept through all of its range on the way may be
+//! Where the tip does not move, the joints can still move: the self-motion. A joint that is swept through all of its range on the way may be
 //! given any value; an elbow, whose angle follows from the distance that is to be bridged, hardly moves.
 
 use std::f64::consts::{PI, TAU};

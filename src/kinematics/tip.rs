@@ -65,14 +65,18 @@ impl Robot {
         }
     }
 
-    /// The links that a chain from the link at the place `base` may end at, the likeliest first: leaves that move, and tip frames that carry
-    /// something that moves, such as the fingers of a gripper. All leaves where none moves.
+    /// The links at which a chain from the link at the place `base` may end, the likeliest first: leaves that move. Where a tip frame carries
+    /// something that moves, such as the fingers of a gripper, the chain ends at the frame. All leaves where none moves.
     pub fn suggested_tips(&self, base: usize) -> Vec<&str> {
-        let carries = |link: usize| self.is_frame(link) && self.moves_below(link);
         let leaves = self.leaves();
-        let is_end = |&link: &usize| leaves.contains(&self.links()[link].name.as_str()) || carries(link);
+        let moved: Vec<usize> = (0..self.links().len()).filter(|&link| self.is_moved(base, link)).collect();
+        let carries = |link: &usize| self.is_frame(*link) && self.moves_below(*link);
+        let frames: Vec<usize> = moved.iter().copied().filter(carries).collect();
+        let is_of_tool =
+            |link: usize| frames.iter().any(|&frame| self.is_below(link, frame) && self.is_moved(frame, link));
+        let is_leaf = |link: usize| leaves.contains(&self.links()[link].name.as_str()) && !is_of_tool(link);
         let mut tips: Vec<usize> =
-            (0..self.links().len()).filter(is_end).filter(|&link| self.is_moved(base, link)).collect();
+            moved.iter().copied().filter(|link| frames.contains(link) || is_leaf(*link)).collect();
         tips.sort_by_key(|&link| self.rank(link));
         if tips.is_empty() { leaves } else { tips.into_iter().map(|link| self.links()[link].name.as_str()).collect() }
     }
@@ -100,11 +104,13 @@ impl Robot {
 
     /// Whether a joint below `link` moves.
     fn moves_below(&self, link: usize) -> bool {
-        let above = |joint: usize| {
-            let parent = self.ends(joint).0;
-            parent == link || self.ancestry(parent).into_iter().any(|joint| self.ends(joint).0 == link)
-        };
-        (0..self.joints().len()).any(|joint| self.joints()[joint].kind != JointType::Fixed && above(joint))
+        let moves = |joint: usize| self.joints()[joint].kind != JointType::Fixed;
+        (0..self.joints().len()).any(|joint| moves(joint) && self.is_below(self.ends(joint).1, link))
+    }
+
+    /// Whether `link` is carried by the link `above`.
+    fn is_below(&self, link: usize, above: usize) -> bool {
+        self.ancestry(link).into_iter().any(|joint| self.ends(joint).0 == above)
     }
 }
 

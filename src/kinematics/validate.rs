@@ -250,7 +250,7 @@ fn check_given(parts: &ChainParts) -> Checked {
             return bad(ErrorKind::UnknownName, message);
         }
         if parts.given[..index].contains(name) {
-            return bad(ErrorKind::DuplicateName, format!("`{}` stands twice; name each joint once", shown(name)));
+            return bad(ErrorKind::DuplicateName, format!("`{}` is given twice; name each joint once", shown(name)));
         }
     }
     for joint in parts.joints.iter().filter(|joint| parts.given.contains(&joint.name)) {
@@ -275,7 +275,7 @@ fn check_order(parts: &ChainParts, unknowns: &[&str]) -> Checked {
             return bad(ErrorKind::UnknownName, no_unknown(name, unknowns));
         }
         if order[..index].contains(name) {
-            return bad(ErrorKind::DuplicateName, format!("`{name}` stands twice; name each unknown once"));
+            return bad(ErrorKind::DuplicateName, format!("`{name}` is given twice; name each unknown once"));
         }
     }
     match unknowns.iter().find(|unknown| !order.iter().any(|name| name == *unknown)) {

@@ -65,12 +65,12 @@ impl JointType {
     }
 }
 
-/// A frame in another one, and how a file tells its rotation.
+/// A frame in another one, and how a file gives its rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     /// The frame, exactly.
     pub placement: Placement,
-    /// Roll, pitch and yaw as they are told \[rad\]; `None` where the rotation is told in another way.
+    /// Roll, pitch and yaw as given \[rad\]; `None` where the rotation is given in another form.
     pub rpy: Option<ExactVector>,
 }
 
@@ -85,7 +85,7 @@ impl Origin {
         self.placement.pose()
     }
 
-    /// Roll, pitch and yaw \[rad\]: those that are told, else such that the rotation is the same.
+    /// Roll, pitch and yaw \[rad\]: those that are given, else such that the rotation is the same.
     pub fn angles(&self) -> [f64; 3] {
         match &self.rpy {
             Some(rpy) => rpy.each_ref().map(|angle| angle.to_f64().unwrap_or(f64::NAN)),
@@ -133,7 +133,7 @@ pub struct Joint {
     pub mimic: Option<Mimic>,
     /// What the reader made of its numbers.
     pub notes: Vec<String>,
-    /// The line of the file where it stands.
+    /// Its line in the file.
     pub line: Option<usize>,
 }
 

@@ -25,7 +25,7 @@ pub struct Link {
     pub collisions: Vec<Shape>,
     /// What the reader left out, and why.
     pub notes: Vec<String>,
-    /// The line of the file where it stands.
+    /// Its line in the file.
     pub line: Option<usize>,
 }
 
@@ -50,7 +50,7 @@ impl Link {
     }
 }
 
-/// Mass, centre of mass and inertia of a link, exactly as they are told.
+/// Mass, centre of mass and inertia of a link, exactly as described.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mass {
     /// The mass \[kg\].
@@ -147,7 +147,7 @@ impl Solid {
         }
     }
 
-    /// Points whose hull is the solid, or nearly so, in its frame \[m\]; none of a mesh, whose points stand in a file: see [`Meshes::points`](super::Meshes::points).
+    /// Points whose hull is the solid, or nearly so, in its frame \[m\]; none of a mesh, whose points are in a file: see [`Meshes::points`](super::Meshes::points).
     pub fn points(&self) -> Vec<Point3<f64>> {
         let signs = [-0.5, 0.5];
         let circle = |radius: f64, z: f64| {

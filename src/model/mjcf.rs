@@ -12,7 +12,7 @@ const MOST_STEMS: usize = 60;
 
 impl Robot {
     /// The robot as MJCF, with the files of its meshes where `meshes` finds them; meshes in other formats than STL and OBJ are left out. Masses that no
-    /// body has are made possible by MuJoCo's compiler. [`Robot::check`] tells whether all of the robot was understood.
+    /// body has are made possible by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot was understood.
     pub fn to_mjcf(&self, meshes: &Meshes) -> String {
         let mut writer = Writer { robot: self, meshes, assets: Vec::new() };
         let bodies = writer.bodies();

@@ -56,7 +56,7 @@ impl Robot {
         }
     }
 
-    /// The robot whose rotations are what their numbers mean: quarter turns where 1.5708 is told.
+    /// The robot whose rotations are what their numbers mean: quarter turns where 1.5708 is given.
     ///
     /// # Errors
     /// As [`Robot::with_faults`].

@@ -80,7 +80,7 @@ impl Trajectory {
         serde_json::to_value(written).expect("a trajectory holds nothing that JSON cannot say")
     }
 
-    /// The trajectory that `text` holds as [`Trajectory::to_json`] writes it; other keys beside these are passed over.
+    /// The trajectory that `text` holds as [`Trajectory::to_json`] writes it; other keys beside these are ignored.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Syntax`] for text that is not such JSON, [`crate::ErrorKind::Unsupported`] for another `format`; [`crate::ErrorKind::BadValue`] for a quaternion that is not of length one;

@@ -131,7 +131,7 @@ impl Trajectory {
         for names in [joints, others] {
             let twice = names.iter().enumerate().find(|(place, name)| names[..*place].contains(name));
             if let Some((_, name)) = twice {
-                let text = format!("`{}` stands twice; give each its own name", crate::document::shown(name));
+                let text = format!("`{}` is given twice; give each its own name", crate::document::shown(name));
                 return Err(Error::new(ErrorKind::DuplicateName, text));
             }
         }

@@ -58,7 +58,7 @@ impl Meaning {
     }
 
     /// The image's name and what it means, of a YAML that `map_server` reads: block or flow style, comments, anchors and aliases. Keys that `map_server` does
-    /// not know are passed over.
+    /// not know are ignored.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for what is no YAML, is nested more than a few levels or repeats too much; [`ErrorKind::DuplicateName`] for a key that stands

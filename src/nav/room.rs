@@ -69,7 +69,7 @@ impl Room {
         let pieces: Vec<Piece> = tables("furniture")?.iter().map(|table| piece(table, &[])).collect::<Result<_>>()?;
         let twice = |place: &usize| pieces[..*place].iter().any(|piece| piece.name == pieces[*place].name);
         if let Some(place) = (0..pieces.len()).find(twice) {
-            let text = format!("`{}` stands twice; give each piece its own name", shown(&pieces[place].name));
+            let text = format!("`{}` is given twice; give each piece its own name", shown(&pieces[place].name));
             return Err(tables("furniture")?[place].error(ErrorKind::DuplicateName, text));
         }
         let slow = |table: &Table<'_>| Ok((piece(table, &["speed"])?, table.required("speed")?.float()?));

@@ -53,7 +53,7 @@ pub struct Entry {
 /// The entries of the first document of `text`, which must be a mapping.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no YAML, no mapping, or nested more than 20 levels; [`ErrorKind::DuplicateName`] for a key that stands twice. With the
+/// [`ErrorKind::Syntax`] for what is no YAML, no mapping, or nested more than 20 levels; [`ErrorKind::DuplicateName`] for a key that is given twice. With the
 /// line.
 pub fn entries(text: &str) -> Result<Vec<Entry>> {
     let mut reader =
@@ -99,7 +99,7 @@ impl<'t> Reader<'t> {
             let value = self.value(event, place, 1)?;
             let Value::Text(key) = key else { continue };
             if !keys.insert(key.clone()) {
-                let text = format!("the key `{}` stands twice; give it once", shown(&key));
+                let text = format!("the key `{}` is given twice; give it once", shown(&key));
                 return Err(Error::new(ErrorKind::DuplicateName, text).at_line(line));
             }
             entries.push(Entry { key, value, line });
@@ -129,7 +129,7 @@ impl<'t> Reader<'t> {
         Ok(value)
     }
 
-    /// A list whose start was read. A list in a list is passed over, so that no alias makes another one longer.
+    /// A list whose start was read. A list in a list is skipped, so that no alias makes another one longer.
     fn list(&mut self, depth: usize) -> Result<Value> {
         let mut list = Vec::new();
         loop {
@@ -142,7 +142,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Passes over all up to the `end` of what was begun.
+    /// Skips all up to the `end` of what was begun.
     fn pass(&mut self, end: Event<'_>, depth: usize) -> Result<()> {
         loop {
             let (event, line) = self.next()?;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::kinematics::Mimic;
+
 /// What is known of a program's source, for people and for the heads of printed solvers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct About {
@@ -21,4 +23,7 @@ pub struct About {
     /// By joint: its least and greatest value in its unit, where the source says them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<Option<(f64, f64)>>,
+    /// By joint: how it follows another one; empty where none does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub follows: Vec<Option<Mimic>>,
 }

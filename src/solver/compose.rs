@@ -23,8 +23,8 @@ impl Program {
     }
 
     /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
-    /// takes as given are one actuator: it stands once among the joints, and is no input of `next` any more. Inputs of one name are one
-    /// input. Other inputs and joints of `next` stand behind this program's; name, version and preference are this program's.
+    /// takes as given are one actuator: it is once among the joints, and is no input of `next` any more. Inputs of one name are one
+    /// input. Other inputs and joints of `next` follow this program's; name, version and preference are this program's.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
@@ -207,10 +207,11 @@ impl Places {
                 let (unknown, value) = (self.unknowns[*unknown], self.operand(*value));
                 return (value != Operand::Unknown(unknown)).then_some(Step::Set { unknown, value });
             }
-            Step::Roots { unknown, polynomials, typical } => Step::Roots {
+            Step::Roots { unknown, polynomials, typical, half_angle } => Step::Roots {
                 unknown: self.unknowns[*unknown],
                 polynomials: polynomials.iter().map(|list| self.operands(list)).collect(),
                 typical: typical.map(|typical| self.operand(typical)),
+                half_angle: *half_angle,
             },
             Step::SixAxes(six) => {
                 Step::SixAxes(Box::new(six.renamed(|joint| self.value(joint), |operand| self.operand(operand))))

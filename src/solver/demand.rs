@@ -85,7 +85,7 @@ impl Demand {
             Step::Compute(code) => self.code(code),
             Step::Set { unknown, value } if self.wants_unknown(*unknown) => self.read(*value),
             Step::Set { .. } => {}
-            Step::Roots { unknown, polynomials, typical } => {
+            Step::Roots { unknown, polynomials, typical, .. } => {
                 polynomials.iter().flatten().for_each(|&operand| self.read(operand));
                 typical.iter().for_each(|&operand| self.read(operand));
                 self.magnitude += usize::from(typical.is_none() && program.is_plain(*unknown));

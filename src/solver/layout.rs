@@ -1,11 +1,11 @@
-//! What stands where while a program runs: which block finds what, what later ones read, and the numbers that the equations read. Main type: [`Layout`].
+//! Where numbers are stored while a program runs: which block finds what, what later ones read, and the numbers that the equations read. Main type: [`Layout`].
 
 use super::demand::Demand;
 use super::joint::JointValue;
 use super::mirror::Mirror;
 use super::program::{Block, Case, Program, Step};
 
-/// Where the values of a program stand.
+/// Where the values of a program are stored.
 pub(crate) struct Layout<'a> {
     pub program: &'a Program,
     /// Unknowns that the equations read and that are no joint's: cases hand their values over.

@@ -12,6 +12,7 @@ use super::joint::{Joint, JointValue, Unit};
 use super::rule::ParameterRule;
 use crate::Result;
 use crate::document::JsonFormat;
+use crate::kinematics::Mimic;
 
 /// One number of the target, as the user gives it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,10 @@ pub enum Step {
         /// joint's value itself, else for one. A larger size proposes more double roots.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         typical: Option<Operand>,
+        /// Whether the unknown is the tangent of half an angle of a polynomial that may miss the axis by more than rounding: its terms are measured at
+        /// `typical` times the greater of the tangent and one.
+        #[serde(default, skip_serializing_if = "is_false")]
+        half_angle: bool,
     },
     /// A free joint is put at each of these values (rad, or the program's length unit) in turn; the steps behind run once for
     /// each. All are members of one self-motion: they have the same branch number.
@@ -229,13 +234,19 @@ const FORMAT: JsonFormat =
     JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
 
 impl Program {
-    /// By joint, the least and the greatest value that its source describes in the joint's unit; infinite where it tells none.
+    /// By joint, the least and the greatest value that its source describes in the joint's unit; infinite where it has none.
     pub fn limits(&self) -> Vec<[f64; 2]> {
         let told = self.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
         let of = |joint: usize| {
             told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
         };
         (0..self.joints.len()).map(of).collect()
+    }
+
+    /// By joint, how it follows another one, as its source describes.
+    pub fn follows(&self) -> Vec<Option<&Mimic>> {
+        let described = self.about.as_ref().map(|about| about.follows.as_slice()).unwrap_or_default();
+        (0..self.joints.len()).map(|joint| described.get(joint)?.as_ref()).collect()
     }
 
     /// The places of the inputs that are values of given joints: they come last. What the source says decides, as a task may have a number of a joint's name; without that, the names do.

@@ -5,6 +5,7 @@ use super::joint::JointValue;
 use super::program::{Block, Case, Checks, Condition, Described, Program, Short, Step};
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
+use crate::kinematics::Mimic;
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
@@ -54,6 +55,10 @@ impl Program {
         let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
         ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
         ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;
+        let follows = self.about.as_ref().map_or(&[][..], |about| &about.follows);
+        ensure(follows.is_empty() || follows.len() == self.joints.len(), "follows: one entry a joint, or none at all")?;
+        let leads = |mimic: &Mimic| self.joints.iter().any(|joint| joint.name == mimic.leader);
+        ensure(follows.iter().flatten().all(leads), "follows: a joint of the solver leads")?;
         let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
         ensure(known, "preference")
     }
@@ -193,7 +198,7 @@ impl Context<'_> {
         match step {
             Step::Compute(code) => self.code(code, place),
             Step::Set { unknown, value } => self.operand(*value, place).and_then(|()| self.set(*unknown, place)),
-            Step::Roots { unknown, polynomials, typical } => {
+            Step::Roots { unknown, polynomials, typical, half_angle } => {
                 for coefficients in polynomials {
                     let degree = coefficients.len().saturating_sub(1);
                     ensure((1..=roots::MAX_DEGREE).contains(&degree), &format!("{place}: degree {degree}"))?;
@@ -201,6 +206,8 @@ impl Context<'_> {
                 }
                 ensure(!polynomials.is_empty(), &format!("{place}: no polynomial"))?;
                 typical.map_or(Ok(()), |typical| self.operand(typical, place))?;
+                let is_whole = !half_angle || typical.is_some() && polynomials.len() == 1;
+                ensure(is_whole, &format!("{place}: a half angle has one polynomial, and a spread"))?;
                 self.set(*unknown, place)
             }
             Step::SixAxes(six) => {

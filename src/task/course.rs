@@ -119,7 +119,7 @@ impl fmt::Display for Blocked {
         let area = self.enclosure.cells.len() as f64 * self.map.resolution().powi(2);
         write!(
             f,
-            "there is no way: {} cells ({area:.2} m^2) that nothing as wide as the body's core leaves enclose start or goal",
+            "there is no path: {} cells ({area:.2} m^2) that nothing as wide as the body's core leaves enclose start or goal",
             self.enclosure.cells.len()
         )
     }

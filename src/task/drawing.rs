@@ -70,7 +70,7 @@ impl Blocked {
     pub fn to_svg(&self, floor: &Floor, start: &Point2<f64>, goal: &Point2<f64>) -> String {
         let legend =
             [(Swatch::Area, "closed", "enclosed"), (Swatch::Area, "start", "start"), (Swatch::Area, "goal", "goal")];
-        let title = format!("no way from ({:.2}, {:.2}) to ({:.2}, {:.2})", start.x, start.y, goal.x, goal.y);
+        let title = format!("no path from ({:.2}, {:.2}) to ({:.2}, {:.2})", start.x, start.y, goal.x, goal.y);
         let (frame, mut svg) = begun(&title, &legend, floor, &self.enclosure.cells);
         dot("start", &frame, start, &mut svg);
         dot("goal", &frame, goal, &mut svg);

@@ -13,7 +13,7 @@ mod screws;
 mod targets;
 
 pub use accuracy::{Accuracy, Class};
-pub use derivation::check;
+pub use derivation::{check, check_round};
 pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 
 use crate::derive::Source;
@@ -36,6 +36,10 @@ const TIE: f64 = 1e-4;
 const ORACLE: f64 = 1e-6;
 /// Starting points of the oracle: at first, and again before it objects.
 const SEEDS: [usize; 2] = [60, 600];
+/// A round target is moved by as much as the joints move the tip when each moves by less than this (rad, or a share of the typical length).
+const MOVED: f64 = 1e-7;
+/// An ordinary answer to the moved target is at most this many times `MOVED / sigma` from one to the target itself.
+const FOLLOWS: f64 = 10.0;
 
 /// How much is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,12 +52,24 @@ pub struct Options {
     pub exact: usize,
     /// Where the random numbers start: the same seed gives the same report.
     pub seed: u64,
+    /// Which targets are drawn.
+    pub draws: Draws,
+}
+
+/// Which targets are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Draws {
+    /// Those of all kinds in turn.
+    #[default]
+    All,
+    /// Round ones alone; all are searched by the numeric oracle, unless [`Options::oracle`] is zero.
+    Round,
 }
 
 impl Default for Options {
     /// 500 targets, the oracle at 20, exact counts at 50.
     fn default() -> Self {
-        Options { targets: 500, oracle: 20, exact: 50, seed: 1 }
+        Options { targets: 500, oracle: 20, exact: 50, seed: 1, draws: Draws::All }
     }
 }
 
@@ -87,7 +103,7 @@ impl<'a> Check<'a> {
         let screws = source.chain.as_ref().and_then(Screws::new);
         let check =
             Check { source, program, solver: program.solver(), model: &model, screws, options: *options, watch };
-        let mut targets = Targets::new(&model, program, options.seed);
+        let mut targets = Targets::new(&model, program, options.draws, options.seed);
         let mut rows = Vec::with_capacity(options.targets);
         for number in 0..options.targets {
             watch.check()?;
@@ -143,12 +159,33 @@ impl<'a> Check<'a> {
             row.screw = Some(others.len());
             faults.extend((!self.agrees(&row.target, answers, &others)).then_some(Fault::Screw));
         }
-        if number < self.options.oracle {
+        let is_searched = row.kind.is_round() && self.options.draws == Draws::Round && self.options.oracle > 0;
+        if number < self.options.oracle || is_searched {
             let (count, agrees) = self.oracle(&row.target, answers)?;
             row.oracle = Some(count);
             faults.extend((!agrees).then_some(Fault::Oracle));
         }
+        if row.kind.is_round() {
+            faults.extend((!self.agrees_beside(row, answers)?).then_some(Fault::Moved));
+        }
         Ok(faults)
+    }
+
+    /// Whether each ordinary answer to a reached target that is moved by [`MOVED`] is next to one of these.
+    fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
+        let Some(q) = &row.joints else { return Ok(true) };
+        let sizes = self.model.joint_sizes(&row.target);
+        let moved: Vec<f64> = (0..q.len()).map(|joint| q[joint] + MOVED * share(joint) * sizes[joint]).collect();
+        let Some(beside) = self.model.inputs_at(&moved, &row.target) else { return Ok(true) };
+        let others = match self.solver.solve_numbers(&beside) {
+            Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
+            others => others?,
+        };
+        Ok(others.iter().all(|other| {
+            let sigma = self.model.sigma(&beside, &other.q);
+            let near = |answer: &Solution| self.model.distance(&beside, &other.q, &answer.q) <= FOLLOWS * MOVED / sigma;
+            sigma <= ORDINARY || answers.iter().any(near)
+        }))
     }
 
     /// Checks each answer by itself, and records the worst residual.
@@ -249,6 +286,12 @@ impl<'a> Check<'a> {
         let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
         found.iter().all(ours) && answers.iter().all(theirs)
     }
+}
+
+/// How much of [`MOVED`] joint number so moves by: all differ.
+fn share(number: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    2.0 * (GOLDEN * (number as f64 + 1.0)).fract() - 1.0
 }
 
 /// The equations of a source that is solved as one block.

@@ -34,6 +34,13 @@ pub enum Kind {
     OfIdeal(Box<Kind>),
 }
 
+impl Kind {
+    /// Whether the target is made of round numbers.
+    pub fn is_round(&self) -> bool {
+        matches!(self, Kind::Round | Kind::Aligned)
+    }
+}
+
 /// What is wrong with the answers at a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
@@ -49,7 +56,7 @@ pub enum Fault {
     Bound,
     /// A joint is called free where the Jacobian is regular.
     Free,
-    /// The joint values that made the target belong to a self-motion, and no answer with a free joint stands for it.
+    /// The joint values that made the target belong to a self-motion, and no answer with a free joint represents it.
     SelfMotion,
     /// The number of answers differs from the exact number of real solutions.
     Count,
@@ -57,6 +64,8 @@ pub enum Fault {
     Screw,
     /// The answers differ from those of the numeric oracle.
     Oracle,
+    /// The target moved a little has an ordinary answer that is next to none of them.
+    Moved,
 }
 
 /// Whether the answers at a target are right.
@@ -294,6 +303,7 @@ impl fmt::Display for Fault {
             Fault::Count => "count",
             Fault::Screw => "screw",
             Fault::Oracle => "oracle",
+            Fault::Moved => "moved",
         })
     }
 }
@@ -308,10 +318,11 @@ impl Fault {
             Fault::Duplicate => "two are the same",
             Fault::Bound => "there are more than the certified number of complex solutions",
             Fault::Free => "a joint is called free that cannot move there",
-            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that stands for it",
+            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that represents it",
             Fault::Count => "there are not as many as exact real roots",
             Fault::Screw => "the screw solver (Paden-Kahan) has others",
             Fault::Oracle => "damped least squares from many seeds has others",
+            Fault::Moved => "the target moved by 1e-7 has others",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::Draws;
 use super::model::{EXACT, Model, replaced};
 use super::newton::newton;
 use super::random::Random;
@@ -37,6 +38,9 @@ const PLAN: [Slot; 12] = {
     ]
 };
 
+/// What is tried in turn where all targets are to be round.
+const ROUND: [Slot; 2] = [Slot::Round(15), Slot::Round(30)];
+
 #[derive(Clone, Copy)]
 enum Slot {
     Random,
@@ -58,6 +62,7 @@ pub(super) struct Target {
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
     random: Random,
+    plan: &'static [Slot],
     /// Factors that vanish together, with their text.
     strata: Vec<(String, Vec<Expression>)>,
     boundaries_done: usize,
@@ -65,14 +70,15 @@ pub(super) struct Targets<'a> {
 }
 
 impl<'a> Targets<'a> {
-    pub fn new(model: &'a Model<'a>, program: &Program, seed: u64) -> Self {
-        let strata = strata(model, program);
-        Targets { model, random: Random::new(seed), strata, boundaries_done: 0, strata_done: 0 }
+    pub fn new(model: &'a Model<'a>, program: &Program, draws: Draws, seed: u64) -> Self {
+        let (strata, random) = (strata(model, program), Random::new(seed));
+        let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
+        Targets { model, random, plan, strata, boundaries_done: 0, strata_done: 0 }
     }
 
     /// The target of row `number`; `None` when no draw gave one.
     pub fn draw(&mut self, number: usize) -> Option<Target> {
-        let special = match PLAN[number % PLAN.len()] {
+        let special = match self.plan[number % self.plan.len()] {
             Slot::Random => None,
             Slot::Round(degrees) => self.round(degrees),
             Slot::Boundary => self.boundary(),

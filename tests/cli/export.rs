@@ -138,9 +138,9 @@ fn what_is_no_scene_is_refused() {
     says(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is none of groebot's");
     says(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
     says(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
-    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf tell a robot, no motion and no scene");
-    says(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf tell a robot");
-    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot says who moves, but this is no motion");
+    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, no motion and no scene");
+    says(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf describe a robot");
+    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot names the robot that moves, but this is no motion");
     says(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
     says(&[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"], "a.wrl: line 2: `Sphere` is not read here");
     let not = format!("{head}time [s],q:lift [m]\n0,0.1\n1,NaN\n");

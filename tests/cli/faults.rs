@@ -16,12 +16,16 @@ const ROBOT: &str = "<robot name=\"arm\"><xacro:property name=\"width\" value=\"
     <joint name=\"pan\" type=\"revolute\"><parent link=\"base\"/><child link=\"cam\"/><axis xyz=\"0 0 1\"/><limit lower=\"2\" upper=\"-2\"/></joint>\n\
     </robot>\n";
 const FAULT: &str = "line 6: joint `pan`: the limits 2..-2 are inverted";
-const XACRO: &str = "line 1: definitions of xacro that nothing uses are passed over: `width`";
+const XACRO: &str = "line 1: definitions of xacro that nothing uses are ignored: `width`";
 
 fn robot() -> (TempDir, String) {
+    robot_of(ROBOT)
+}
+
+fn robot_of(urdf: &str) -> (TempDir, String) {
     let folder = tempdir().unwrap();
     let file = folder.path().join("arm.urdf");
-    fs::write(&file, ROBOT).unwrap();
+    fs::write(&file, urdf).unwrap();
     let name = text(&file).to_owned();
     (folder, name)
 }
@@ -52,7 +56,10 @@ fn derive_tells_them_in_its_report_and_in_json() {
         elbows.len() == 2 && (elbows[0] + quarter).abs() < 1e-9 && (elbows[1] - quarter).abs() < 1e-9,
         "{elbows:?}"
     );
-    assert_eq!(run(&["check", text(&out)]).code, 0);
+    let checked = run(&["check", text(&out), "--json"]);
+    assert_eq!((checked.code, notes(&checked.out)), (0, told));
+    let checked = run(&["check", text(&out)]);
+    assert!(checked.code == 0 && checked.err.contains(FAULT), "{}", checked.err);
 }
 
 #[test]
@@ -60,11 +67,18 @@ fn commands_on_a_chain_tell_them() {
     let (_folder, file) = robot();
     let told = notes(&run(&["info", &file, "--tip", "tip", "--json"]).out);
     assert!(told.len() == 2 && told[1].contains(FAULT), "{told:?}");
-    let told = notes(&run(&["fk", &file, "--tip", "tip", "--q", "0,0", "--json"]).out);
-    assert!(told.len() == 2 && told[1].contains(FAULT), "{told:?}");
-    let ik = ["ik", &file, "--tip", "tip", "--task", "planar_position", "--plane", "xy", "--target", "0.3,0.3"];
+    let task = ["--tip", "tip", "--task", "planar_position", "--plane", "xy"];
+    let ik = [&["ik", &file, "--target", "0.3,0.3"], &task[..]].concat();
     let fk = ["fk", &file, "--tip", "tip", "--q", "0,0"];
-    for arguments in [&ik[..], &fk] {
+    let plan = [&["plan", &file], &task[..]].concat();
+    for arguments in [&ik[..], &fk, &plan] {
+        let ran = run(&[arguments, &["--json"]].concat());
+        let told = notes(&ran.out);
+        assert!(told.len() == 2 && told[0] == XACRO && told[1].contains(FAULT), "{arguments:?}: {told:?}");
+        assert_eq!(ran.err, "", "{arguments:?}");
+    }
+    let explain = [&["explain", &file], &task[..]].concat();
+    for arguments in [&ik[..], &fk, &plan, &explain, &["dynamics", "--symbolic", &file, "--tip", "tip"]] {
         let ran = run(arguments);
         assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
         assert!(ran.err.contains(&format!("note: {XACRO}\n")) && ran.err.contains(FAULT), "{}", ran.err);
@@ -95,12 +109,52 @@ fn a_chain_through_them_and_the_whole_robot_are_refused() {
     }
 }
 
+/// The same robot without a fault, each link a rod of 1 kg.
+fn sound() -> String {
+    let mass = "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>";
+    let heavy = |text: String, name: &str| {
+        text.replace(&format!("<link name=\"{name}\"/>"), &format!("<link name=\"{name}\">{mass}"))
+    };
+    let text = ROBOT.replace("lower=\"2\" upper=\"-2\"", "lower=\"-2\" upper=\"2\"");
+    ["upper", "fore", "cam"].into_iter().fold(text, heavy)
+}
+
+#[test]
+fn commands_on_the_whole_robot_tell_what_was_ignored() {
+    let (folder, file) = robot_of(&sound());
+    let table = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let states = table("states.csv", "q0,q1,q2\n0,0,0\n");
+    let trajectory = table("trajectory.csv", "t,q0,q1,q2\n0,0,0,0\n0.01,0,0,0\n");
+    let row = |k: i32| {
+        let x = f64::from(k);
+        let numbers = (0..12).map(|i| ((1.0 + x) * (2.0 + f64::from(i))).sin().to_string());
+        numbers.collect::<Vec<_>>().join(",")
+    };
+    let log = (0..60).map(row).collect::<Vec<_>>().join("\n");
+    let log = table("log.csv", &format!("q0,q1,q2,v0,v1,v2,a0,a1,a2,tau0,tau1,tau2\n{log}\n"));
+    for arguments in [
+        &["dynamics", &file, "--states", &states][..],
+        &["track", &file, "--law", "computed-torque", "--trajectory", &trajectory],
+        &["identify", &file, &log],
+    ] {
+        let ran = run(&[arguments, &["--json"]].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{arguments:?}");
+        assert_eq!(notes(&ran.out), [XACRO], "{arguments:?}");
+        let ran = run(arguments);
+        assert_eq!((ran.code, ran.err), (0, format!("note: {XACRO}\n")), "{arguments:?}");
+    }
+}
+
 #[test]
 fn info_shows_the_robot_all_the_same() {
     let (_folder, file) = robot();
     let ran = run(&["info", &file]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
-    for words in ["5 links, 3 joints that move", "mass\n  not told", "faults", FAULT, XACRO] {
+    for words in ["5 links, 3 joints that move", "mass\n  not computed: see the faults", "faults", FAULT, XACRO] {
         assert!(ran.out.contains(words), "{words}: {}", ran.out);
     }
     let value: Value = serde_json::from_str(&run(&["info", &file, "--json"]).out).unwrap();

@@ -21,7 +21,7 @@ fn ways_are_told_as_text_json_and_csv() {
     let told = succeed(&[&asked[..], &["-o", text(&out)]].concat());
     // Over both upper corners of the wall, at (1.45, 1.2) and (1.55, 1.2).
     let length = 2.0 * 0.95f64.hypot(0.7) + 0.1;
-    assert!(told.contains(&format!("way of {length:.4} m, proved to be the shortest, 4 points")), "{told}");
+    assert!(told.contains(&format!("path of {length:.4} m, proved to be the shortest, 4 points")), "{told}");
     assert_eq!(fs::read_to_string(&out).unwrap().lines().count(), 5);
     let json = |more: &[&'static str]| -> Value { serde_json::from_str(&succeed(&with(more))).unwrap() };
     let exact = json(&["--json"]);
@@ -40,8 +40,8 @@ fn ways_are_told_as_text_json_and_csv() {
     let smooth = json(&["--json", "--radius", "0.2", "--smooth", "0.1"]);
     assert!(smooth["points"].as_array().unwrap().len() > 20);
     // The wall is moved away.
-    assert!(succeed(&with(&["--furniture", "wall=none"])).contains("way of 2.0000 m"));
-    assert!(succeed(&with(&["--furniture", "wall=1.5,1.4"])).contains("way of 2.0000 m"));
+    assert!(succeed(&with(&["--furniture", "wall=none"])).contains("path of 2.0000 m"));
+    assert!(succeed(&with(&["--furniture", "wall=1.5,1.4"])).contains("path of 2.0000 m"));
 }
 
 #[test]
@@ -74,14 +74,14 @@ fn where_there_is_no_way_the_exit_status_is_four() {
     let plot = folder.path().join("plan.svg");
     let output = run(&[&asked[..], &["--json", "--plot", text(&plot)]].concat());
     assert_eq!(output.code, 4, "{}", output.err);
-    assert!(output.err.contains("there is no way: "), "{}", output.err);
+    assert!(output.err.contains("there is no path: "), "{}", output.err);
     // The two cells of that side with room for a body, or one of them and what of them is nearer to the walls.
     let told: Value = serde_json::from_str(&output.out).unwrap();
     let cells = told["enclosure"].as_array().unwrap();
     assert!(told["points"].is_null() && !cells.is_empty() && cells.len() <= 4, "{told}");
     assert!(cells.iter().all(|at| at[0].as_f64().unwrap() < 1.8 || at[0].as_f64().unwrap() > 2.4), "{told}");
     let drawn = fs::read_to_string(&plot).unwrap();
-    assert!(drawn.contains("no way from (1.00, 1.00) to (3.50, 1.00)") && drawn.contains("class=\"closed\""));
+    assert!(drawn.contains("no path from (1.00, 1.00) to (3.50, 1.00)") && drawn.contains("class=\"closed\""));
 }
 
 #[test]

@@ -176,6 +176,17 @@ fn the_default_tip_is_told() {
     assert!(succeed(&[&["ik", arm], &q[..], &task].concat()).starts_with(note));
     assert!(succeed(&[&["plan", arm], &task[..]].concat()).starts_with(note));
     assert!(succeed(&[&["info", arm], &task[..]].concat()).contains(note));
+    assert!(succeed(&["dynamics", "--symbolic", arm]).starts_with(note));
+    let tip = "Tip link `robot_tool0`: the only tool0 link; `--tip` chooses another.";
+    assert!(succeed(&[&["explain", arm], &task[..]].concat()).contains(tip));
+    let latex = ["dynamics", "--symbolic", arm, "--latex"];
+    for command in [[&["explain", arm, "--latex"], &task[..]].concat(), latex.to_vec()] {
+        assert!(succeed(&command).contains(" chooses another.\n"), "{command:?}");
+    }
+    // A derivation is of the tip link that it was made for.
+    for command in [&["explain", text(&out)][..], &["explain", arm, "--tip", "robot_tool0", "--task", "position"]] {
+        assert!(!succeed(command).contains("chooses another"), "{command:?}");
+    }
     assert!(succeed(&["info", arm]).contains("--tip (default robot_tool0, the only tool0 link)"));
     for command in [
         [&["fk", arm, "--json"], &q[..]].concat(),

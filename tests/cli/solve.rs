@@ -195,8 +195,11 @@ fn a_bad_row_names_its_line() {
         ("60,150\n\n60\n", "<stdin>: line 3: 1 numbers given"),
         ("60,150\n1,NaN\n", "<stdin>: line 2: `pz` is NaN"),
         ("a,b\n1,2\n", "<stdin>: line 1: the first row"),
-        ("px,pz,weight\n60,150,1\n", "<stdin>: line 1: the column `weight` is not known; px, pz are read"),
-        ("px,px,pz\n60,60,150\n", "<stdin>: line 1: column 2 of the first row, `px`, stands twice"),
+        (
+            "px,pz,weight\n60,150,1\n",
+            "<stdin>: line 1: the column `weight` is not known; allowed: px, pz; ignored: joints",
+        ),
+        ("px,px,pz\n60,60,150\n", "<stdin>: line 1: column 2 of the first row, `px`, is given twice"),
         ("px,pz\n60,150,1\n", "<stdin>: line 2: the row has 3 cells, and the first one 2 names"),
         ("1,x\n", "<stdin>: line 1: cell 2"),
     ];
@@ -275,4 +278,43 @@ fn quaternions_in_csv_and_what_is_none() {
         let ran = run_on(&["solve", path], input.as_bytes());
         assert!(ran.code == 1 && ran.err.contains(words), "{}", ran.err);
     }
+}
+
+/// A planar arm of 0.3 m and 0.25 m whose hand, 0.1 m, is turned back by a parallelogram: `hand` is 0.1 rad less `elbow`.
+const PALLETIZER: &str = r#"<robot name="pal"><link name="base"/><link name="upper"/><link name="fore"/><link name="hand"/><link name="tool0"/>
+<joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+<joint name="elbow" type="continuous"><parent link="upper"/><child link="fore"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="back" type="continuous"><parent link="fore"/><child link="hand"/><origin xyz="0.25 0 0"/><axis xyz="0 0 1"/>
+<mimic joint="elbow" multiplier="-1" offset="0.1"/></joint>
+<joint name="end" type="fixed"><parent link="hand"/><child link="tool0"/><origin xyz="0.1 0 0"/></joint></robot>"#;
+
+#[test]
+fn joints_that_follow_others_are_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("pal.urdf"), folder.path().join("out"));
+    std::fs::write(&file, PALLETIZER).unwrap();
+    let [file, out] = [text(&file), text(&out)];
+    let task = ["--task", "planar_position", "--plane", "xy"];
+    let derive = [&["derive", file, "--out", out, "--json"], &task[..]].concat();
+    let solve = ["solve", out, "--target", "0.3,0.35"];
+    let ik = [&["ik", file, "--numeric", "--target", "0.3,0.35"], &task[..]].concat();
+    let leaders = serde_json::json!([null, null, "elbow"]);
+    let read = |arguments: &[&str]| -> Value { serde_json::from_str(&succeed(arguments)).unwrap() };
+    assert_eq!(read(&derive)["follows"], leaders);
+    for arguments in [&solve[..], &ik] {
+        let answer = read(&[arguments, &["--json"]].concat());
+        assert_eq!(answer["follows"], leaders);
+        assert_eq!(answer["joints"], serde_json::json!(["shoulder", "elbow", "back"]));
+        let solutions = answer["solutions"].as_array().unwrap();
+        assert_eq!(solutions.len(), 2, "{answer}");
+        for q in solutions.iter().map(|solution| numbers(&solution["q"])) {
+            let off = (q[2] - (0.1 - q[1])) / (2.0 * PI);
+            assert!((off - off.round()).abs() < 1e-9, "{q:?}");
+        }
+        let page = succeed(arguments);
+        assert!(page.contains("\n  back follows -1 * elbow + 0.1\n"), "{page}");
+    }
+    // Without such joints nothing is said of them.
+    let page = succeed(&["solve", leg().path(), "--target", "60,150"]);
+    assert!(!page.contains("follows") && json("60,150", &[]).get("follows").is_none(), "{page}");
 }

@@ -21,7 +21,7 @@ fn a_task_is_done_checked_and_shown() {
     let asked = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
     let files = ["-o", text(&json), "--view", text(&page), "--plot", text(&svg)];
     let told = succeed(&[&asked[..], &files].concat());
-    for word in ["behind step 0, found in", "behind step 2, found in", "nearest ", "to floor, ", "turns at ", "81"] {
+    for word in ["after step 0, found in", "after step 2, found in", "nearest ", "to floor, ", "turns at ", "81"] {
         assert!(told.contains(word), "{word}: {told}");
     }
     let written = fs::read_to_string(&json).unwrap();
@@ -64,7 +64,7 @@ fn where_a_change_leaves_no_way_the_exit_status_is_four() {
     let asked = [&asked[..], &["--then", "ball=1.6,1.2@1", "--json"]].concat();
     let output = run(&asked);
     assert_eq!(output.code, 4, "{} {}", output.out, output.err);
-    assert!(output.err.contains("there is no way: "), "{}", output.err);
+    assert!(output.err.contains("there is no path: "), "{}", output.err);
     let told: Value = serde_json::from_str(&output.out).unwrap();
     assert!(told["holds"] == false && told["enclosure"].as_array().unwrap().len() > 3, "{told}");
 }
@@ -77,7 +77,7 @@ fn bad_input_of_tasks_is_refused() {
     let start = ["--start", "0.6,1.2"];
     let task = |more: &[&str]| refused(&[&["task", "rh0", "--room", text(&room)][..], more].concat());
     for (more, words) in [
-        (&["--goal", "chair"][..], "the room tells no start; give --start"),
+        (&["--goal", "chair"][..], "the room has no start; give --start"),
         (&["--goal", "chairs", start[0], start[1]], "no furniture `chairs` to get to (did you mean `chair`?)"),
         (&["--goal", "1", start[0], start[1]], "--goal takes two or three numbers"),
         (&["--goal", "chair", start[0], start[1], "--then", "ball=1,1"], "give NAME=X,Y@STEPS"),

@@ -116,5 +116,5 @@ pub fn one_block(cases: Vec<Case>) -> Vec<Block> {
 
 /// A root step of an unknown of usual size.
 pub fn roots(unknown: usize, polynomials: Vec<Vec<Operand>>) -> Step {
-    Step::Roots { unknown, polynomials, typical: None }
+    Step::Roots { unknown, polynomials, typical: None, half_angle: false }
 }

@@ -307,8 +307,8 @@ fn limits_and_the_source_stand_in_the_file() {
     let mut program = named(&["scara"]).remove(0).program;
     let limits = vec![Some((-1.25, 2.5)), None, Some((0.0, 0.25)), None];
     let [base, tip] = ["base_link", "tool0"].map(|name| Some(name.to_owned()));
-    program.about =
-        Some(About { task: "pose".into(), base, tip, solutions: None, hash: "0123456789abcdef".into(), limits });
+    let hash = "0123456789abcdef".into();
+    program.about = Some(About { task: "pose".into(), base, tip, solutions: None, hash, limits, follows: Vec::new() });
     let (pair, rust) = (Pair::new(&program, "scara"), rust::emit(&program));
     for text in [&pair.header, &rust] {
         let head: Vec<&str> = text.lines().take(12).collect();

@@ -14,17 +14,24 @@ use nalgebra::DMatrix;
 use crate::codegen::random;
 
 /// A joint: its type, its origin's position and roll, pitch, yaw, its axis. `Q` stands for a quarter turn, `H` for a half.
-type Link = (&'static str, &'static str, &'static str, &'static str);
+pub(super) type Link = (&'static str, &'static str, &'static str, &'static str);
 
 /// A SCARA whose slide points down.
-const SCARA: [Link; 4] = [
+pub(super) const SCARA: [Link; 4] = [
     ("revolute", "0 0 0.1", "0 0 0", "0 0 1"),
     ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
     ("prismatic", "0.25 0 0.133", "H 0 0", "0 0 1"),
     ("revolute", "0 0 0", "0 0 0", "0 0 1"),
 ];
+/// A SCARA with two links of equal length: folded, its tool is on the first joint's axis, and this joint is free.
+pub(super) const FOLDING: [Link; 4] = [
+    ("revolute", "0 0 0", "0 0 0", "0 0 1"),
+    ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
+    ("prismatic", "0.3 0 0.13297", "H 0 0", "0 0 1"),
+    ("revolute", "0 0 0", "0 0 0", "0 0 1"),
+];
 /// An arm of five joints of the kind of a uFactory xArm 5: three parallel axes, and a wrist that turns across them.
-const FIVE: [Link; 5] = [
+pub(super) const FIVE: [Link; 5] = [
     ("revolute", "0 0 0.267", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0", "-Q 0 0", "0 0 1"),
     ("revolute", "0.053 -0.2845 0", "0 0 0", "0 0 1"),
@@ -40,7 +47,7 @@ const PALLETIZER: [Link; 5] = [
     ("revolute", "0 0.1 0", "Q 0 0", "0 0 1"),
 ];
 /// An arm of four joints of the kind of a PhantomX Pincher: a waist and three parallel axes.
-const PINCHER: [Link; 4] = [
+pub(super) const PINCHER: [Link; 4] = [
     ("revolute", "0 0 0.0676", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0.0394", "Q 0 0", "0 0 1"),
     ("revolute", "0 0.107 0", "0 0 0", "0 0 1"),
@@ -54,7 +61,7 @@ const MICO: [Link; 4] = [
     ("revolute", "0 0.1233 -0.0074", "-Q 0 0", "0 0 1"),
 ];
 /// An arm of five joints of the kind of a Lynxmotion AL5D.
-const LYNX: [Link; 5] = [
+pub(super) const LYNX: [Link; 5] = [
     ("revolute", "0 0 0.069", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0", "Q 0 0", "0 0 1"),
     ("revolute", "0.146 0 0", "0 0 0", "0 0 1"),
@@ -68,24 +75,24 @@ const SHOULDER: [Link; 3] = [
     ("revolute", "0.06 0.016 0", "Q 0 0", "0 0 1"),
 ];
 /// Three links in the vertical plane.
-const PLANAR: [Link; 3] = [
+pub(super) const PLANAR: [Link; 3] = [
     ("revolute", "0 0 0.1", "Q 0 0", "0 0 1"),
     ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
     ("revolute", "0.25 0 0", "0 0 0", "0 0 1"),
 ];
 
 /// How descriptions round a quarter and a half turn.
-const ROUNDINGS: [[&str; 2]; 4] = [
+pub(super) const ROUNDINGS: [[&str; 2]; 4] = [
     ["1.5707963", "3.14159265"],
     ["1.5708", "3.1416"],
     ["1.57079", "3.14159"],
     // Of 32 bits.
     ["1.57079637050628662109375", "3.1415927410125732421875"],
 ];
-const EXACT: [&str; 2] = ["1.5707963267948966", "3.141592653589793"];
+pub(super) const EXACT: [&str; 2] = ["1.5707963267948966", "3.141592653589793"];
 
 /// The robot with these angles.
-fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
+pub(super) fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
     let mut text = String::from("<robot name=\"rounded\"><link name=\"l0\"/>");
     for (index, (kind, xyz, rpy, axis)) in links.iter().enumerate() {
         let (rpy, next) = (rpy.replace('Q', quarter).replace('H', half), index + 1);
@@ -104,26 +111,29 @@ fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
 }
 
 /// `chain` for a task.
-fn asked(chain: &Chain, task: Task, direction: [i32; 3]) -> Chain {
+pub(super) fn asked(chain: &Chain, task: Task, direction: [i32; 3]) -> Chain {
     chain.with_task(task, direction.map(|x| groebot::number::BigRational::from_integer(x.into())), Vec::new()).unwrap()
 }
 
 /// The solver of a chain for its pose.
-fn derived(chain: &Chain) -> groebot::solver::Program {
+pub(super) fn derived(chain: &Chain) -> groebot::solver::Program {
     Proved::of_chain(chain, &Watch::none()).unwrap().program().clone()
 }
 
-/// Programs of a SCARA, a palletizer and a planar arm as described.
+/// Programs of two SCARAs, an arm of five joints and a planar arm as described.
 pub fn programs() -> Vec<groebot::solver::Program> {
     let planar = asked(&robot(&PLANAR, ROUNDINGS[1]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
-    [robot(&SCARA, ROUNDINGS[0]), robot(&FIVE, ROUNDINGS[1]), planar].iter().map(derived).collect()
+    [robot(&SCARA, ROUNDINGS[0]), robot(&FOLDING, ROUNDINGS[1]), robot(&FIVE, ROUNDINGS[1]), planar]
+        .iter()
+        .map(derived)
+        .collect()
 }
 
 fn sigma(jacobian: DMatrix<f64>) -> f64 {
     jacobian.svd(false, false).singular_values.min()
 }
 
-fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     let way = |(joint, (a, b)): (&groebot::kinematics::Joint, (&f64, &f64))| match joint.kind {
         JointKind::Revolute => (a - b - 2.0 * PI * ((a - b) / (2.0 * PI)).round()).abs(),
         JointKind::Prismatic => (a - b).abs() / chain.reach(),

@@ -5,6 +5,7 @@ mod chains;
 mod closure;
 mod coupled;
 pub mod described;
+mod described_singular;
 mod ends;
 mod explain;
 mod families;

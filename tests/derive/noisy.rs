@@ -60,7 +60,7 @@ fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
         let near =
             |a: f64, b: f64| ((a - b) / std::f64::consts::TAU - ((a - b) / std::f64::consts::TAU).round()).abs() < 1e-9;
         let found = answers.iter().filter(|answer| answer.q.iter().zip(&q).all(|(a, b)| near(*a, *b))).count();
-        assert!(found <= 1, "an answer stands twice at {q:?}");
+        assert!(found <= 1, "an answer is given twice at {q:?}");
         ordinary += 1;
         lost += usize::from(found == 0);
     }

@@ -176,7 +176,7 @@ fn order_and_choice_are_checked() {
     use ErrorKind::{BadValue, DuplicateName, UnknownName};
     changed(|p| p.order = names(&["c4", "c2", "s4"]), BadValue, "`s2` is missing");
     changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "py"]), UnknownName, "`py` is no unknown");
-    changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "s2"]), DuplicateName, "`s2` stands twice");
+    changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "s2"]), DuplicateName, "`s2` is given twice");
     changed(|p| p.choice.as_mut().unwrap().unknown = "py".into(), UnknownName, "choice: `py`");
 }
 

@@ -1,7 +1,10 @@
 //! Chains that no block solves: wrists and legs with offsets, a calibrated arm.
 
-use groebot::derive::eigenvalue;
+use groebot::Watch;
+use groebot::derive::{Proved, eigenvalue};
 use groebot::kinematics::Chain;
+use groebot::witness::chain::Check;
+use groebot::witness::{Kind, Options};
 
 use super::{Axes, Random, chain, nearest, rational, residual};
 
@@ -108,5 +111,23 @@ fn a_hundred_thousand_targets_of_each_robot() {
         let (misses, worst) = misses(axes, 100_000);
         println!("{name}: {misses} misses in 100000, worst residual {worst:e}");
         assert!(misses <= 1 && worst <= 1e-12, "{name}");
+    }
+}
+
+/// Arms as described, axes along y turned by the 3.7e-6 rad that 1.5708 is off a right angle. At their singular targets the ideal robots have two complex
+/// solutions, or two real ones, where the arms have one: the joint values that made each target are found.
+#[test]
+fn singular_targets_of_arms_in_rounded_numbers() {
+    for axes in [OFFSET_WRIST, SIDE_WRIST, OFFSET_LEG] {
+        let rounded = axes.map(|(axis, point)| (if axis == Y { [0, 1_000_000, 4] } else { axis }, point));
+        let described = robot(&rounded);
+        let proved = Proved::of_chain(&described, &Watch::none()).unwrap();
+        assert!(matches!(&proved, Proved::SixAxes(derived) if derived.unpolished.is_some()));
+        let options = Options { targets: 96, oracle: 0, exact: 0, seed: 5, ..Options::default() };
+        let report = Check::run(&described, proved.program(), None, &options, &Watch::none()).unwrap();
+        let singular = |kind: &Kind| matches!(kind, Kind::Singular | Kind::Near(_));
+        assert!(report.rows.iter().filter(|row| singular(&row.kind)).count() >= 30);
+        let failures: Vec<String> = report.failures().map(|row| row.to_string()).collect();
+        assert!(failures.is_empty(), "{}", failures.join("\n"));
     }
 }

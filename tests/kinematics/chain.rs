@@ -111,10 +111,10 @@ fn every_fault_is_refused() {
         (|p| p.tip.point[0] = exact("-1e13"), ErrorKind::BadValue, "tip is beyond 10^12"),
         (|p| p.tip.rotation[2][2] = exact("-1"), ErrorKind::BadValue, "no rotation"),
         (|p| p.tip.rotation[0][0] = exact("0.6000001"), ErrorKind::BadValue, "no rotation"),
-        (|p| p.order.as_mut().unwrap().push("dx".into()), ErrorKind::DuplicateName, "stands twice"),
+        (|p| p.order.as_mut().unwrap().push("dx".into()), ErrorKind::DuplicateName, "is given twice"),
         (|p| p.direction = ["0"; 3].map(exact), ErrorKind::BadValue, "direction is [0, 0, 0]"),
         (|p| p.given = vec!["swong".into()], ErrorKind::UnknownName, "`swing`"),
-        (|p| p.given = vec!["swing".into(); 2], ErrorKind::DuplicateName, "stands twice"),
+        (|p| p.given = vec!["swing".into(); 2], ErrorKind::DuplicateName, "is given twice"),
         (|p| p.given = vec!["slide".into(), "swing".into()], ErrorKind::BadValue, "every joint is given"),
         (|p| p.choice.as_mut().unwrap().unknown = "d1".into(), ErrorKind::UnknownName, "`c1`, `s1`, `dx`"),
     ];

@@ -129,7 +129,7 @@ fn every_mistake_of_a_file_has_its_kind_and_line() {
         ("length_unit = 'mm'", "description = ['x']", BadValue, 2, "`description`"),
         ("angle_unit = 'deg'", "angle_unit = 'grad'", BadValue, 3, "did you mean `rad`?"),
         ("'d2']", "'d3']", UnknownName, 4, "did you mean `d2`?"),
-        ("'d2']", "'s1']", DuplicateName, 4, "`s1` stands twice"),
+        ("'d2']", "'s1']", DuplicateName, 4, "`s1` is given twice"),
         (", 'd2']", "]", BadValue, 4, "`d2` is missing"),
         ("['c1', 's1', 'd2']", "'c1'", BadValue, 4, "an array"),
         ("'s1', 'd2'", "7", BadValue, 4, "a string"),

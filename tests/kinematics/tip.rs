@@ -61,6 +61,10 @@ fn suggestions_are_leaves_that_move_the_likeliest_first() {
     let robot = robot("hip<base calf<hip foot=calf arm<base hand=arm wrist<arm wrist_flange=wrist imu=base");
     assert_eq!(robot.suggested_tips(robot.root_place()), ["wrist_flange", "foot", "hand"]);
     assert_eq!(tip("hip<base calf<hip foot=calf imu=base", None), Err("`foot`".to_owned()));
+    // What moves below a tip frame is part of a tool: its leaves are not suggested, other leaves are.
+    let arm = |side: &str| format!("{side}<base {side}_tool0={side} {side}_thumb<{side}_tool0 {side}_camera={side}");
+    let arms = [arm("left"), arm("right")].join(" ");
+    assert_eq!(tip(&arms, None), Err("`left_tool0`, `right_tool0`, `left_camera`, `right_camera`".to_owned()));
     // Seen from another base, other links move.
     assert_eq!(tip("hip<base calf<hip foot=calf imu=base", Some("foot")), Err("`imu`".to_owned()));
     assert_eq!(tip("a=base b=base", None), Err("`a`, `b`".to_owned()), "nothing moves: all leaves");

@@ -76,7 +76,7 @@ fn declared_encodings_are_read() {
 #[test]
 fn bytes_in_comments_do_no_harm() {
     let (robot, text) = read(&latin(&urdf("", "geändert von Jörg", "base"))).unwrap();
-    assert_eq!(robot.parts().notes, ["line 2: bytes of a comment are not UTF-8; they are passed over"]);
+    assert_eq!(robot.parts().notes, ["line 2: bytes of a comment are not UTF-8; they are ignored"]);
     assert_eq!(robot.notes(&robot.path(None, None).unwrap()), robot.parts().notes);
     assert!(text.contains("ge\u{fffd}ndert"));
     for (bytes, line) in [

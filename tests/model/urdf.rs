@@ -135,7 +135,7 @@ fn mistakes_have_a_line_and_a_name() {
         ("0 0 1.5708", "0 0 1e9", BadValue, "joint `knuckle`: <origin> the angle is too large"),
         ("0 1 0", "0 0 0", BadValue, "joint `knuckle`: axis [0, 0, 0] has no direction"),
         ("<axis xyz=\"0 1 0\"/>", "<axis/>", MissingKey, "<axis> has no `xyz`"),
-        ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><axis xyz=\"0 1 0\"/>", BadValue, "<axis> stands twice"),
+        ("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0\"/><axis xyz=\"0 1 0\"/>", BadValue, "<axis> is given twice"),
         (
             "<limit lower=\"-0.2\" upper=\"1.4\" effort=\"1\" velocity=\"2\"/>",
             "",

@@ -35,7 +35,7 @@ fn json_is_read_back() {
     let mut value = path.to_json();
     assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
     value["walk"] = 1.into();
-    assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is passed over");
+    assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is ignored");
     for (format, told) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
         value["format"] = format;
         let error = Trajectory::from_json(&value.to_string()).unwrap_err();

@@ -103,7 +103,7 @@ fn yaml_that_is_none_has_a_line() {
     for (from, to, kind, line, words) in [
         ("image: a.pgm", "image: [a.pgm", ErrorKind::Syntax, None, "this is no YAML"),
         ("negate: 1", "negate: \"1", ErrorKind::Syntax, None, "this is no YAML"),
-        ("negate: 1", "mode: raw", ErrorKind::DuplicateName, Some(7), "the key `mode` stands twice"),
+        ("negate: 1", "mode: raw", ErrorKind::DuplicateName, Some(7), "the key `mode` is given twice"),
         ("negate: 1", "negate: [1]", ErrorKind::BadValue, Some(4), "`negate` is `[1]`; give 0 or 1"),
         ("mode: scale", "mode: Scale", ErrorKind::BadValue, Some(7), "give one of trinary, scale, raw"),
         ("mode: scale", "mode:", ErrorKind::BadValue, Some(7), "give one of trinary, scale, raw"),

@@ -58,7 +58,7 @@ fn what_is_no_room_is_refused() {
         ("wall = 0.1", "wall = -1", None, "walls of -1 m"),
         ("resolution = 0.1", "resolution = 0", None, "a resolution of 0 m"),
         ("wall", "walls", Some(5), "`walls`"),
-        ("\"lamp\"", "\"sofa\"", Some(10), "`sofa` stands twice"),
+        ("\"lamp\"", "\"sofa\"", Some(10), "`sofa` is given twice"),
         ("circle = 0.25", "", Some(10), "one outline"),
         ("circle = 0.25", "circle = -0.25", Some(10), "radius"),
         ("circle = 0.25", "polygon = [[0, 0], [1, 1]]", Some(10), "at least three"),

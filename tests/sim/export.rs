@@ -365,7 +365,7 @@ mod vrml {
             ("ROUTE a.b TO c.d", Unsupported, 1, "allowed: `Transform`, `Shape`"),
             (&deep, Unsupported, 1, "deeper than 64"),
             ("Transform {\ncenter 0 0 0 }", UnknownKey, 2, "Transform has no field `center` here"),
-            ("Transform { scale 1 1 1\n scale 1 1 1 }", DuplicateName, 2, "`scale` stands twice"),
+            ("Transform { scale 1 1 1\n scale 1 1 1 }", DuplicateName, 2, "`scale` is given twice"),
             ("Transform {\ntranslation 1 2 }", Syntax, 2, "`}` is no number; give 3 here"),
             ("Transform { translation 1 nan 0 }", BadValue, 1, "give a finite number"),
             ("Transform { scale 1 0 1 }", BadValue, 1, "give a positive number"),

@@ -145,7 +145,7 @@ fn a_run_that_is_walled_in_waits_until_it_is_not() {
     let walled = room.clone().with_moved("box", Point2::new(1.9, 1.3), 0.0).unwrap();
     run.refurnish(walled, &watch).unwrap();
     assert!(run.course().is_err());
-    assert!(run.step(&watch).unwrap_err().message().contains("there is no way"));
+    assert!(run.step(&watch).unwrap_err().message().contains("there is no path"));
     run.refurnish(room.without("box").unwrap(), &watch).unwrap();
     assert!(arrive(&mut run) > 10);
 }

@@ -23,7 +23,7 @@ fn a_robot_that_is_walled_in_is_told_by_what() {
         let ends = [start.point(), goal.place].map(|place| blocked.map.cell_at(&place).unwrap());
         let [inside, outside] = if blocked.enclosure.cells.contains(&ends[0]) { ends } else { [ends[1], ends[0]] };
         assert!(blocked.enclosure.parts(&blocked.map, inside, outside));
-        assert!(blocked.to_string().starts_with("there is no way: "), "{blocked}");
+        assert!(blocked.to_string().starts_with("there is no path: "), "{blocked}");
         // Its cells are those where the core's middle may be: all others are nearer to an obstacle.
         let clearances = map.clearances();
         let half_cell = map.resolution() * std::f64::consts::FRAC_1_SQRT_2;

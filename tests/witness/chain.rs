@@ -8,7 +8,7 @@ use groebot::model::Robot;
 use groebot::number::BigRational;
 use groebot::robots;
 use groebot::witness::chain::{ByScrews, Check, Solver, count_exactly};
-use groebot::witness::{Fault, Kind, Options, Report, Verdict};
+use groebot::witness::{Draws, Fault, Kind, Options, Report, Verdict};
 use groebot::{Result, Watch};
 
 const KR6: &str = include_str!("../corpus/urdf/kr6_r900.urdf");
@@ -106,7 +106,7 @@ const ARMS: [fn() -> Chain; 4] = [robots::puma, robots::ur5, robots::stanford, r
 #[test]
 fn the_screw_solver_passes_at_ordinary_targets_and_near_singular_ones() {
     for robot in ARMS {
-        let (chain, options) = (robot(), Options { targets: 120, oracle: 2, exact: 10, seed: 3 });
+        let (chain, options) = (robot(), Options { targets: 120, oracle: 2, exact: 10, seed: 3, ..Options::default() });
         let report = run(&chain, &ByScrews::new(&chain).unwrap(), Some(8), options);
         assert_none_fails(&report, &["ordinary", "1e-3 of singular", "1e-6 of singular"]);
         let summary = report.summary();
@@ -122,7 +122,7 @@ fn the_screw_solver_passes_at_ordinary_targets_and_near_singular_ones() {
 #[test]
 fn singular_targets_are_singular() {
     let chain = robots::puma();
-    let options = Options { targets: 60, oracle: 0, exact: 0, seed: 5 };
+    let options = Options { targets: 60, oracle: 0, exact: 0, seed: 5, ..Options::default() };
     let report = run(&chain, &ByScrews::new(&chain).unwrap(), None, options);
     for row in report.rows.iter().filter(|row| matches!(row.kind, Kind::Singular | Kind::Near(_))) {
         let determinant = numeric_determinant(&chain, row.joints.as_ref().unwrap()).abs();
@@ -153,8 +153,12 @@ fn numeric_determinant(chain: &Chain, q: &[f64]) -> f64 {
 
 fn faults_of(chain: &Chain, change: impl Fn(&mut Vec<Solution>)) -> Vec<Fault> {
     let screws = ByScrews::new(chain).unwrap();
-    let report =
-        run(chain, &Changed { solver: &screws, change }, Some(8), Options { targets: 7, oracle: 1, exact: 3, seed: 4 });
+    let report = run(
+        chain,
+        &Changed { solver: &screws, change },
+        Some(8),
+        Options { targets: 7, oracle: 1, exact: 3, seed: 4, ..Options::default() },
+    );
     let faults = report.rows.iter().map(|row| match &row.verdict {
         Verdict::Fail(faults) => faults.clone(),
         _ => Vec::new(),
@@ -184,13 +188,34 @@ fn damaged_answers_are_found() {
     }
 }
 
+/// A solver that loses an answer where a joint is at a multiple of 15 degrees, and nowhere else: rows with round targets find it without a search.
+#[test]
+fn what_is_lost_at_round_targets_alone_is_found() {
+    let chain = robots::puma();
+    let screws = ByScrews::new(&chain).unwrap();
+    let is_round = |q: &f64| (q / (PI / 12.0) - (q / (PI / 12.0)).round()).abs() < 1e-9;
+    let lossy = |answers: &mut Vec<Solution>| {
+        if answers.iter().any(|answer| answer.q.iter().all(is_round)) {
+            answers.retain(|answer| answer.q.iter().all(is_round));
+        }
+    };
+    let lossy = Changed { solver: &screws, change: lossy };
+    for (draws, targets) in [(Draws::All, 48), (Draws::Round, 12)] {
+        let options = Options { targets, oracle: 0, exact: 0, seed: 3, draws };
+        assert_none_fails(&run(&chain, &screws, None, options), &["round", "aligned"]);
+        let report = run(&chain, &lossy, None, options);
+        let moved = report.rows.iter().filter(|row| row.verdict.faults().contains(&Fault::Moved));
+        assert!(moved.clone().count() >= 3 && moved.clone().all(|row| row.kind.is_round()), "{report:?}");
+    }
+}
+
 /// PUMA's straight wrist: joints 4 and 6 turn about one line, their sum counts.
 #[test]
 fn a_self_motion_must_be_told() {
     let chain = robots::puma();
     let screws = ByScrews::new(&chain).unwrap();
     let silent = Changed { solver: &screws, change: |answers| answers.iter_mut().for_each(|a| a.free.clear()) };
-    let options = Options { targets: 200, oracle: 0, exact: 0, seed: 1 };
+    let options = Options { targets: 200, oracle: 0, exact: 0, seed: 1, ..Options::default() };
     let faults = |report: &Report| {
         let failed =
             |row: &&groebot::witness::Row| matches!(&row.verdict, Verdict::Fail(f) if f.contains(&Fault::SelfMotion));
@@ -262,7 +287,12 @@ fn other_tasks_are_checked_too() {
     let given = arm.with_task(Task::Position, along([0, 0, 1]), vec![elbow, arm.joints()[4].name.clone()]).unwrap();
     let head = robots::nao_head().with_task(Task::Direction, along([1, 0, 0]), Vec::new()).unwrap();
     for chain in [four, given, head] {
-        let report = run(&chain, &Search::new(&chain), None, Options { targets: 9, oracle: 0, exact: 4, seed: 2 });
+        let report = run(
+            &chain,
+            &Search::new(&chain),
+            None,
+            Options { targets: 9, oracle: 0, exact: 4, seed: 2, ..Options::default() },
+        );
         let lost: Vec<String> =
             report.failures().filter(|row| row.kind == Kind::Rational).map(|r| r.to_string()).collect();
         assert!(lost.is_empty(), "{}: {lost:?}", chain.name());
@@ -273,8 +303,12 @@ fn other_tasks_are_checked_too() {
 #[test]
 fn the_accuracy_is_told_by_class() {
     let chain = robots::stanford();
-    let report =
-        run(&chain, &ByScrews::new(&chain).unwrap(), None, Options { targets: 40, oracle: 0, exact: 0, seed: 1 });
+    let report = run(
+        &chain,
+        &ByScrews::new(&chain).unwrap(),
+        None,
+        Options { targets: 40, oracle: 0, exact: 0, seed: 1, ..Options::default() },
+    );
     let table = report.accuracy().to_string();
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 2 + report.accuracy().classes.len());

@@ -73,7 +73,9 @@ fn every_chain_passes_some_of_its_checks() {
             }
         };
         let taken = start.elapsed();
-        let report = check(&chain, &derived, &Options { targets: 60, oracle: 1, exact: 6, seed: 6 }).unwrap();
+        let report =
+            check(&chain, &derived, &Options { targets: 60, oracle: 1, exact: 6, seed: 6, ..Options::default() })
+                .unwrap();
         println!(
             "{name}: {} solutions, {taken:.2?}; {}\n{}",
             derived.plan.dimension,
@@ -246,7 +248,8 @@ fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
         let beside = |a: &Solution| a.free.is_empty() && (a.q[4].abs() - PI).abs() < 1e-6;
         assert!(!found.iter().any(beside), "{q:?}: {found:?}");
     }
-    let report = check(&chain, &derived, &Options { targets: 700, oracle: 0, exact: 0, seed: 9 }).unwrap();
+    let report =
+        check(&chain, &derived, &Options { targets: 700, oracle: 0, exact: 0, seed: 9, ..Options::default() }).unwrap();
     assert_eq!(report.failures().count(), 0, "{}", told(&report, 6));
 }
 
@@ -275,7 +278,7 @@ fn a_self_motion_along_a_part_of_the_circle_is_found() {
 fn a_rounded_robot_is_solved_at_singular_poses_too() {
     let source = read("irb4600_rounded");
     let Proved::Chain(derived) = Proved::of(&source, &Watch::none()).unwrap() else { panic!("it is a chain") };
-    let options = Options { targets: 60, oracle: 1, exact: 6, seed: 6 };
+    let options = Options { targets: 60, oracle: 1, exact: 6, seed: 6, ..Options::default() };
     let report = Check::run(derived.measured(), &derived.program, None, &options, &Watch::none()).unwrap();
     assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
 }
@@ -354,7 +357,8 @@ fn the_counts_of_the_chains() {
         // A third of the targets are random, and the first of them are counted.
         for (run, targets, exact) in [("poses", 100_000, 0), ("counts", 2_860, 1_000)] {
             let start = Instant::now();
-            let report = check(&chain, &derived, &Options { targets, oracle: 0, exact, seed: 9 }).unwrap();
+            let report =
+                check(&chain, &derived, &Options { targets, oracle: 0, exact, seed: 9, ..Options::default() }).unwrap();
             let seconds = start.elapsed().as_secs_f64();
             print_classes(&name, run, derived.plan.dimension, &report, seconds);
             if report.failures().count() > 0 {

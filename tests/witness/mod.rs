@@ -6,7 +6,9 @@ mod corners;
 mod derived;
 mod mounted;
 mod rail;
+mod round;
 mod screws;
+mod self_motions;
 
 use groebot::Watch;
 use groebot::derive::{Derivation, Source};

@@ -29,7 +29,7 @@ fn an_arm_on_a_turned_base_is_solved() {
             assert_eq!(product, Default::default(), "{rpy}: axes {pair:?} are exactly perpendicular");
         }
         let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-        let options = Options { targets: 80, oracle: 1, exact: 6, seed: 4 };
+        let options = Options { targets: 80, oracle: 1, exact: 6, seed: 4, ..Options::default() };
         let report =
             Check::run(&chain, &derived.program, Some(derived.plan.dimension), &options, &Watch::none()).unwrap();
         let failures: Vec<String> = report.failures().map(|row| row.to_string()).collect();

@@ -176,7 +176,7 @@ fn the_counts_of_the_design() {
         let source = read(folder);
         let program = derive(&source).program;
         for (targets, exact) in [(100_000, 0), (1_000, 1_000)] {
-            let options = Options { targets, exact, oracle: 0, seed: 2 };
+            let options = Options { targets, exact, oracle: 0, seed: 2, ..Options::default() };
             let start = std::time::Instant::now();
             let report = Check::run(&source, &program, &options, &Watch::none()).unwrap();
             println!("{folder}: {}; {:.1} s", report.summary(), start.elapsed().as_secs_f64());

@@ -104,7 +104,7 @@ test("closed cells are as large in a room that is turned", async () => {
   const [start, goal, at] = [[0.6, 1.2], [3, 1.2], [1.9, 1.3]];
   const straight = await open(browser, written("straight", walled("", at), start, goal));
   const other = await open(browser, written("turned", walled("origin = [0, 0, 30]\n", [...turned(at), 30]), turned(start), turned(goal)));
-  assert.match(await other.locator("#run-state").innerText(), /there is no way/);
+  assert.match(await other.locator("#run-state").innerText(), /there is no path/);
   const [a, b] = [await red(straight), await red(other)];
   assert.ok(a > 5000 && Math.abs(b / a - 1) < 0.15, `${a} and ${b} pixels`);
   await other.evaluate(() => groebot.furniture("wall", null));

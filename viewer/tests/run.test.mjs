@@ -151,7 +151,7 @@ test("walled in it says so and waits; a phone shows it", async () => {
   const walled = ROOM.replace("[0.3, 0.3]", "[0.2, 2.6]").replace("[3.6, 0.4]", "[1.9, 1.3]");
   writeFileSync(inFolder("walled.toml"), walled);
   const opened = await open(browser, page("walled.html", "rh0", "--room", inFolder("walled.toml"), "--start", "0.6,1.2", "--goal", "3,1.2"), { viewport: { width: 390, height: 844 } });
-  assert.match(await text(opened), /there is no way/);
+  assert.match(await text(opened), /there is no path/);
   assert.equal(await opened.evaluate(() => groebot.way()), null);
   const seen = await picture(opened);
   await opened.evaluate(() => groebot.furniture("box", null));

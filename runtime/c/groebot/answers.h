@@ -382,58 +382,91 @@ static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_
     return true;
 }
 
+static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t free);
+
 /* Keeps a candidate that comes nearer to the target than those before. */
-static void gb_take_closest(gb_answers *all, const gb_real *q, const gb_fit *fit)
+static void gb_take_closest(gb_answers *all, gb_real *q)
 {
-    if (!(all->has_nearest && fit->relative >= all->nearest_fit.relative)) {
+    /* On a stratum joints only seem to be free where the other equations tell them. */
+    const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
+    if (!(all->has_nearest && fit.relative >= all->nearest_fit.relative)) {
         all->has_nearest = true;
-        all->nearest_fit = *fit;
+        all->nearest_fit = fit;
         memcpy(all->nearest, q, GB_JOINTS * sizeof *q);
     }
 }
 
-/* Adds a candidate within the tolerance that is far from all answers. */
-static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+/* Keeps a member of a self-motion that comes within the tolerance of the target, next to a candidate for one. */
+static void gb_take_member(gb_answers *all, const gb_found_1 *found, gb_real *q)
 {
-    bool is_new = found->free == 0 && fit->relative <= gb_larger(GB_WITHIN, GB_ACCEPT) && c->all.count < GB_CAPACITY;
-    for (size_t i = 0; is_new && i < c->all.count; i++) {
-        is_new = !gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR);
+    if (found->free != 0 && gb_onto_self_motion(&all->problem, q, found->free)) {
+        all->has_nearest = true;
+        memcpy(all->nearest, q, GB_JOINTS * sizeof *q);
     }
-    if (is_new && gb_is_settled(&c->all.problem, q)) {
+}
+
+/* Whether joints are far from all answers. */
+static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
+{
+    for (size_t i = 0; i < c->all.count; i++) {
+        if (gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Adds a candidate within the tolerance that is far from all answers, and of no self-motion. */
+static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
+{
+    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
+    if (c->all.count == GB_CAPACITY || (found->free == 0 && !gb_is_far(c, q))) {
+        return;
+    }
+    const gb_fit fit = gb_fitted(&c->all.problem, q, 0, R(0.5));
+    /* On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these. */
+    if (fit.relative <= within && gb_is_far(c, q) && !(c->ideal && gb_has_member(c->ideal, q, c->moving))
+        && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
-        out->residual = fit->residual;
-        out->relative = fit->relative;
+        out->residual = fit.residual;
+        out->relative = fit.relative;
         out->branch = found->branch;
         out->chosen = false;
         out->free = 0;
     }
 }
 
-/* Brings the candidates that wait nearest to the target, which the joints may miss, and hands them on until one is there. */
+/* Whether no more candidates are wanted. */
+static bool gb_has_enough(const gb_sink_1 *c)
+{
+    return c->all.has_nearest && (c->sought == GB_MEMBER || c->all.nearest_fit.relative <= GB_POLISHED);
+}
+
+/* Brings the candidates that wait to what is sought, until there is enough of that. */
 static void gb_fit_waiting(gb_sink_1 *c)
 {
-    gb_answers *all = &c->all;
     /* Every case of a stratum runs. */
-    all->unsound = all->candidates;
+    c->all.unsound = c->all.candidates;
     for (size_t k = 0; k < c->waiting; k++) {
         gb_real q[GB_MAX_JOINTS];
-        if (c->sought == GB_CLOSEST && all->has_nearest && all->nearest_fit.relative <= GB_POLISHED) {
-            return;
-        }
+        bool is_finite = true;
+        c->free |= c->found[k].free;
         for (int i = 0; i < GB_JOINTS; i++) {
             const gb_real first = c->at[gb_joints[i].places[0]][k], second = c->at[gb_joints[i].places[1]][k];
             q[i] = gb_joints[i].is_angle ? gb_angle(first, second) : first;
+            is_finite = is_finite && gb_magnitude(q[i]) <= GB_GREATEST;
         }
-        /* On a stratum joints only seem to be free where the other equations tell them. */
-        const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
-        if (!(gb_magnitude(fit.residual) <= GB_GREATEST)) {
+        /* Next to a stratum formulas may divide zero by zero. */
+        if (!is_finite || gb_has_enough(c)) {
             continue;
         }
         if (c->sought == GB_CLOSEST) {
-            gb_take_closest(all, q, &fit);
+            gb_take_closest(&c->all, q);
+        } else if (c->sought == GB_MEMBER) {
+            gb_take_member(&c->all, &c->found[k], q);
         } else {
-            gb_take_other(c, &c->found[k], q, &fit);
+            gb_take_other(c, &c->found[k], q);
         }
     }
 }

@@ -3,16 +3,21 @@
 #if GB_WIDTH == 1
 
 /* The answers to a target, and by place the numbers of candidates that wait to be measured together, and how each was found. */
-enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_OTHERS };
+enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_MEMBER, GB_OTHERS };
 struct gb_sink_1 {
     gb_answers all;
     gb_solution *out;
     /* Where pairs are written instead, or null, and whether all candidates so far can be. */
     gb_pairs *pairs;
     bool is_usual;
-    /* Whether only the candidate is wanted that comes nearest to the target, which the joints may miss, or those beside `known` answers. */
+    /* Whether only the candidate is wanted that comes nearest to the target, which the joints may miss, or a member of a self-motion, or those beside `known`
+     * answers; where some of these are members of self-motions of the joints `moving`, the problem that they solve, else null. */
     enum gb_sought sought;
     size_t known;
+    const gb_problem *ideal;
+    uint32_t moving;
+    /* The joints that some candidate frees. */
+    uint32_t free;
     /* Whether usual cases alone have run. */
     bool is_ordinary;
     size_t waiting;
@@ -137,7 +142,8 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed. */
+/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed and none is of close roots: a double
+ * root is off by the square root of what rounding leaves, and a stratum may be nearer than that. */
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -146,7 +152,7 @@ GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
     }
     const bool suffices = gb_suffice_since(c, before);
     c->all.suffices = c->all.suffices && suffices;
-    return guard.beside || !suffices;
+    return guard.beside || !suffices || c->all.doubted > before;
 #else
     (void)before;
     return GB_(is_rare)(c, guard);

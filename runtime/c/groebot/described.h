@@ -46,6 +46,38 @@ static void gb_ideal_target(const gb_real *q, gb_real *target)
     gb_read_off(tip, q, target);
 }
 
+/* The parameters of that target; false where it is none. */
+static bool gb_ideal_parameters(const gb_real *q, gb_real *p)
+{
+    gb_real target[GB_INPUTS], conforming[GB_INPUTS] = {0};
+    gb_ideal_target(q, target);
+    if (gb_conform(target, conforming) < 0) {
+        return false;
+    }
+    gb_parameters_1(conforming, p);
+    return true;
+}
+
+/* How well joint values solve the equations. */
+static gb_fit gb_measure_of(const gb_problem *problem, const gb_real *q)
+{
+    gb_real at[GB_PLACES];
+    gb_place(problem, q, at);
+    return gb_measure_at(problem, at, q);
+}
+
+/* Brings q to where the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target; false where there is none. */
+static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t free)
+{
+    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
+    gb_real p[GB_PARAMETERS];
+    const gb_problem ideal = {&gb_this, p, NULL};
+    if (!(gb_fitted(problem, q, free, R(0.5)).relative <= within) || !gb_free_joints(problem, q, free) || !gb_ideal_parameters(q, p)) {
+        return false;
+    }
+    return gb_measure_of(problem, q).relative <= within && gb_lies_on_self_motion(&ideal, q, free, GB_ROUNDING);
+}
+
 /* Brings an answer of the ideal mechanism to where the described one is nearest to the target. */
 static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
 {
@@ -54,12 +86,19 @@ static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
     answer->relative = fit.relative;
 }
 
-/* Adds those beside answers that come within the tolerance of the target, too, and puts all in order; their number, or a code below zero. */
-static int gb_add_others(const gb_real *target, gb_solution *out, size_t count)
+/* Adds those beside answers to the target that q reaches that come within the tolerance of the target, too, and puts all in order; their number, or a code
+ * below zero. */
+static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *out, size_t count)
 {
     gb_sink_1 c;
-    gb_real p[GB_PARAMETERS];
+    gb_real p[GB_PARAMETERS], reached[GB_PARAMETERS];
+    const gb_problem ideal = {&gb_this, reached, NULL};
     c.known = count;
+    c.moving = 0;
+    for (size_t i = 0; i < count; i++) {
+        c.moving |= out[i].free;
+    }
+    c.ideal = c.moving != 0 && gb_ideal_parameters(q, reached) ? &ideal : NULL;
     const int code = gb_walk_through(&c, target, p, out, NULL, GB_OTHERS);
     if (code < 0) {
         return code;
@@ -74,19 +113,33 @@ static int gb_add_others(const gb_real *target, gb_solution *out, size_t count)
     return (int)c.all.count;
 }
 
-/* Keeps the first of answers that have become one; their number. */
-static size_t gb_keep_distinct(gb_solution *out, size_t count)
+/* Whether an answer is none of those before. */
+static bool gb_is_new(const gb_solution *before, size_t count, const gb_solution *answer)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (gb_are_within(before[i].q, answer->q, before[i].free | answer->free, GB_MERGE)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Brings all answers to where the described mechanism is nearest to the target, and keeps those that are new; their number. Where one would become another one
+ * it stays: the ideal mechanism tells them apart. */
+static size_t gb_fit_all(const gb_problem *problem, gb_solution *out, size_t count)
 {
     size_t kept = 0;
     for (size_t k = 0; k < count; k++) {
-        bool is_new = true;
-        for (size_t i = 0; i < kept; i++) {
-            is_new = is_new && !gb_are_within(out[i].q, out[k].q, out[i].free | out[k].free, GB_MERGE);
+        gb_solution answer = out[k];
+        gb_fit_to(problem, &answer);
+        if (!gb_is_new(out, kept, &answer)) {
+            answer = out[k];
+            const gb_fit fit = gb_measure_of(problem, answer.q);
+            answer.residual = fit.residual;
+            answer.relative = fit.relative;
         }
-        if (is_new) {
-            const gb_solution other = out[kept];
-            out[kept++] = out[k];
-            out[k] = other;
+        if (gb_is_new(out, kept, &answer)) {
+            out[kept++] = answer;
         }
     }
     return kept;
@@ -96,51 +149,62 @@ static size_t gb_keep_distinct(gb_solution *out, size_t count)
 static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, gb_solution *nearest)
 {
     gb_sink_1 c;
-    gb_real p[GB_PARAMETERS], ideal[GB_INPUTS];
+    gb_real p[GB_PARAMETERS], same[GB_PARAMETERS], q[GB_JOINTS], ideal[GB_INPUTS];
     const gb_mechanism mechanism = gb_as_described();
     const gb_problem problem = {&mechanism, p, NULL};
-    const int code = gb_walk_through(&c, target, p, NULL, NULL, GB_CLOSEST);
+    int code = gb_walk_through(&c, target, p, NULL, NULL, GB_CLOSEST);
     if (code < 0 || !c.all.has_nearest) {
         return code;
     }
+    memcpy(q, c.all.nearest, sizeof q);
     if (!(c.all.nearest_fit.relative <= gb_larger(GB_WITHIN, GB_ACCEPT))) {
         if (nearest) {
-            memcpy(nearest->q, c.all.nearest, sizeof nearest->q);
+            memcpy(nearest->q, q, sizeof q);
             gb_fit_to(&problem, nearest);
         }
         return 0;
     }
-    gb_ideal_target(c.all.nearest, ideal);
-    const int found = gb_solve_ideal(ideal, out), count = found < 0 ? found : gb_add_others(target, out, (size_t)found);
-    for (int i = 0; i < count; i++) {
-        gb_fit_to(&problem, &out[i]);
+    if (c.free != 0) {
+        code = gb_walk_through(&c, target, same, NULL, NULL, GB_MEMBER);
+        if (code < 0) {
+            return code;
+        }
+        if (c.all.has_nearest) {
+            memcpy(q, c.all.nearest, sizeof q);
+        }
     }
-    return count < 0 ? count : (int)gb_keep_distinct(out, (size_t)count);
+    gb_ideal_target(q, ideal);
+    const int found = gb_solve_ideal(ideal, out), count = found < 0 ? found : gb_add_others(target, q, out, (size_t)found);
+    return count < 0 ? count : (int)gb_fit_all(&problem, out, (size_t)count);
+}
+
+/* Moves an answer to a target of the ideal mechanism within limits; false where that cannot be. */
+static bool gb_keep_one_within(const gb_real *p, const gb_real *limits, gb_solution *answer)
+{
+    gb_answers all;
+    memset(&all, 0, sizeof all);
+    all.problem.mechanism = &gb_this;
+    all.problem.p = p;
+    all.out = answer;
+    all.count = 1;
+    return gb_keep_within(&all, limits) == 1;
 }
 
 /* Moves an answer within limits, members of a self-motion along that of the ideal mechanism; false where that cannot be. */
 static bool gb_bring_within(const gb_real *p, const gb_real *limits, gb_solution *answer)
 {
-    gb_real target[GB_INPUTS], conforming[GB_INPUTS] = {0}, ideal[GB_PARAMETERS], at[GB_PLACES];
+    gb_real ideal[GB_PARAMETERS];
     const gb_mechanism mechanism = gb_as_described();
-    const gb_problem problem = {&mechanism, p, NULL};
-    gb_answers all;
-    memset(&all, 0, sizeof all);
-    gb_ideal_target(answer->q, target);
-    if (gb_conform(target, conforming) < 0) {
-        return false;
+    const gb_problem problem = {&mechanism, p, NULL}, own = {&gb_this, p, NULL};
+    const uint32_t free = answer->free;
+    answer->free = 0;
+    bool is_within = gb_keep_one_within(p, limits, answer);
+    answer->free = free;
+    if (!is_within && free != 0 && gb_onto_self_motion(&own, answer->q, free) && gb_ideal_parameters(answer->q, ideal)) {
+        is_within = gb_keep_one_within(ideal, limits, answer);
     }
-    gb_parameters_1(conforming, ideal);
-    all.problem.mechanism = &gb_this;
-    all.problem.p = ideal;
-    all.out = answer;
-    all.count = 1;
-    if (gb_keep_within(&all, limits) == 0) {
-        return false;
-    }
-    gb_place(&problem, answer->q, at);
-    answer->residual = gb_measure_at(&problem, at, answer->q).residual;
-    return true;
+    answer->residual = gb_measure_of(&problem, answer->q).residual;
+    return is_within;
 }
 
 /* The answers that can be brought within limits, to the front. */

@@ -96,13 +96,11 @@ static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_rea
     gb_triangle_of(problem->mechanism, &slopes, damping, held, triangle);
 }
 
-/* The same with the equations as shares of their sizes. */
-static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+/* The derivatives of the equations and their values, as shares of their sizes. */
+static void gb_share(const gb_problem *problem, const gb_real *q, gb_real *rows, gb_real *right)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], sizes[GB_MAX_SIZES];
-    gb_clear_triangle(m, triangle);
-    gb_real *right = gb_column(triangle, m->joints);
+    gb_real at[GB_MAX_PLACES], sizes[GB_MAX_SIZES];
     gb_place(problem, q, at);
     m->jacobian(problem->p, at, rows);
     m->values(problem->p, at, right);
@@ -114,6 +112,15 @@ static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real 
             rows[i * m->joints + k] = rows[i * m->joints + k] / size;
         }
     }
+}
+
+/* The triangle of a step's equations as such shares. */
+static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
+    gb_clear_triangle(m, triangle);
+    gb_share(problem, q, rows, gb_column(triangle, m->joints));
     gb_fill_triangle(m, rows, damping, held, triangle);
 }
 
@@ -155,15 +162,21 @@ static void gb_pivots(gb_triangle *triangle, gb_real *least, gb_real *most)
     }
 }
 
-/* The least pivot of the Jacobian's triangle at q as a share of the largest: rounding where the joints can move while the equations hold, or a root is
- * double. */
-static gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+/* The least pivot of the Jacobian's triangle at q, joints `held`, as a share of the largest: rounding where the others can move while the equations hold, or a
+ * root is double. */
+static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uint32_t held)
 {
     gb_triangle triangle;
     gb_real least, most;
-    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
+    gb_make_triangle(problem, q, R(0.0), held, &triangle);
     gb_pivots(&triangle, &least, &most);
     return least / most;
+}
+
+/* The same where no joint is held. */
+GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
+{
+    return gb_regularity_of(problem, q, 0);
 }
 
 static gb_real gb_norm(const gb_real *vector, size_t count)
@@ -394,16 +407,6 @@ static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
         sum += share * share;
     }
     return sum;
-}
-
-/* Whether joints are where the sum of squares is least and another step would not move them: at the edge of what is within reach, where two answers would
- * meet and none is, the plain step is long. */
-GB_LINKAGE bool gb_is_settled(const gb_problem *problem, const gb_real *q)
-{
-    gb_triangle triangle;
-    gb_real step[GB_MAX_JOINTS];
-    gb_make_shares(problem, q, R(0.0), 0, &triangle);
-    return gb_substitute(&triangle, step) && gb_longest(problem->mechanism, step) <= GB_MERGE;
 }
 
 /* Takes the least damped step that lowers the sum of squares, and tells how long it is; false where none does. */

@@ -51,15 +51,16 @@ static gb_real gb_settled(const gb_real *c, gb_real x, gb_real scale)
 
 /* The roots of the two real quadratics whose product is x^4 + c3 x^3 + c2 x^2 + c1 x + c0: two of either, ascending, the second two next to the first; how
  * many, or below zero where the quartic is not ordinary. */
-static int gb_approximate_roots(const gb_real *c, gb_real scale, gb_real *roots)
+static int gb_approximate_roots(const gb_real *c, gb_scale scale, gb_real *roots)
 {
+    const gb_real typical = gb_scale_at(scale, R(0.0));
     /* With y = x + c3 / 4 it is y^4 + p y^2 + q y + r. */
     const gb_real quarter = R(0.25) * c[3], square = c[3] * c[3];
     const gb_real p = c[2] - R(0.375) * square;
     const gb_real q = c[1] - R(0.5) * c[3] * (c[2] - R(0.25) * square);
     const gb_real r = c[0] - quarter * (c[1] - quarter * (c[2] - R(0.1875) * square));
     /* (y^2 + h y + f) (y^2 - h y + g) with z = h^2. */
-    const gb_real z = gb_resolved(R(2.0) * p, p * p - R(4.0) * r, q * q, scale * scale);
+    const gb_real z = gb_resolved(R(2.0) * p, p * p - R(4.0) * r, q * q, typical * typical);
     if (z < R(0.0)) {
         return -1;
     }
@@ -76,8 +77,8 @@ static int gb_approximate_roots(const gb_real *c, gb_real scale, gb_real *roots)
         if (discriminants[i] > R(0.0)) {
             roots[count++] = middles[i] - apart - quarter;
             roots[count++] = middles[i] + apart - quarter;
-        } else if (!(apart > GB_FOUR_DISTINCT * gb_larger(scale, gb_square_root(size))
-                     && gb_magnitude(others[i] + R(0.75) * z) > GB_FOUR_DISTINCT * gb_larger(size, scale * scale))) {
+        } else if (!(apart > GB_FOUR_DISTINCT * gb_scale_at(scale, gb_square_root(size))
+                     && gb_magnitude(others[i] + R(0.75) * z) > GB_FOUR_DISTINCT * gb_larger(size, typical * typical))) {
             return -1;
         }
     }
@@ -97,7 +98,7 @@ static void gb_merge_pairs(gb_real *roots)
 
 /* All real roots of the quartic with these coefficients, ascending; below zero where it is not ordinary: its leading coefficient is small, roots are next to
  * each other or complex ones next to the axis, or the steps do not settle. */
-static int gb_ordinary_roots(const gb_real *coefficients, gb_real scale, gb_real *roots)
+static int gb_ordinary_roots(const gb_real *coefficients, gb_scale scale, gb_real *roots)
 {
     const gb_real lead = coefficients[4], largest = gb_largest(coefficients, 5);
     if (!(gb_magnitude(lead) > R(1e-2) * largest && gb_is_finite(largest))) {
@@ -110,7 +111,7 @@ static int gb_ordinary_roots(const gb_real *coefficients, gb_real scale, gb_real
     const int count = gb_approximate_roots(monic, scale, roots);
     bool are_settled = true;
     for (int i = 0; i < count; i++) {
-        roots[i] = gb_settled(monic, roots[i], scale);
+        roots[i] = gb_settled(monic, roots[i], gb_scale_at(scale, R(0.0)));
         are_settled = are_settled && roots[i] == roots[i];
     }
     if (!are_settled) {
@@ -120,7 +121,7 @@ static int gb_ordinary_roots(const gb_real *coefficients, gb_real scale, gb_real
         gb_merge_pairs(roots);
     }
     for (int i = 1; i < count; i++) {
-        const gb_real size = gb_larger(gb_larger(scale, gb_magnitude(roots[i - 1])), gb_magnitude(roots[i]));
+        const gb_real size = gb_larger(gb_scale_at(scale, roots[i - 1]), gb_scale_at(scale, roots[i]));
         if (!(roots[i] - roots[i - 1] > GB_FOUR_DISTINCT * size)) {
             return -1;
         }

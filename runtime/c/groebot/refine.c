@@ -87,24 +87,6 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
-/* Whether self-motion `a` has the member `b`, with the same free joints: as these move there in stages, the other joints follow. Two self-motions may be
- * next to each other: half-way from where that ends to `b` the equations hold too. */
-static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
-{
-    const gb_mechanism *m = problem->mechanism;
-    gb_end end;
-    gb_copy(end.q, a, m->joints);
-    for (int stages = GB_STAGES; stages > 0; stages--) {
-        gb_real way[GB_MAX_JOINTS];
-        gb_differences(m, b, end.q, way);
-        for (size_t i = 0; i < m->joints; i++) {
-            end.q[i] = gb_is_in(free, i) ? end.q[i] + way[i] / (gb_real)stages : end.q[i];
-        }
-        gb_polish_from(problem, &end, free);
-    }
-    return end.fit.accepted && gb_is_close(m, end.q, b, 0, GB_ARRIVED) && gb_are_joined(problem, end.q, b, GB_ROUNDING, free);
-}
-
 /* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
  * almost. */
 static bool gb_is_on(const gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
@@ -125,6 +107,13 @@ static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real 
     return gb_are_joined(problem, a, b->q, bound, 0);
 }
 
+/* Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding. */
+static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
+    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, b->q, b->free));
+}
+
 /* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
  * singular configuration. */
 static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
@@ -139,7 +128,8 @@ static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
         return gb_are_blurred(problem, a, relative, b);
     }
     if (free != 0 && b->free != 0) {
-        return free == b->free && (*gb_branch_of(all, i) == b->branch || gb_leads_to(problem, a, b->q, free));
+        const bool are_apart = all->is_another && relative <= GB_ROUNDING && *gb_branch_of(all, i) == b->branch;
+        return free == b->free && !are_apart && (gb_are_by_branch(all, i, b) || gb_leads_to(problem, a, b->q, free));
     }
     if (free == 0) {
         return b->fit.relative <= GB_ROUNDING && gb_is_on(all, b->q, b->free, a);
@@ -198,6 +188,15 @@ static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
     return found->branch;
 }
 
+/* Remembers that members of a candidate's branch are on a self-motion of the list, where several joints are free. */
+static void gb_remember_merged(gb_answers *all, size_t i, const gb_answer *answer, const gb_found_1 *found)
+{
+    const bool are_sharp = gb_larger(*gb_relative_of(all, i), answer->fit.relative) <= GB_ROUNDING;
+    if (are_sharp && *gb_free_of(all, i) == found->free && !gb_is_single(found->free) && found->free != 0 && all->merged_count < GB_KINDS) {
+        all->merged[all->merged_count++] = *found;
+    }
+}
+
 /* Keeps an answer where others are near. */
 static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *found)
 {
@@ -209,6 +208,7 @@ static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *fo
     for (size_t i = 0; i < count; i++) {
         if (gb_is_one(all, i, answer)) {
             if (gb_holds_against(all, i, answer)) {
+                gb_remember_merged(all, i, answer, found);
                 return;
             }
             doubles[i / 64] |= (uint64_t)1 << (i % 64);
@@ -310,12 +310,28 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
     }
 }
 
+/* Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a self-motion as to
+ * an isolated answer. Whether it is one. */
+static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+{
+    gb_found_1 moving = *found;
+    moving.free = fit->relative <= GB_ROUNDING ? gb_joint_on_self_motion(&all->problem, q, GB_ROUNDING) : 0;
+    if (moving.free != 0) {
+        gb_keep(all, &moving, q, fit);
+    }
+    return moving.free != 0;
+}
+
 /* Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer. */
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
 {
+    const bool is_steep = approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD);
+    all->unsound = is_steep ? number : all->unsound;
+    if (is_steep && gb_keep_moving(all, found, approach->end, &approach->fit)) {
+        return;
+    }
     gb_keep(all, found, approach->end, &approach->fit);
-    if (approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD)) {
-        all->unsound = number;
+    if (is_steep) {
         gb_twin(all, found, approach->end, approach->missed);
     }
 }
@@ -358,11 +374,22 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
 }
 
-/* Whether a member of a candidate's branch has been kept. */
-static bool gb_is_settled_member(const gb_answers *all, const gb_found_1 *found)
+/* Whether an answer in the list is a member of a self-motion within rounding, of the branch and with the free joints of a candidate. */
+static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
 {
+    return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
+}
+
+/* Whether some member of a candidate's self-motion is known. */
+static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
+{
+    for (size_t i = 0; i < all->merged_count; i++) {
+        if (all->merged[i].branch == found->branch && all->merged[i].free == found->free) {
+            return true;
+        }
+    }
     for (size_t i = 0; i < all->count; i++) {
-        if (*gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
+        if (gb_is_told(all, i, found)) {
             return true;
         }
     }
@@ -370,25 +397,53 @@ static bool gb_is_settled_member(const gb_answers *all, const gb_found_1 *found)
 }
 
 /* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
-static void gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
 {
     if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
         gb_keep(all, found, end->q, &end->fit);
-        return;
+        return true;
     }
-    gb_kind_of_stray *kind = gb_kind(&all->strays, found);
+    gb_kind_of_stray *kind = is_known ? NULL : gb_kind(&all->strays, found);
     if (kind) {
         kind->is_astray = true;
     }
     gb_miss(all, end->q, &end->fit);
+    return true;
+}
+
+/* Whether the member found last that is on a self-motion of the list, of this branch and with these free joints, is joined to another: most often it is the
+ * nearest. */
+static bool gb_joins(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    const gb_found_1 *last = &all->joined_as;
+    return last->free == found->free && last->branch == found->branch && gb_leads_to(&all->problem, all->joined, q, found->free);
+}
+
+/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
+ * asked. */
+static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
+        return false;
+    }
+    bool joins = gb_joins(all, found, end->q);
+    for (size_t i = 0; i < all->count && !joins; i++) {
+        joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
+    }
+    if (joins) {
+        all->joined_as = *found;
+        gb_copy(all->joined, end->q, all->problem.mechanism->joints);
+    }
+    return !joins;
 }
 
 /* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
  * the circle, or where there is none and an isolated answer stands near the place. */
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
+    const bool is_known = gb_is_known(all, found);
     gb_end end;
-    if (gb_is_settled_member(all, found)) {
+    if (is_known && !gb_is_single(found->free)) {
         return;
     }
     gb_copy(end.q, q, all->problem.mechanism->joints);
@@ -401,11 +456,13 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
-    if (all->suffices) {
-        gb_keep_long_member(all, found, &end);
+    if (is_known && !gb_is_another(all, found, &end)) {
         return;
     }
-    if (gb_keep_member(all, found, &end)) {
+    all->is_another = is_known;
+    const bool is_done = all->suffices ? gb_keep_long_member(all, found, &end, is_known) : gb_keep_member(all, found, &end);
+    all->is_another = false;
+    if (is_done || is_known) {
         return;
     }
     gb_polish(&all->problem, &end, 0);
@@ -441,17 +498,20 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
+    const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
     const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
-    if (!(end.fit.accepted && holds)) {
-        all->unsound = number;
+    all->unsound = end.fit.accepted && holds ? all->unsound : number;
+    all->doubted = found->close ? number : all->doubted;
+    if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
+        return;
     }
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
         gb_around(all, found, &end, miss);
-    } else if (gb_is_between(missed, GB_ROUNDING, GB_NEAR) && way > GB_LEVER * gb_square_root(missed)) {
+    } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
         gb_around(all, found, &end, missed);
         gb_start_beyond(all, found, q, &end);
     }
-    if (problem->mechanism->is_nearby && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+    if (is_nearby && is_beside) {
         gb_twin(all, found, end.q, missed);
     }
     gb_keep(all, found, end.q, &end.fit);

@@ -4,11 +4,11 @@
 #define GB_SIGNLESS (R(2.0) * GB_EPSILON)
 #define GB_MOST_ROOT_STEPS 256
 
-/* A polynomial with coefficients of magnitude one and less, constant term first, and the unknown's typical size. */
+/* A polynomial with coefficients of magnitude one and less, constant term first, and what terms are measured at. */
 typedef struct {
     gb_real a[GB_MOST_COEFFICIENTS];
     size_t degree;
-    gb_real scale;
+    gb_scale scale;
 } gb_scaled;
 
 /* Real roots, ascending. */
@@ -25,7 +25,7 @@ static void gb_push(gb_list *roots, gb_real x)
 }
 
 /* The polynomial divided by its largest coefficient. */
-static void gb_scale(gb_scaled *p)
+static void gb_normalise(gb_scaled *p)
 {
     const gb_real largest = gb_largest(p->a, p->degree + 1);
     for (size_t i = 0; i <= p->degree; i++) {
@@ -34,7 +34,7 @@ static void gb_scale(gb_scaled *p)
 }
 
 /* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
-static bool gb_make_polynomial(const gb_real *coefficients, size_t length, gb_real scale, gb_scaled *p)
+static bool gb_make_polynomial(const gb_real *coefficients, size_t length, gb_scale scale, gb_scaled *p)
 {
     const gb_real largest = gb_largest(coefficients, length);
     bool are_finite = true;
@@ -51,7 +51,7 @@ static bool gb_make_polynomial(const gb_real *coefficients, size_t length, gb_re
     memcpy(p->a, coefficients, length * sizeof *coefficients);
     p->degree = length - 1;
     p->scale = scale;
-    gb_scale(p);
+    gb_normalise(p);
     return true;
 }
 
@@ -66,7 +66,7 @@ static void gb_derivative(const gb_scaled *p, size_t order, gb_scaled *derivativ
         derivative->a[i] = binomial * p->a[i + order];
         binomial = binomial * (gb_real)(i + 1 + order) / (gb_real)(i + 1);
     }
-    gb_scale(derivative);
+    gb_normalise(derivative);
 }
 
 /* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
@@ -75,9 +75,9 @@ static void gb_quadratic_roots(const gb_scaled *p, gb_list *roots)
     const gb_real c = p->a[0], b = p->a[1], a = p->a[2];
     const gb_real discriminant = b * b - R(4.0) * a * c;
     const gb_real size = b * b + gb_magnitude(R(4.0) * a * c);
-    const gb_real typical = R(2.0) * a * p->scale;
+    const gb_real typical = R(2.0) * a * gb_scale_at(p->scale, R(0.0)), spread = p->scale.spread;
     roots->count = 0;
-    if (discriminant < -GB_TANGENT * gb_larger(size, typical * typical)) {
+    if (discriminant < -GB_TANGENT * gb_larger(size * (spread * spread), typical * typical)) {
         return;
     }
     if (discriminant <= GB_SIGNLESS * size) {
@@ -113,15 +113,14 @@ static gb_real gb_root_bound(const gb_scaled *p)
     return R(2.0) * radius;
 }
 
-/* p(x), and sum |a_i y^i| for the larger y of |x| and `scale`. */
-static gb_real gb_value_and_size(const gb_scaled *p, gb_real x, gb_real scale, gb_real *size)
+/* p(x), and sum |a_i y^i|. */
+static gb_real gb_value_and_size(const gb_scaled *p, gb_real x, gb_real y, gb_real *size)
 {
-    const gb_real larger = gb_larger(scale, gb_magnitude(x));
     gb_real value = R(0.0);
     *size = R(0.0);
     for (size_t i = p->degree + 1; i-- > 0;) {
         value = value * x + p->a[i];
-        *size = *size * larger + gb_magnitude(p->a[i]);
+        *size = *size * y + gb_magnitude(p->a[i]);
     }
     return value;
 }
@@ -130,7 +129,7 @@ static gb_real gb_value_and_size(const gb_scaled *p, gb_real x, gb_real scale, g
 static gb_real gb_sign(const gb_scaled *p, gb_real x)
 {
     gb_real size;
-    const gb_real value = gb_value_and_size(p, x, R(0.0), &size);
+    const gb_real value = gb_value_and_size(p, x, gb_magnitude(x), &size);
     const gb_real noise = GB_SIGNLESS * (gb_real)p->degree * size;
     return value == R(0.0) || (gb_is_finite(noise) && gb_magnitude(value) <= noise) ? R(0.0) : gb_signed(R(1.0), value);
 }
@@ -139,7 +138,7 @@ static gb_real gb_sign(const gb_scaled *p, gb_real x)
 static bool gb_touches(const gb_scaled *p, gb_real x)
 {
     gb_real size;
-    const gb_real value = gb_value_and_size(p, x, p->scale, &size);
+    const gb_real value = gb_value_and_size(p, x, gb_scale_at(p->scale, x), &size);
     return gb_is_finite(size) && gb_magnitude(value) <= GB_TANGENT * size;
 }
 
@@ -261,8 +260,8 @@ static const gb_polynomial_1 *gb_leading(const gb_polynomial_1 *list, size_t cou
 }
 
 /* All real roots of the first polynomial that counts, ascending; how many, and whether some are close to one another, or one is double. Roots that rounding
- * cannot tell apart, and a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once. */
-GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_real scale, gb_real *values, size_t room, bool *close)
+ * cannot tell apart, and a double root that misses the axis by rounding, are reported once. */
+GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_scale scale, gb_real *values, size_t room, bool *close)
 {
     const gb_polynomial_1 *polynomial = gb_leading(list, count);
     gb_list roots;
@@ -283,7 +282,7 @@ GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_re
         gb_all_roots(&p, &roots);
         *close = roots.count > 0 && roots.count % 2 == polynomial->length % 2;
         for (size_t i = 1; i < roots.count; i++) {
-            *close = *close || roots.values[i] - roots.values[i - 1] <= GB_MEETING * scale;
+            *close = *close || roots.values[i] - roots.values[i - 1] <= GB_MEETING * gb_scale_at(scale, R(0.0));
         }
     }
     const size_t kept = roots.count < room ? roots.count : room;

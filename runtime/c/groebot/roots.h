@@ -60,11 +60,13 @@ GB_INLINE GB_(roots) GB_(grazing_roots)(T constant, T scale)
     return GB_(roots_of_square)(constant, scale, GB_GRAZING);
 }
 
-/* The real roots of the first polynomial whose leading coefficient counts, or of the last one. */
+/* The real roots of the first polynomial whose leading coefficient counts, or of the last one; what terms are measured at is so many times the greater of the
+ * unknown's typical size and a root. */
 #if GB_WIDTH == 1
-GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, size_t count, T scale)
+GB_UNUSED static GB_(roots) GB_(scaled_roots)(const GB_(polynomial) *list, size_t count, T typical, T spread)
 {
     GB_(roots) roots;
+    const gb_scale scale = {typical, spread};
     roots.count = gb_real_roots(list, count, scale, roots.values, GB_DEGREE, &roots.close);
     return roots;
 }
@@ -75,7 +77,7 @@ typedef struct {
 } GB_(polynomial);
 
 #define GB_MOST_POLYNOMIALS 4
-GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, size_t count, T scale)
+GB_UNUSED static GB_(roots) GB_(scaled_roots)(const GB_(polynomial) *list, size_t count, T typical, T spread)
 {
     GB_(roots) roots;
     roots.count = GB_DEGREE;
@@ -95,7 +97,8 @@ GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, s
             own[k].length = list[k].length;
         }
         bool close;
-        const size_t found = gb_real_roots(own, count, scale[lane], values, GB_DEGREE, &close);
+        const gb_scale scale = {typical[lane], spread[lane]};
+        const size_t found = gb_real_roots(own, count, scale, values, GB_DEGREE, &close);
         for (size_t i = 0; i < found; i++) {
             roots.values[i][lane] = values[i];
             roots.dead[i][lane] = 0;
@@ -105,6 +108,18 @@ GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, s
     return roots;
 }
 #endif
+
+/* The same, measured at the greater of them. */
+GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, size_t count, T typical)
+{
+    return GB_(scaled_roots)(list, count, typical, GB_(of)(R(1.0)));
+}
+
+/* Those of polynomials for the tangent of half an angle that may miss the axis by more than rounding. */
+GB_UNUSED static GB_(roots) GB_(half_angle_roots)(const GB_(polynomial) *list, size_t count, T spread)
+{
+    return GB_(scaled_roots)(list, count, GB_(of)(R(1.0)), spread);
+}
 
 /* How a candidate was found; in lanes, where it is none too. */
 #if GB_WIDTH > 1

@@ -64,7 +64,7 @@ static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q,
 /* Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at least: to the
  * other there may be a branching. Where q is not singular that is not tried. A self-motion may go round a small part of the circle only: where q is
  * singular within rounding, shorter ways are tried as well, each an eighth of the one before. */
-static bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
+GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
 {
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
@@ -76,16 +76,178 @@ static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real
         && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
 }
 
-/* A joint that lies alone on a self-motion, the first of those that some case frees; as a set, empty without one. */
+/* Whether a joint may be free: some case frees it, or none is freed by formulas of a nearby mechanism. */
+static bool gb_may_be_free(const gb_mechanism *m, size_t joint)
+{
+    for (size_t i = 0; i < m->freed_count; i++) {
+        if (m->freed[i] == joint) {
+            return true;
+        }
+    }
+    return m->freed_count == 0 && m->is_nearby;
+}
+
+/* A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set, empty without one. Where the formulas are
+ * those of a nearby mechanism and free none, any joint. */
 static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real *q, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
-    const gb_real regularity = m->freed_count > 0 ? gb_regularity(problem, q) : INFINITY;
-    for (size_t i = 0; i < m->freed_count; i++) {
-        const uint32_t free = (uint32_t)1 << m->freed[i];
-        if (gb_leads_to_self_motion(problem, q, free, bound, regularity)) {
+    if (m->freed_count == 0 && !m->is_nearby) {
+        return 0;
+    }
+    const gb_real regularity = gb_regularity(problem, q);
+    for (size_t i = m->joints; i-- > 0;) {
+        const uint32_t free = (uint32_t)1 << m->last_first[i];
+        if (gb_may_be_free(m, m->last_first[i]) && gb_leads_to_self_motion(problem, q, free, bound, regularity)) {
             return free;
         }
     }
     return 0;
+}
+
+/* Whether joints next to q reach the target, and one of the joints `free` lies on a self-motion there. */
+GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    const size_t joints = problem->mechanism->joints;
+    gb_end end;
+    gb_copy(end.q, q, joints);
+    gb_polish_from(problem, &end, 0);
+    for (size_t i = 0; end.fit.accepted && i < joints; i++) {
+        if (gb_is_in(free, i) && gb_lies_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ROUNDING)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether one joint alone is free. */
+static bool gb_is_single(uint32_t free)
+{
+    return free != 0 && (free & (free - 1)) == 0;
+}
+
+/* Whether the self-motion that q is a member of is a curve there, along which one free joint tells all others. */
+static bool gb_is_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_is_single(free) && gb_regularity_of(problem, q, free) > GB_REGULAR;
+}
+
+/* Whether the equations hold on the straight line along `way`, as they do where axes coincide. */
+static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *way)
+{
+    static const gb_real shares[] = {R(0.5), R(0.25), R(0.75)};
+    for (size_t k = 0; k < GB_LENGTH_OF(shares); k++) {
+        gb_real at[GB_MAX_JOINTS];
+        for (size_t i = 0; i < problem->mechanism->joints; i++) {
+            at[i] = a[i] + shares[k] * way[i];
+        }
+        if (!(gb_measure(problem, at).relative <= GB_ROUNDING)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too. */
+static bool gb_is_there(const gb_problem *problem, const gb_real *q, const gb_real *b, uint32_t free)
+{
+    return gb_is_close(problem->mechanism, q, b, 0, GB_ARRIVED) && gb_are_joined(problem, q, b, GB_ROUNDING, free);
+}
+
+/* How far free joints go on `way`: the farthest of them. */
+static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t free)
+{
+    gb_real freed[GB_MAX_JOINTS];
+    for (size_t i = 0; i < m->joints; i++) {
+        freed[i] = gb_is_in(free, i) ? way[i] : R(0.0);
+    }
+    return gb_longest(m, freed);
+}
+
+/* Whether the others follow, from end->q, where the free joints have been moved, and are near: by a few steps, and with more care where these come next to
+ * it. */
+static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real ahead[GB_MAX_JOINTS];
+    gb_copy(ahead, end->q, m->joints);
+    end->fit = gb_measure(problem, end->q);
+    for (int k = 0; k < GB_RETURNS && !end->fit.accepted; k++) {
+        gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
+        if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
+            return false;
+        }
+        gb_stepped(m, end->q, step, next);
+        gb_copy(end->q, next, m->joints);
+        end->fit = gb_measure(problem, end->q);
+    }
+    if (!end->fit.accepted && end->fit.relative <= GB_ASTRAY) {
+        gb_polish(problem, end, free);
+    }
+    return end->fit.accepted && gb_farthest(m, end->q, ahead) <= GB_LEAPT;
+}
+
+/* Whether the joints come to b as the free ones go `way` from a and the others follow, in steps with which they keep up; in `*arrives`. Whether they do. */
+static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free, const gb_real *way, bool *arrives)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const gb_real length = gb_length_of(m, way, free);
+    gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], gone = R(0.0), last = R(1.0), pace = gb_along[1];
+    gb_copy(before, a, m->joints);
+    gb_copy(at, a, m->joints);
+    for (int k = 0; k < GB_PACES; k++) {
+        const bool is_last = pace >= length - gone;
+        const gb_real step = is_last ? length - gone : pace, share = is_last ? R(1.0) : (gone + pace) / length;
+        gb_end next;
+        gb_beyond(m, before, at, step / last, next.q);
+        for (size_t i = 0; i < m->joints; i++) {
+            next.q[i] = gb_is_in(free, i) ? gb_wrapped(m, i, a[i] + share * way[i]) : next.q[i];
+        }
+        if (gb_followed(problem, &next, free)) {
+            if (is_last) {
+                *arrives = gb_is_there(problem, next.q, b, free);
+                return true;
+            }
+            gb_copy(before, at, m->joints);
+            gb_copy(at, next.q, m->joints);
+            gone += step;
+            last = step;
+            pace = gb_smaller(R(2.0) * pace, gb_along[2]);
+        } else if (pace > gb_along[0]) {
+            pace *= R(0.25);
+        } else {
+            return false;
+        }
+    }
+    return false;
+}
+
+/* The way on which a free joint goes the other way round; false if it is none that turns. */
+static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t free, gb_real *other)
+{
+    bool turns = false;
+    for (size_t i = 0; i < m->joints; i++) {
+        const bool is_turned = free == (uint32_t)1 << i && m->joint[i].is_angle;
+        other[i] = is_turned ? way[i] - (way[i] < R(0.0) ? -GB_TAU : GB_TAU) : way[i];
+        turns |= is_turned;
+    }
+    return turns;
+}
+
+/* Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a straight
+ * line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer. */
+static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
+    bool arrives = false;
+    gb_differences(m, b, a, way);
+    const bool turns = gb_other_way(m, way, free, other);
+    if (gb_is_straight(problem, a, way) || (turns && gb_is_straight(problem, a, other))) {
+        return true;
+    }
+    if (!gb_leads_along(problem, a, b, free, way, &arrives) && turns) {
+        return gb_leads_along(problem, a, b, free, other, &arrives) && arrives;
+    }
+    return arrives;
 }

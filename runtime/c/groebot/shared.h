@@ -106,6 +106,7 @@
 #define GB_TANGENT GB_EITHER(1e-10, 1e-4)
 #define GB_GRAZING GB_EITHER(1e-6, 1e-4)
 #define GB_NEAR GB_EITHER(1e-3, 1e-2)
+#define GB_OFF R(1e-2)
 #define GB_BESIDE GB_EITHER(1e-7, 1e-2)
 #define GB_TINY R(1e-30)
 #define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
@@ -228,13 +229,22 @@ typedef struct {
     void *out;
     size_t room;
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found, and with the last of close roots. */
     size_t candidates;
     size_t unsound;
+    size_t doubted;
     /* Whether on each stratum so far the cases before have lost no answer. */
     bool suffices;
     /* Candidates for members of self-motions that were dropped for this. */
     gb_strays strays;
+    /* The last member of a self-motion that has been found to be on one of its branch in the list, and how it was found; of no free joints before. And whether
+     * the one that is kept is on none of these. */
+    gb_found_1 joined_as;
+    gb_real joined[GB_MAX_JOINTS];
+    bool is_another;
+    /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
+    gb_found_1 merged[GB_KINDS];
+    size_t merged_count;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */
@@ -249,6 +259,12 @@ typedef struct {
     size_t length;
 } gb_polynomial_1;
 
+/* What a polynomial's terms are measured at, to tell a double root from a miss: so many times the greater of the unknown's typical size and a root. */
+typedef struct {
+    gb_real typical;
+    gb_real spread;
+} gb_scale;
+
 GB_LINKAGE gb_real gb_cosine(gb_real angle);
 GB_LINKAGE gb_real gb_sine(gb_real angle);
 GB_LINKAGE gb_real gb_wrap(gb_real angle);
@@ -257,7 +273,7 @@ GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
 #ifdef GROEBOT_SIX_AXES_H
 GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out);
 #endif
-GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_real scale, gb_real *values, size_t room, bool *close);
+GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_scale scale, gb_real *values, size_t room, bool *close);
 GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *at);
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
@@ -265,7 +281,10 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
 GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
-GB_LINKAGE bool gb_is_settled(const gb_problem *problem, const gb_real *q);
+GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free);
+GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
+GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q);
+GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free);
 GB_LINKAGE void gb_settle(gb_answers *all);
 GB_LINKAGE size_t gb_count_turns(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits);
 GB_LINKAGE void gb_turn(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits, size_t index, gb_real *out);
@@ -293,6 +312,12 @@ GB_INLINE gb_real gb_magnitude(gb_real a)
 #else
     return fabs(a);
 #endif
+}
+
+/* What a polynomial's terms at x are measured at. */
+GB_INLINE gb_real gb_scale_at(gb_scale scale, gb_real x)
+{
+    return scale.spread * gb_larger(scale.typical, gb_magnitude(x));
 }
 
 /* The number with the sign of another. */

@@ -46,8 +46,9 @@ static void expect_roots(const gb_real *coefficients, size_t length, const gb_re
 {
     const gb_polynomial_1 polynomial = {coefficients, length};
     gb_real values[GB_MOST_DEGREE];
+    const gb_scale scale = {R(1.0), R(1.0)};
     bool close;
-    CHECK(gb_real_roots(&polynomial, 1, R(1.0), values, GB_MOST_DEGREE, &close) == count);
+    CHECK(gb_real_roots(&polynomial, 1, scale, values, GB_MOST_DEGREE, &close) == count);
     for (size_t i = 0; i < count; i++) {
         CHECK(are_close(values[i], expected[i], tolerance));
     }
@@ -91,8 +92,9 @@ static void a_small_leading_coefficient_passes_the_turn_on(void)
     const gb_real first[] = {R(-1.0), R(1.0), R(1e-12)}, second[] = {R(-2.0), R(1.0)};
     const gb_polynomial_1 list[] = {{first, 3}, {second, 2}};
     gb_real values[2];
+    const gb_scale scale = {R(1.0), R(1.0)};
     bool close;
-    CHECK(gb_real_roots(list, 2, R(1.0), values, 2, &close) == 1 && are_close(values[0], R(2.0), CLOSE));
+    CHECK(gb_real_roots(list, 2, scale, values, 2, &close) == 1 && are_close(values[0], R(2.0), CLOSE));
 }
 
 static void angles_are_those_of_the_library(void)

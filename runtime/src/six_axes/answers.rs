@@ -55,9 +55,12 @@ impl Answers {
         &self.list[..self.count]
     }
 
+    /// Adds an answer if there is room.
     pub(super) fn push(&mut self, answer: Answer) {
-        self.list[self.count] = answer;
-        self.count += 1;
+        if let Some(place) = self.list.get_mut(self.count) {
+            *place = answer;
+            self.count += 1;
+        }
     }
 
     pub(super) fn sort(&mut self) {
@@ -145,10 +148,20 @@ pub(super) struct Search {
     pub lost: List,
     /// Candidates off the real line, or such that led to no answer, at a target aside: a curve may be next to them.
     pub far: List,
+    /// Whether complex solutions nearly meet, for a robot within [`Chain::within`].
+    pub is_meeting: bool,
+    /// Where such a robot may have answers.
+    pub meeting: List,
 }
 
 impl Search {
-    pub const NONE: Self = Search { answers: Distinct::NONE, lost: List::EMPTY, far: List::EMPTY };
+    pub const NONE: Self = Search {
+        answers: Distinct::NONE,
+        lost: List::EMPTY,
+        far: List::EMPTY,
+        meeting: List::EMPTY,
+        is_meeting: false,
+    };
 
     /// Adds an answer; members of self-motions, of which there may be any number, give way to isolated answers.
     pub fn keep(&mut self, chain: &Chain, q: [f64; 6], residual: f64) {

@@ -97,6 +97,9 @@ pub struct Chain {
     pub length: f64,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Formulations,
+    /// How far the robot for which answers are wanted may be from this one (shares of `length`, and rad); zero where it is this one. Two complex
+    /// solutions that are as near to each other are lost answers: of that robot they may be real.
+    pub within: f64,
 }
 
 impl Chain {

@@ -8,7 +8,7 @@ use core::array::from_fn;
 
 use super::hessenberg::Hessenberg;
 use super::linear::solve;
-use super::pencil::{Matrix, NEAR, Pencil, SIZE, Wide};
+use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide};
 use super::shifted_qr::Eigenvalue;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
@@ -38,8 +38,9 @@ impl Cluster {
     #[cold]
     pub fn new(form: &Hessenberg, pencil: &Pencil, x: f64, count: usize) -> Option<Self> {
         let basis = basis(form, x, count)?;
-        let wide = basis.map(|vector| pencil.widened(&vector));
-        let small = Hessenberg::reduce(tangents(&wide, count)?);
+        let mut wide = [[0.0; ALL]; SIZE];
+        wide.iter_mut().zip(&basis[..count]).for_each(|(wide, vector)| *wide = pencil.widened(vector));
+        let small = Hessenberg::reduce(tangents(&wide[..count])?);
         let values = small.eigenvalues()?;
         if !are_separate(&values[..count]) {
             return None;
@@ -92,19 +93,19 @@ fn orthonormalise(basis: &mut [[f64; SIZE]]) -> Option<()> {
     Some(())
 }
 
-/// The matrix by which the tangent multiplies the monomials, in a basis, by least squares; rows and columns from `count` on are those of zero.
-fn tangents(basis: &[Wide; SIZE], count: usize) -> Option<Matrix> {
+/// The matrix by which the tangent multiplies the monomials, in a basis, by least squares; rows and columns beyond those of the basis are those of zero.
+fn tangents(basis: &[Wide]) -> Option<Matrix> {
     let (c, s) = (cosine(ORIGIN), sine(ORIGIN));
     let cosines = |vector: &Wide, k: usize| c * vector[k] + s * vector[k + 3];
     let sines = |vector: &Wide, k: usize| c * vector[k + 3] - s * vector[k];
     let mut rows = [[0.0; 2 * SIZE]; SIZE];
-    for (i, row) in rows.iter_mut().enumerate() {
-        row[i] = if i < count { 0.0 } else { 1.0 };
-        for j in (0..count).filter(|_| i < count) {
+    (basis.len()..SIZE).for_each(|i| rows[i][i] = 1.0);
+    for (row, own) in rows.iter_mut().zip(basis) {
+        for (j, other) in basis.iter().enumerate() {
             for k in 0..NEAR - 3 {
-                let across = cosines(&basis[i], k);
-                row[j] += across * cosines(&basis[j], k);
-                row[SIZE + j] += across * sines(&basis[j], k);
+                let across = cosines(own, k);
+                row[j] += across * cosines(other, k);
+                row[SIZE + j] += across * sines(other, k);
             }
         }
     }

@@ -5,6 +5,7 @@ use super::candidates::{Candidate, Candidates};
 use super::chain::Chain;
 use super::curve::Walk;
 use super::rigid::{Rigid, aside};
+use crate::arithmetic::Arithmetic;
 
 /// The share of a pivot below which another formulation is asked too.
 const SOUND: f64 = 1e-11;
@@ -26,7 +27,10 @@ const BLURRED: f64 = 1e-2;
 const DEEPEST: f64 = 1.0;
 /// By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of
 /// isolated ones are only found next to it.
-const DISTURBANCES: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3];
+const DISTURBANCES: [f64; 10] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2];
+/// Targets next to one where complex solutions nearly meet, for a robot that is a little off: how many times as far as that robot is off, in turn to one
+/// side and the other.
+const MEETINGS: [f64; 4] = [30.0, 30.0, 1e3, 1e3];
 /// Stages in which a candidate next to the target is led to it.
 const STAGES: usize = 20;
 
@@ -78,6 +82,9 @@ impl Chain {
         if runs > 1 {
             self.walk(&target, &mut search);
         }
+        if search.is_meeting {
+            self.meet(&goal, &target, &mut search);
+        }
         // A run that can be trusted at once has seen no self-motion.
         self.told(&search, runs, accuracy)
     }
@@ -105,6 +112,27 @@ impl Chain {
         (disturbances.len(), None)
     }
 
+    /// Solves targets next to this one, on both sides: two complex solutions are real there on one. Those that lead to no answer come near one of
+    /// the robot that is meant.
+    #[cold]
+    fn meet(&self, goal: &Rigid, target: &Rigid, search: &mut Search) {
+        for (k, times) in MEETINGS.iter().enumerate() {
+            let number = k % 2;
+            let displacement = aside(times * self.within, number).after(goal);
+            let near = displacement.after(&self.last);
+            let missing = self.formulations.of(number).joint(3);
+            let Some(candidates) = Candidates::new(self, &displacement, number, 0.0) else { continue };
+            for candidate in candidates.as_slice() {
+                let mut q = candidate.q;
+                q[missing] = self.closing(&q, missing, &near);
+                let is_found = self.polish(&mut q, &near).1 <= ACCEPT;
+                if is_found && self.polish(&mut q, target).1 > ACCEPT {
+                    search.meeting.remember(q);
+                }
+            }
+        }
+    }
+
     /// Walks along the curves next to answers, and to candidates that led to none.
     fn walk(&self, target: &Rigid, search: &mut Search) {
         let mut walk = Walk::new(self, target);
@@ -126,7 +154,7 @@ impl Chain {
             answers.push(Answer { q: self.scaled(q, self.length), free, lost: false });
         }
         answers.sort();
-        for q in search.lost.as_slice() {
+        for q in search.lost.as_slice().iter().chain(search.meeting.as_slice()) {
             answers.push(Answer { q: self.scaled(q, self.length), free: [false; 6], lost: true });
         }
         answers
@@ -137,7 +165,8 @@ impl Attempt<'_> {
     /// Adds the answers of one formulation; its [`Answers::accuracy`].
     fn run(&self, displacement: &Rigid, search: &mut Search) -> Option<f64> {
         let known = search.answers.count;
-        let deepest = if self.size > 0.0 { DEEPEST } else { BLURRED };
+        let blurred = f64::max(BLURRED, Arithmetic::sqrt(OFF * self.chain.within));
+        let deepest = if self.size > 0.0 { DEEPEST } else { blurred };
         let candidates = Candidates::new(self.chain, displacement, self.number, deepest)?;
         if candidates.conditioning < SINGULAR {
             return None;
@@ -161,6 +190,7 @@ impl Attempt<'_> {
     fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
         let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
         let is_far = deep > FAR_OFF * accuracy;
+        search.is_meeting |= self.size <= 0.0 && deep > 0.0 && deep <= OFF * self.chain.within;
         if (is_far && self.size <= 0.0) || self.chain.has_infinite(&candidate.q) {
             return;
         }

@@ -52,7 +52,7 @@ pub(super) fn norm(v: &[f64; 6]) -> f64 {
     Arithmetic::sqrt(product(v, v))
 }
 
-/// The largest magnitude in rows that is greater than `least`; what is no number is passed over.
+/// The largest magnitude in rows that is greater than `least`; what is no number is ignored.
 #[inline(always)]
 pub(super) fn largest<const N: usize>(least: f64, rows: &[[f64; N]]) -> f64 {
     let mut most = [least; N];

@@ -22,20 +22,20 @@ const EXAMPLES: &str = "Examples:
 
 states.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description; before them, where the root moves freely, its
 position x, y, z and its quaternion x, y, z, w), v0, v1, ... (the root's linear and angular velocity in its own frame first), a0, a1, ... and, if they are known,
-tau0, tau1, ... Without velocities and accelerations they are zero. The count of q tells whether the root moves freely, and whether joints that
-follow others are told too: then each is on its own.
+tau0, tau1, ... Without velocities and accelerations they are zero. The number of q columns decides whether the root moves freely, and whether joints that
+follow others have columns, too: then each is independent.
 
 Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
 g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.
 
 With --lang the equations of motion are printed as code, friction left out: inverse (torques of a motion), gravity, inertia (M), coriolis (C), forward and derivatives
-(of inverse dynamics by configuration and velocity); Rust stands on the crate groebot-runtime, C on runtime/c/groebot_dynamics.h. With --floating the root moves
+(of inverse dynamics by configuration and velocity); Rust needs the crate groebot-runtime, C needs runtime/c/groebot_dynamics.h. With --floating the root moves
 freely.
 
 With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; gravity's direction is that of --gravity, its size g; -o FOLDER writes them as 7_dynamics.txt
 with a certificate, 7_dynamics.json, that `groebot check FOLDER` proves again.";
 
-/// Tells torques, inertia, Coriolis and gravity terms of a robot at states, as polynomials, or as code
+/// Computes torques, inertia, Coriolis and gravity terms of a robot, at states, as polynomials, or as code
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -45,7 +45,7 @@ pub struct Arguments {
     /// The states, CSV
     #[arg(long, value_name = "FILE", required_unless_present_any = ["symbolic", "lang"])]
     states: Option<PathBuf>,
-    /// Tell polynomials in cosines, sines and what bodies weigh
+    /// Print polynomials in cosines, sines, masses and moments of the bodies
     #[arg(long, conflicts_with_all = ["states", "no_friction", "as_told", "json"])]
     symbolic: bool,
     /// Print code in this language
@@ -71,7 +71,7 @@ pub struct Arguments {
     /// Leave the friction of joints out
     #[arg(long)]
     no_friction: bool,
-    /// Take inertias that no body has as they are told
+    /// Accept inertias that no rigid body can have
     #[arg(long)]
     as_told: bool,
     /// Where the table or code goes, or the folder of polynomials; C goes into NAME.c and NAME.h beside it; standard output without it
@@ -82,7 +82,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Tells what is asked for.
+/// Prints what is requested.
 pub fn run(arguments: &Arguments) -> Outcome {
     match (&arguments.states, arguments.lang) {
         (Some(states), _) => states::run(arguments, states),

@@ -22,6 +22,8 @@ struct Report {
     joints: Vec<String>,
     floating: bool,
     states: Vec<Answer>,
+    /// What of the robot's file was ignored.
+    notes: Vec<String>,
 }
 
 /// What is told of one state.
@@ -43,6 +45,9 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let table = StateTable::read_csv(states)?;
     let report = report(&robot, gravity, arguments, (states, &table))?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
+    if !arguments.json {
+        console::tell(&report.notes);
+    }
     match &arguments.out {
         Some(file) => Ok(write_atomically(file, text.as_bytes())?),
         None => console::print(&text),
@@ -85,7 +90,7 @@ fn report(
             .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(file))
     };
     let states = table.rows.iter().enumerate().map(answer).collect::<Result<_>>()?;
-    Ok(Report { format: 1, joints, floating: base == Base::Floating, states })
+    Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes: robot.parts().notes.clone() })
 }
 
 /// The robot of which each joint is on its own.

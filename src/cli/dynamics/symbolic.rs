@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::Arguments;
+use crate::cli::ends::TipLink;
 use crate::cli::files::{DYNAMICS, refuse_overwriting, source_files};
 use crate::cli::{Outcome, console};
 use crate::derive::explain::{Document, Line, Part};
@@ -33,8 +34,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let Asked { chain, .. } = &asked;
     let gravity = &arguments.part.gravity.0;
     let symbolic = equations(chain, told, arguments).map_err(|error| error.in_file(&arguments.robot))?;
+    let tip = asked.tip.as_ref();
+    console::tell(asked.notes());
     let Some(folder) = &arguments.out else {
-        return console::print(&if arguments.latex { latex(chain, &symbolic) } else { symbolic.to_text() });
+        let text = || TipLink::line(tip) + &symbolic.to_text();
+        return console::print(&if arguments.latex { latex(chain, &symbolic, tip) } else { text() });
     };
     let certificate = Certificate::new(&symbolic, chain, told, gravity);
     let text = symbolic.to_text();
@@ -46,7 +50,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     write_folder_atomically(folder, &files, &Watch::none())?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     console::print(&format!(
-        "{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
+        "{}{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
+        TipLink::line(tip),
         chain.joints().len(),
         symbolic.terms(),
         folder.display(),
@@ -94,6 +99,8 @@ pub fn reprove(folder: &Path, ends: &Ends) -> Result<Option<Proof>> {
 /// A chain, and where it is from.
 struct Asked {
     chain: Chain,
+    /// The link where it ends, of a robot.
+    tip: Option<TipLink>,
     source: Option<Source>,
     robot: Option<Robot>,
     ends: Ends,
@@ -102,8 +109,10 @@ struct Asked {
 impl Asked {
     fn read(path: &Path, ends: &Ends) -> Result<Self> {
         if let Some(robot) = path.to_str().and_then(robots::robot) {
-            let chain = robot.chain(ends.base.as_deref(), ends.tip.as_deref())?.ideal().0;
-            return Ok(Asked { chain, source: None, robot: Some(robot), ends: ends.clone() });
+            let [base, tip] = [ends.base.as_deref(), ends.tip.as_deref()];
+            let chain = robot.chain(base, tip)?.ideal().0;
+            let tip = Some(TipLink::of_path(&robot.path(base, tip)?));
+            return Ok(Asked { chain, tip, source: None, robot: Some(robot), ends: ends.clone() });
         }
         let input = InputFile::read(path)?;
         let robot = if let Description::Robot(robot) = &input.description { Some(robot.clone()) } else { None };
@@ -111,13 +120,18 @@ impl Asked {
         let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
         let text = "this describes no chain of joints; give a chain or a robot";
         let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(path))?.clone();
-        let ends = source.ends.clone();
-        Ok(Asked { chain, source: Some(source), robot, ends })
+        let (ends, tip) = (source.ends.clone(), TipLink::of_source(&source));
+        Ok(Asked { chain, tip, source: Some(source), robot, ends })
+    }
+
+    /// What of a robot was ignored.
+    fn notes(&self) -> &[String] {
+        self.source.as_ref().map_or(&[], |source| &source.notes)
     }
 
     /// What the bodies weigh.
     fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
-        let text = "this chain's description tells no masses; leave --numbers out";
+        let text = "this chain's description has no masses; leave --numbers out";
         let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
         let path = robot.path(self.ends.base.as_deref(), self.ends.tip.as_deref())?;
         masses(robot, &path, &self.chain)
@@ -133,12 +147,13 @@ impl Asked {
 }
 
 /// A page of LaTeX.
-fn latex(chain: &Chain, symbolic: &Symbolic) -> String {
-    let told = symbolic.legend().into_iter().map(|line| Part::Paragraph(Line::of(&line)));
+fn latex(chain: &Chain, symbolic: &Symbolic, tip: Option<&TipLink>) -> String {
+    let legend = symbolic.legend().into_iter().map(|line| Part::Paragraph(Line::of(&line)));
     let equation = |(name, entry): (String, String)| Part::Equation {
         number: String::new(),
         formula: format!("{name} = {entry}"),
     };
-    let parts = told.chain(symbolic.entries().into_iter().map(equation)).collect();
+    let parts = tip.and_then(TipLink::paragraph).into_iter().chain(legend);
+    let parts = parts.chain(symbolic.entries().into_iter().map(equation)).collect();
     Document { title: format!("Equations of motion of {}", chain.name()), parts }.to_latex()
 }

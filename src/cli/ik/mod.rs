@@ -26,11 +26,11 @@ const EXAMPLES: &str = "Examples:
   groebot fk robot.urdf < joints.csv | groebot ik robot.urdf > answers.csv
 
 Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
-task of a chain may ask for less: x,y,z for a position, and a direction behind them for a ray; a direction alone, or angles or a
+task of a chain may ask for less: x,y,z for a position, and a direction after them for a ray; a direction alone, or angles or a
 quaternion alone; two coordinates in a plane, or those and the angle about its normal. Values of given joints come last; where a task leaves joints
 too many and none is given, the planner chooses, as `derive` does. Angles of answers are turned into their joint's limits where whole turns do that.
 A CSV may start with a line of names: px, py, pz (or x_m, x_mm), then qx to qw, r11 to r33, or roll, pitch, yaw (or roll_deg); dx, dy, dz, phi, and given
-joints. What else `fk`, `ik` and `solve` write is passed over, another name is refused.
+joints. Other columns that `fk`, `ik` and `solve` write are ignored, another name is refused.
 A target out of reach is no error: the answer is \"no solution\".";
 
 /// The method that may not find all answers.
@@ -69,8 +69,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
         method: method.name(),
         tip: asked.tip(),
         choice: asked.choice.as_ref(),
+        notes: asked.notes(),
         degrees: arguments.degrees,
     };
+    if !arguments.json {
+        console::tell(asked.notes());
+    }
     let session = Session { question: &question, solver: method.solver(), as_json: arguments.json };
     let nothing = arguments.target.is_empty() && arguments.q.is_empty();
     match arguments.target.as_slice() {

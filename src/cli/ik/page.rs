@@ -7,10 +7,11 @@ use super::NUMERIC;
 use crate::cli::answers::{csv_line, exact, table};
 use crate::cli::columns::{Field, Measure, heading, of_joints};
 use crate::cli::ends::TipLink;
+use crate::cli::following::{followers, leaders};
 use crate::cli::json::{FORMAT, given};
 use crate::cli::targets;
 use crate::derive::planner::Choice;
-use crate::kinematics::{Chain, Joint, JointKind, Placed, Solution, Target};
+use crate::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Solution, Target};
 
 /// What all targets have in common.
 pub struct Question<'a> {
@@ -22,6 +23,8 @@ pub struct Question<'a> {
     pub tip: Option<TipLink>,
     /// The joints that the planner gives.
     pub choice: Option<&'a Choice>,
+    /// What of the robot was ignored.
+    pub notes: &'a [String],
     /// Whether angles are degrees, in targets, in JSON and in tables.
     pub degrees: bool,
 }
@@ -79,12 +82,13 @@ impl Page<'_> {
             row.push(notes(chain, answer));
             rows.push(row);
         }
-        format!("{title}: {} {plural}{how}\n{}", answers.len(), table(&rows))
+        let followers = followers(names(chain).into_iter().zip(follows(chain)));
+        format!("{title}: {} {plural}{how}\n{}{followers}", answers.len(), table(&rows))
     }
 
     /// One JSON object: over several lines when `pretty`, else on one.
     pub fn json(&self, pretty: bool) -> String {
-        let Question { chain, method, tip, choice, .. } = self.question;
+        let Question { chain, method, tip, choice, notes, .. } = self.question;
         let object = Object {
             format: FORMAT,
             name: chain.name(),
@@ -93,8 +97,10 @@ impl Page<'_> {
             given: choice.map(given),
             target: self.text,
             joints: names(chain),
+            follows: leaders(follows(chain)),
             unit: chain.joints().iter().map(|joint| self.question.unit(joint)).collect(),
             solutions: self.answers.iter().map(|answer| self.entry(answer)).collect(),
+            notes,
         };
         let text = if pretty { serde_json::to_string_pretty(&object) } else { serde_json::to_string(&object) };
         text.expect("an answer holds nothing that JSON cannot say") + "\n"
@@ -186,6 +192,11 @@ fn names(chain: &Chain) -> Vec<&str> {
     chain.joints().iter().map(|joint| joint.name.as_str()).collect()
 }
 
+/// By joint, how it follows another one.
+fn follows(chain: &Chain) -> impl Iterator<Item = Option<&Mimic>> {
+    chain.joints().iter().map(|joint| joint.mimic.as_ref())
+}
+
 /// The joints that may take any value.
 fn free<'c>(chain: &'c Chain, answer: &Solution) -> Vec<&'c str> {
     answer.free.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect()
@@ -221,8 +232,14 @@ struct Object<'a> {
     given: Option<Value>,
     target: &'a str,
     joints: Vec<&'a str>,
+    /// By joint the one that it follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    follows: Option<Vec<Option<&'a str>>>,
     unit: Vec<&'a str>,
     solutions: Vec<Entry<'a>>,
+    /// What of the robot was ignored.
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]

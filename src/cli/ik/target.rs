@@ -37,7 +37,7 @@ pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
     let count = chain.given_inputs().len();
     let Some(own) = values.len().checked_sub(count) else {
         let names = chain.parts().given.join(", ");
-        let text = format!("{} numbers are given; the values of {count} joints stand last: {names}", values.len());
+        let text = format!("{} numbers are given; the values of {count} joints are last: {names}", values.len());
         return Err(Error::new(ErrorKind::BadValue, text));
     };
     let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);

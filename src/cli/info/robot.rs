@@ -103,7 +103,9 @@ impl<'r> Body<'r> {
     }
 
     fn weight(&self) -> String {
-        let (Some(mass), Some(centre)) = (self.mass, self.centre) else { return "  not told\n".to_owned() };
+        let (Some(mass), Some(centre)) = (self.mass, self.centre) else {
+            return "  not computed: see the faults\n".to_owned();
+        };
         let shapes = |count: fn(&crate::model::Link) -> usize| self.robot.links().iter().map(count).sum::<usize>();
         let (seen, hard) = (shapes(|link| link.visuals.len()), shapes(|link| link.collisions.len()));
         let at = centre.coords.map(|x| format!("{x:.4}"));

@@ -9,11 +9,11 @@ use crate::{Error, ErrorKind, Result};
 pub struct CoupledChain {
     /// Its name.
     pub name: String,
-    /// What stands before the names of its inputs and joints.
+    /// The prefix of the names of its inputs and joints.
     pub prefix: String,
     /// The chain, with its task. Base frame and length unit are those of all chains.
     pub chain: Chain,
-    /// The name of the file that states the chain, in the description's folder; none when the chain stands in place.
+    /// The name of the file that states the chain, in the description's folder; none when the chain is in the description itself.
     pub file: Option<String>,
 }
 
@@ -47,7 +47,7 @@ pub struct CoupledParts {
     pub source: Option<String>,
     /// The chains.
     pub chains: Vec<CoupledChain>,
-    /// Joints that are one actuator: each list has joints of different chains, two or more, and each joint stands in one list at most.
+    /// Joints that are one actuator: each list has joints of different chains, two or more, and each joint is in one list at most.
     pub shared: Vec<Vec<JointPlace>>,
 }
 

@@ -12,7 +12,7 @@ const ROOT_KEYS: [&str; 5] = ["name", "description", "source", "shared", "chain"
 const CHAIN_KEYS: [&str; 5] = ["name", "prefix", "chain", "task", "given"];
 
 impl CoupledChains {
-    /// The coupled chains that the file at `path` describes; files that it names stand in its folder.
+    /// The coupled chains that the file at `path` describes; files that it names are in its folder.
     ///
     /// # Errors
     /// As [`read_text`] and [`CoupledChains::from_toml`], with the file.
@@ -21,7 +21,7 @@ impl CoupledChains {
         CoupledChains::from_toml(&read_text(path, TEXT_LIMIT)?, folder).map_err(|error| error.in_file(path))
     }
 
-    /// The chains that `text` describes in the format of [`crate::derive::coupled`]; chains that it names by file stand in `folder`.
+    /// The chains that `text` describes in the format of [`crate::derive::coupled`]; chains that it names by file are in `folder`.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];

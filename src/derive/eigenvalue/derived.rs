@@ -4,7 +4,7 @@ use groebot_runtime::six_axes::SIZE;
 use serde::{Deserialize, Serialize};
 
 use super::given::Six;
-use super::program::program;
+use super::program::{program, within};
 use super::{Determinant, Regular, ranked};
 use crate::derive::certificate::{FORMAT, Proves, check_head, proves, refused, written};
 use crate::derive::closure::Mechanism;
@@ -110,6 +110,7 @@ impl DerivedSixAxes {
     pub fn polished_on(mut self, truth: &Chain, report: Report) -> Result<Self> {
         self.unpolished = Some(Box::new(self.program.clone()));
         self.program.checks = checks_on(&self.chain, truth)?;
+        within(&mut self.program, report.deviation())?;
         (self.program.nearby, self.program.isolated) = (true, None);
         self.truth = Some((truth.clone(), report));
         Ok(self)

@@ -30,7 +30,7 @@ impl Six {
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
         let is_row = unknown.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if chain.task() != Task::Pose || unknown.len() != 6 || !is_row {
-            let text = "the eigenvalue problem is for the pose of six joints in a row; all that are before and behind them must be given";
+            let text = "the eigenvalue problem is for the pose of six joints in a row; all that are before and after them must be given";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let mut parts = chain.parts().clone();

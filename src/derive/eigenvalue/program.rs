@@ -31,6 +31,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
         slides,
         tip: tip(chain),
         formulations,
+        within: 0.0,
         joints: six.places().map(|place| frame.joints[place].value),
         target,
     })?;
@@ -49,6 +50,19 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let program = Program { blocks, capacity: ROOM, isolated: Some(dimension), nearby: false, ..frame };
     program.validate().map_err(|error| unsupported(error.message()))?;
     Ok(program)
+}
+
+/// The same for a robot on which answers are polished, and which is so far from this one (shares of the reach, and rad).
+///
+/// # Errors
+/// As [`SixAxes::new`].
+pub(super) fn within(program: &mut Program, within: f64) -> Result<()> {
+    for step in program.blocks.iter_mut().flat_map(|block| &mut block.cases).flat_map(|case| &mut case.steps) {
+        if let Step::SixAxes(six) = step {
+            **six = six.within(within)?;
+        }
+    }
+    Ok(())
 }
 
 /// What the block `label` of a program sets unknowns to.

@@ -80,7 +80,7 @@ fn chain(page: &mut Document, derived: &Derived, mechanism: &Mechanism) {
     }
     page.table(rows);
     page.say(
-        "Axes and points stand in the base frame at zero. Of a joint that turns the unknowns are the cosine and the sine of its \
+        "Axes and points are given in the base frame at zero. Of a joint that turns the unknowns are the cosine and the sine of its \
          angle, $c^2 + s^2 = 1$, so that its motion is polynomial. Where no vector of length one along an axis has rational \
          coordinates the sine is divided by the length of the vector, which keeps all numbers rational.",
     );
@@ -207,7 +207,7 @@ fn singularities(page: &mut Document) {
     );
     page.say(
         "Where a joint is free there is a self-motion. The program puts an angle at eight places, a length at five, \
-         goes on with the steps behind, and returns the best member that it finds; the answer names the joints that are free, \
+         goes on with the later steps, and returns the best member that it finds; the answer names the joints that are free, \
          and all members share one branch number.",
     );
 }

@@ -18,7 +18,7 @@ pub fn document(derived: &DerivedCoupled) -> Result<Document> {
     }
     actuators(&mut page, derived);
     page.say(&format!(
-        "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains behind it. Every \
+        "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains after it. Every \
          solution of all chains is one of the first chain, continued by one of the next with the shared joints held, and so on: none \
          is lost. A generic target that the chains can reach has {} complex solutions. Each answer is polished and measured on the \
          equations of all chains together.",
@@ -46,7 +46,7 @@ fn shared(page: &mut Document, derived: &DerivedCoupled) -> Result<()> {
         page.equation(&format!("0.{}", index + 2), relation.to_string());
     }
     page.say(match simultaneous.steps.as_slice() {
-        [_] => "Both are linear in the cosine and sine of the joint, and each is solved alone where the other says nothing.",
+        [_] => "Both are linear in the cosine and sine of the joint, and each is solved alone where the other vanishes.",
         _ => {
             "Both are linear in the cosine and sine of the second joint. Their determinant is an equation in the first joint, of \
              degree two in its cosine and sine; its cofactors are multiplied out in the proof."

@@ -18,7 +18,7 @@ pub enum Part {
     Section(Line),
     /// A paragraph.
     Paragraph(Line),
-    /// A formula that stands alone, with its number: `3.1`.
+    /// A formula on a line of its own, with its number: `3.1`.
     Equation {
         /// The number, without parentheses; empty for none.
         number: String,
@@ -47,7 +47,7 @@ pub enum Span {
 pub struct Line(pub Vec<Span>);
 
 impl Line {
-    /// Our own prose, in which formulas stand between dollars: `where $A = B = 0$`.
+    /// Our own prose, in which formulas are between dollars: `where $A = B = 0$`.
     pub fn of(prose: &str) -> Self {
         Line::default().and(prose)
     }

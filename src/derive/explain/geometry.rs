@@ -43,7 +43,7 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
         if idle.is_empty() {
             return what.and(match seen {
                 true => " is all that the task sees of the tip there.",
-                false => " was chosen freely: no joint stands where the loop is cut.",
+                false => " was chosen freely: no joint is where the loop is cut.",
             });
         }
         let verb = if idle.len() == 1 { " leaves" } else { " leave" };
@@ -60,10 +60,16 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
 /// What a relation says.
 pub fn conserved(measure: Measure) -> &'static str {
     match measure {
-        Measure::Angle => "the angle between the two, hence their scalar product, is the same both ways round the loop",
-        Measure::Offset => "the distance along the normal between the two is the same both ways round the loop",
-        Measure::Distance => "the distance between the two, hence its square, is the same both ways round the loop",
-        Measure::Moment => "the mutual moment of the two is the same both ways round the loop",
+        Measure::Angle => {
+            "the angle between the two, hence their scalar product, is the same in both directions round the loop"
+        }
+        Measure::Offset => {
+            "the distance along the normal between the two is the same in both directions round the loop"
+        }
+        Measure::Distance => {
+            "the distance between the two, hence its square, is the same in both directions round the loop"
+        }
+        Measure::Moment => "the mutual moment of the two is the same in both directions round the loop",
         Measure::Follow => "the one joint is where the other brings it",
     }
 }

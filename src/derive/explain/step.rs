@@ -217,7 +217,7 @@ impl Writer<'_> {
         let sum = signs(terms.map(|(number, f)| format!("{}*f{}", strata::factor(&text(f)), number + 1)));
         match sum.len() {
             0..=LONGEST => self.page.display(sum),
-            _ => self.page.say("The cofactors are long; they stand in certificate.json."),
+            _ => self.page.say("The cofactors are long; they are in certificate.json."),
         }
         let form = self.step.shape.form;
         let own = self.own_names();
@@ -255,7 +255,7 @@ impl Writer<'_> {
         }
         match self.told() {
             Some(before) => self.page.say(&format!(
-                "Its roots, and what happens where two of them meet or symbols vanish, are those told in step {}.",
+                "Its roots, and what happens where two of them meet or symbols vanish, are those given in step {}.",
                 before + 1
             )),
             None => {
@@ -281,7 +281,7 @@ impl Writer<'_> {
         match self.values().iter().take(2).find(|value| is_number(value)) {
             Some(value) => {
                 let text = format!(
-                    "Here ${value}$ is a number, so this step is never singular in this way: the joint is never free."
+                    "Here ${value}$ is a number, so this step is never singular for this reason: the joint is never free."
                 );
                 self.page.say(&text);
             }

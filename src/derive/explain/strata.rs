@@ -35,7 +35,7 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
         if text.len() > LONGEST { left_out += 1 } else { page.display(text) }
     }
     if left_out > 0 {
-        page.say(&format!("{left_out} more have long cofactors; they stand in certificate.json."));
+        page.say(&format!("{left_out} more have long cofactors; they are in certificate.json."));
     }
     let proof = certified.proof;
     page.say(&format!(

@@ -46,7 +46,8 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let names =
         |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
-    let mut given = chain.given();
+    let asked = chain.given();
+    let mut given = asked.clone();
     let Some(excess) = chain.independent().len().checked_sub(chain.task().freedoms()).filter(|n| *n > 0) else {
         return Ok(None);
     };
@@ -55,7 +56,13 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
         given.extend((0..chain.joints().len()).filter(|&place| place == joint || led_by(chain, place) == Some(joint)));
         given.sort_unstable();
     }
-    let (joint, candidates) = last_to_give(chain, &given, watch)?;
+    let (joint, candidates) = match last_to_give(chain, &given, watch) {
+        Err(error) if is_refusal(error.kind()) => match ends_to_give(chain, &asked, excess) {
+            Some(given) => return Ok(Some(Choice { given: names(&given), candidates: Vec::new() })),
+            None => return Err(error),
+        },
+        last => last?,
+    };
     given.push(joint);
     given.sort_unstable();
     Ok(Some(Choice { given: names(&given), candidates }))
@@ -104,16 +111,30 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
     }
 }
 
-/// The joint that leaves six which are found together: the last one, or the first.
+/// So many joints at the ends of the chain, beside those that are given, which leave six that are found together: as many as possible at its end.
+fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usize>> {
+    let leading: Vec<usize> = chain.independent().into_iter().filter(|joint| !given.contains(joint)).collect();
+    (0..=count).find_map(|front| {
+        let ends = leading[..front].iter().chain(&leading[leading.len() - (count - front)..]);
+        let mut all: Vec<usize> = given.iter().chain(ends).copied().collect();
+        all.sort_unstable();
+        leaves_six(chain, &all).then_some(all)
+    })
+}
+
+/// Whether the joints that are not given, nor follow those that are, are six that are found together.
+fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
+    let leads = |joint: &&usize| chain.leader(**joint).is_none();
+    let given = given.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
+    let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
+    asked.is_ok_and(|chain| fits(&chain).is_ok())
+}
+
+/// The joint that leaves six which are found together: the last one, or the first, or the one that it follows.
 fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
-    let fits_with = |place: &usize| {
-        let leads = |joint: &&usize| chain.leader(**joint).is_none();
-        let given =
-            given.iter().chain([place]).filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
-        let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
-        asked.is_ok_and(|chain| fits(&chain).is_ok())
-    };
-    [chain.joints().len() - 1, 0].into_iter().filter(|place| !given.contains(place)).find(fits_with)
+    let fits_with = |place: &usize| leaves_six(chain, &given.iter().copied().chain([*place]).collect::<Vec<_>>());
+    let ends = [chain.joints().len() - 1, 0].map(|place| led_by(chain, place).unwrap_or(place));
+    ends.into_iter().filter(|place| !given.contains(place)).find(fits_with)
 }
 
 fn is_refusal(kind: ErrorKind) -> bool {

@@ -205,7 +205,8 @@ impl<'a> Builder<'a> {
         self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
         let typical = Some(self.spread(Operand::Constant(1.0), quartic.len() - 1));
         let guard_code = self.assembler.take();
-        let mut steps = vec![Step::Roots { unknown, polynomials: vec![quartic], typical }];
+        let half_angle = self.place.slack != Slack::NONE;
+        let mut steps = vec![Step::Roots { unknown, polynomials: vec![quartic], typical, half_angle }];
         let sine = self.coefficients(ring, half.stair(1)?, 1, Operand::Unknown(unknown));
         let sine = self.root(&sine)?;
         let low = self.parts(ring, half.stair(0)?, 0, [Operand::Constant(0.0), sine, Operand::Unknown(unknown)]);
@@ -322,7 +323,7 @@ impl<'a> Builder<'a> {
                 let typical = if self.form == Form::Lengths { None } else { Some(self.typical()?) };
                 let typical = typical.map(|size| self.spread(size, coefficients.len() - 1));
                 push_code(steps, &mut self.assembler);
-                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical });
+                steps.push(Step::Roots { unknown, polynomials: vec![coefficients], typical, half_angle: false });
             }
         }
         Ok(())

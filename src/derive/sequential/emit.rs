@@ -12,7 +12,7 @@ use crate::solver::Operand;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Emitted {
     number: BigRational,
-    /// No operand is a constant or stands twice, and no coefficient is zero.
+    /// No operand is a constant or is given twice, and no coefficient is zero.
     terms: Vec<(Operand, BigRational)>,
 }
 

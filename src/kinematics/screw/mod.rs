@@ -1,11 +1,12 @@
 //! Inverse kinematics by screw theory: a witness that shares no solving code with the Groebner-derived solvers.
 //!
-//! [`ScrewSolver`] finds an order of subproblems from a chain's geometry, tells it as a [`Plan`], and solves by it; where one of its steps degenerates
+//! [`ScrewSolver`] finds an order of subproblems from a chain's geometry, describes it as a [`Plan`], and solves by it; where one of its steps degenerates
 //! and the chain does not, by another order.
 
 pub mod circles;
 mod feature;
 mod goal;
+mod meeting;
 mod model;
 pub mod one_joint;
 mod order;

@@ -2,7 +2,7 @@
 //! translations to a plane (PG1, PG5). IK-Geo's subproblems 1, 3 and 4 are these.
 //!
 //! Rotating a point moves what is asked for (a distance, a height over a plane) up and down between two ends, so that
-//! there are two angles, one at an end, or every angle does it. The tolerances stand in [`super::values`].
+//! there are two angles, one at an end, or every angle does it. The tolerances are in [`super::values`].
 //!
 //! Lengths may have any magnitude, but an axis' point should be near the other points: rounding of the axis' direction
 //! acts at that distance.

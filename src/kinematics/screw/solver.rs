@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 
+use super::meeting::at_meeting_points;
 use super::model::Model;
 use super::order::{Order, Orders, samples};
 use super::plan::Plan;
@@ -15,7 +16,7 @@ use super::{ACCEPT, MERGE, upright};
 use crate::kinematics::ideal::TOLERANCE;
 use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Task};
-use crate::spatial::{Axis, Half, Pose, Screw, angle};
+use crate::spatial::{Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
 /// How many times as far as an answer may be off the goal a step's target may be out of reach.
@@ -136,7 +137,7 @@ impl ScrewSolver {
     }
 
     /// The same with the values `given` of the chain's given joints that follow no others, from the base: radians or lengths of the chain's unit.
-    /// They stand in the answers as they were given.
+    /// Answers contain them unchanged.
     ///
     /// # Errors
     /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each of these.
@@ -361,43 +362,6 @@ fn unsolved(chain: &Chain) -> Error {
         chain.asked()
     );
     Error::new(ErrorKind::Unsupported, text)
-}
-
-/// The same screws, each axis given by a point where it meets its neighbours: three or more of them if it does, else one.
-///
-/// Such points stay exact while the joints move, however parallel their axes become.
-fn at_meeting_points(screws: &[Screw], tolerance: f64) -> Vec<Screw> {
-    let mut groups: Vec<(usize, usize, Point3<f64>)> = Vec::new();
-    for start in 0..screws.len() {
-        for stop in start + 2..=screws.len() {
-            groups.extend(meeting_point(&screws[start..stop], tolerance).map(|point| (start, stop, point)));
-        }
-    }
-    groups.sort_by_key(|(start, stop, _)| std::cmp::Reverse(stop - start));
-    let mut points: Vec<Option<Point3<f64>>> = vec![None; screws.len()];
-    for whole in [false, true] {
-        for (start, stop, point) in &groups {
-            let known = points[*start..*stop].iter().flatten().any(|p| (p - point).norm() <= tolerance);
-            let open: Vec<usize> = (*start..*stop).filter(|&i| points[i].is_none()).collect();
-            let taken = if whole { open.len() } else { usize::from(!known) };
-            open.iter().take(taken).for_each(|&i| points[i] = Some(*point));
-        }
-    }
-    let placed = |(screw, point): (&Screw, &Option<Point3<f64>>)| match (screw, point) {
-        (Screw::Revolute(axis), Some(point)) => Screw::Revolute(axis.level_with(point)),
-        _ => *screw,
-    };
-    screws.iter().zip(&points).map(placed).collect()
-}
-
-/// Where all axes of the row meet.
-fn meeting_point(row: &[Screw], tolerance: f64) -> Option<Point3<f64>> {
-    let axes: Vec<&Axis> = row.iter().map(Screw::axis).collect::<Option<_>>()?;
-    let other = axes[1..].iter().find(|axis| !axes[0].is_parallel(axis))?;
-    let (a, b) = axes[0].nearest_points(other)?;
-    let point: Vector3<f64> = (a.coords + b.coords) / 2.0;
-    let point = Point3::from(point);
-    axes.iter().all(|axis| axis.distance_to(&point) <= tolerance).then_some(point)
 }
 
 impl InverseKinematics for ScrewSolver {

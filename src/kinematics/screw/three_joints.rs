@@ -4,7 +4,7 @@
 //! The first joint is cancelled by two conditions that it keeps: the height along its axis and the distance from a point of
 //! it, or, when it slides, two heights across its direction. Both are linear in the second joint's cosine and sine with
 //! constant factors (see `turn.rs`), so that one equation of degree four is left for the third. Candidates are refined and
-//! kept when they reach `k`. The tolerances stand in [`super::values`].
+//! kept when they reach `k`. The tolerances are in [`super::values`].
 
 use nalgebra::{Point3, Unit, Vector3};
 use smallvec::SmallVec;

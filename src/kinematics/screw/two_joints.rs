@@ -3,7 +3,7 @@
 //!
 //! One condition on the second joint follows by cancelling the first (a component along its axis, a distance from a point of
 //! it); the first joint then goes to the point. Candidates are refined by Gauss-Newton and kept when they reach `k`:
-//! axes that do not meet leave one of two, which a formula for meeting axes does not tell. The tolerances stand in
+//! axes that do not meet leave one of two, which a formula for meeting axes does not give. The tolerances are in
 //! [`super::values`]; the size of the problem is the largest distance of p and k from the axes' points, or from each other.
 
 use nalgebra::{Point3, Unit, Vector3};

@@ -107,7 +107,7 @@ impl Values {
     }
 }
 
-/// All answers for `N` joints. In an answer `None` stands for a free joint: every value of it does, the other joints
+/// All answers for `N` joints. In an answer `None` is a free joint: every value of it is an answer, the other joints
 /// changing along with it; they were computed with it at zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers<const N: usize> {

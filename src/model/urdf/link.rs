@@ -35,7 +35,12 @@ pub fn read_link(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result
             Err(error) => link.notes.push(format!("left out: {error}")),
         }
     }
-    let mass = || refuse_slips(element, &PARTS).and_then(|()| element.child("inertial")?.map(read_mass).transpose());
+    let mut inertials = element.children.iter().filter(|child| child.name == "inertial");
+    let inertial = inertials.next();
+    // urdfdom, which most programs read URDF by, takes the first.
+    let extra = |second: &Element| format!("<inertial> of line {} is left out: the first one is taken", second.line);
+    link.notes.extend(inertials.map(extra));
+    let mass = || refuse_slips(element, &PARTS).and_then(|()| inertial.map(read_mass).transpose());
     let named = |error: Error| error.with_context(format_args!("link `{}`", shown(name))).at_line(element.line);
     let fault = match mass() {
         Ok(mass) => {

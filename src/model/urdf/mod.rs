@@ -73,7 +73,7 @@ impl Robot {
     }
 }
 
-/// The colours of the robot's materials; one that is none is passed over, with a note.
+/// The colours of the robot's materials; one that is none is ignored, with a note.
 fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [f64; 4]> {
     let mut colours = HashMap::new();
     for material in root.children.iter().filter(|child| child.name == "material") {

@@ -11,7 +11,7 @@ use crate::spatial::exact::ExactVector;
 
 impl Robot {
     /// The robot as a URDF. Reading it gives the same robot again: numbers are written as decimals of as many digits as they have, those that
-    /// are no decimals in doubles. Symbols are left out: URDF has no place for them. [`Robot::check`] tells whether all of it was understood.
+    /// are no decimals in doubles. Symbols are left out: URDF has no place for them. [`Robot::check`] reports whether all of it was understood.
     pub fn to_urdf(&self) -> String {
         let mut text = String::from("<?xml version=\"1.0\"?>\n");
         // Writing to a string cannot fail.

@@ -79,7 +79,7 @@ impl Element {
     pub fn child(&self, name: &str) -> Result<Option<&Element>> {
         let mut children = self.children.iter().filter(|child| child.name == name);
         match (children.next(), children.next()) {
-            (_, Some(second)) => Err(second.error(ErrorKind::BadValue, "stands twice; give one")),
+            (_, Some(second)) => Err(second.error(ErrorKind::BadValue, "is given twice; give one")),
             (first, None) => Ok(first),
         }
     }
@@ -187,7 +187,7 @@ impl Builder {
                 Ok(())
             }
             Event::Text(text) if self.depth == 0 && !text.iter().all(u8::is_ascii_whitespace) && !is_mark(text) => {
-                Err(syntax("text stands outside the root element"))
+                Err(syntax("there is text outside the root element"))
             }
             _ => Ok(()),
         }

@@ -58,7 +58,7 @@ impl Header {
         let (key, at) = reader.name(KEYS)?;
         reader.expect(':')?;
         if self.keys.contains(&key) {
-            return Err(at.error(ErrorKind::DuplicateName, format!("the header line `{key}` stands here twice")));
+            return Err(at.error(ErrorKind::DuplicateName, format!("the header line `{key}` is given twice")));
         }
         match key.as_str() {
             "variables" => self.variables = Some(self.list(reader)?),

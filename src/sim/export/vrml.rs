@@ -133,7 +133,7 @@ impl<'t> Reader<'t> {
                 return Err(self.error(ErrorKind::UnknownKey, text));
             }
             if seen.contains(&field) {
-                return Err(self.error(ErrorKind::DuplicateName, format!("`{field}` stands twice; give it once")));
+                return Err(self.error(ErrorKind::DuplicateName, format!("`{field}` is given twice; give it once")));
             }
             seen.push(field);
             read(self, field)?;
@@ -150,7 +150,9 @@ impl<'t> Reader<'t> {
                 self.error(ErrorKind::Syntax, text)
             })?;
             if !f64::is_finite(read) || !good(read) {
-                return Err(self.error(ErrorKind::BadValue, format!("`{}` stands here; give {wanted}", shown(word))));
+                return Err(
+                    self.error(ErrorKind::BadValue, format!("`{}` is not allowed here; give {wanted}", shown(word)))
+                );
             }
             *number = read;
         }

@@ -13,7 +13,7 @@ pub struct Formulation {
 }
 
 impl Formulation {
-    /// The joint that stands `steps` behind the hidden one in the loop.
+    /// The joint that is `steps` after the hidden one in the loop.
     pub fn joint(&self, steps: usize) -> usize {
         (self.hidden + steps) % 6
     }

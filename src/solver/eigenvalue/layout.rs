@@ -51,6 +51,7 @@ impl Layout {
             back: tip.inverse(),
             length: self.length,
             formulations: Formulations::new(&formulations),
+            within: 0.0,
         }
     }
 }

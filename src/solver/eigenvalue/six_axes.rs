@@ -31,6 +31,9 @@ pub struct SixAxesParts {
     pub tip: Rigid,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Vec<Formulation>,
+    /// How far the robot on which answers are polished may be from this one, in shares of its reach, and rad; zero where it is this one.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub within: f64,
     /// The unknowns that are set: angles, and values of the joints that slide.
     pub joints: [JointValue; 6],
     /// The target: the position of the tip, then its rotation matrix by rows.
@@ -56,6 +59,7 @@ impl SixAxes {
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
         ensure(is_finite && parts.lines.iter().all(is_unit), "six axes: directions of length one are allowed")?;
         ensure(parts.length.is_finite() && parts.length > 0.0, "six axes: a positive length is allowed")?;
+        ensure((0.0..=1.0).contains(&parts.within), "six axes: a tolerance from 0 to 1 is allowed")?;
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
         ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
@@ -63,7 +67,7 @@ impl SixAxes {
         let known = (1..=Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
         ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;
         let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
-        let chain = layout.chain(&parts.tip, &parts.formulations);
+        let chain = Chain { within: parts.within, ..layout.chain(&parts.tip, &parts.formulations) };
         Ok(SixAxes { parts, chain })
     }
 
@@ -75,6 +79,14 @@ impl SixAxes {
     /// The chain in the run time's terms.
     pub(crate) fn chain(&self) -> Chain {
         self.chain
+    }
+
+    /// The step of a robot that answers are polished on, which is so far from this one.
+    ///
+    /// # Errors
+    /// As [`SixAxes::new`].
+    pub fn within(&self, within: f64) -> Result<Self> {
+        SixAxes::new(SixAxesParts { within, ..self.parts.clone() })
     }
 
     /// The step with other names of its unknowns and operands.
@@ -101,6 +113,10 @@ impl From<SixAxes> for SixAxesParts {
     fn from(step: SixAxes) -> Self {
         step.parts
     }
+}
+
+fn is_zero(within: &f64) -> bool {
+    *within == 0.0
 }
 
 fn is_none(slides: &[bool; 6]) -> bool {

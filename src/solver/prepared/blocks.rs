@@ -71,7 +71,7 @@ pub(super) enum Way {
     Compute(Code),
     Set { unknown: u32, value: u32 },
     Square { unknown: u32, constant: u32, typical: u32, stride: usize, is_pair: bool },
-    Roots { unknown: u32, polynomials: Vec<Vec<u32>>, typical: u32, stride: usize },
+    Roots { unknown: u32, polynomials: Vec<Vec<u32>>, typical: u32, half_angle: bool, stride: usize },
     Sample { unknowns: Vec<u32>, rows: Vec<Vec<f64>> },
     SixAxes(Box<Six>),
 }
@@ -177,8 +177,8 @@ impl Preparing<'_> {
                     ways.push(Way::Set { unknown: self.unknown(*unknown), value: self.assembler.place(*value) });
                 }
                 Step::Set { .. } => {}
-                Step::Roots { unknown, polynomials, typical } => {
-                    ways.push(self.roots((*unknown, polynomials, *typical), stride, is_mirror));
+                Step::Roots { unknown, polynomials, typical, half_angle } => {
+                    ways.push(self.roots((*unknown, polynomials, *typical, *half_angle), stride, is_mirror));
                 }
                 Step::Sample { joint, values } => {
                     let unknowns = joint.unknowns().into_iter().map(|unknown| self.unknown(unknown)).collect();
@@ -200,7 +200,7 @@ impl Preparing<'_> {
 
     fn roots(
         &mut self,
-        (unknown, polynomials, typical): (usize, &[Vec<Operand>], Option<Operand>),
+        (unknown, polynomials, typical, half_angle): (usize, &[Vec<Operand>], Option<Operand>, bool),
         stride: usize,
         is_pair: bool,
     ) -> Way {
@@ -208,12 +208,13 @@ impl Preparing<'_> {
         let usual = if is_plain { Operand::Magnitude } else { Operand::Constant(1.0) };
         let typical = self.assembler.place(typical.unwrap_or(usual));
         let place = self.unknown(unknown);
-        if let Some(constant) = square(polynomials) {
+        if let Some(constant) = square(polynomials).filter(|_| !half_angle) {
             let constant = self.assembler.place(constant);
             return Way::Square { unknown: place, constant, typical, stride, is_pair };
         }
         let mut list = |list: &Vec<Operand>| list.iter().map(|&operand| self.assembler.place(operand)).collect();
-        Way::Roots { unknown: place, polynomials: polynomials.iter().map(&mut list).collect(), typical, stride }
+        let polynomials = polynomials.iter().map(&mut list).collect();
+        Way::Roots { unknown: place, polynomials, typical, half_angle, stride }
     }
 
     fn six_axes(&mut self, six: &crate::solver::eigenvalue::SixAxes, stride: usize) -> Way {

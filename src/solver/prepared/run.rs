@@ -121,11 +121,15 @@ where
                     }
                     return;
                 }
-                Way::Roots { unknown, polynomials, typical, stride } => {
+                Way::Roots { unknown, polynomials, typical, half_angle, stride } => {
                     let values = |list: &Vec<u32>| list.iter().map(|&place| self.at(place)).collect::<Vec<N>>();
                     let lists: Vec<Vec<N>> = polynomials.iter().map(values).collect();
                     let lists: Vec<&[N]> = lists.iter().map(Vec::as_slice).collect();
-                    let roots = N::real_roots::<MAX_DEGREE>(&lists, self.at(*typical));
+                    let typical = self.at(*typical);
+                    let roots = match half_angle {
+                        true => N::half_angle_roots::<MAX_DEGREE>(lists[0], typical),
+                        false => N::real_roots::<MAX_DEGREE>(&lists, typical),
+                    };
                     for (choice, root) in roots.as_slice().iter().enumerate() {
                         self.memory[*unknown as usize].0 = *root;
                         self.steps(index, case, behind, found.by_root(&roots, choice), number + choice * stride);

@@ -24,7 +24,7 @@ pub fn check(derived: &DerivedCoupled, options: &Options, watch: &Watch) -> Resu
     let model = CoupledModel::new(derived);
     let leading = derived.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
     let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();
-    let mut targets = Draws::new(&model, &leading, options.seed);
+    let mut targets = Sources::new(&model, &leading, options);
     // Two shared joints more than a chain determines make the equations of both chains too large to be counted by.
     let counts = derived.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
     let counter = if counts { model.counter() } else { None };
@@ -251,17 +251,18 @@ impl Solver for ByScrews<'_> {
 }
 
 /// The source of targets: those of one chain in turn, with random joints of the others.
-struct Draws<'a> {
+struct Sources<'a> {
     coupled: &'a CoupledModel<'a>,
     leading: &'a [Model<'a>],
     /// One for each chain.
     sources: Vec<Targets<'a>>,
 }
 
-impl<'a> Draws<'a> {
-    fn new(coupled: &'a CoupledModel<'a>, leading: &'a [Model<'a>], seed: u64) -> Self {
-        let source = |(index, model): (usize, &'a Model<'a>)| Targets::new(model, seed + index as u64);
-        Draws { coupled, leading, sources: leading.iter().enumerate().map(source).collect() }
+impl<'a> Sources<'a> {
+    fn new(coupled: &'a CoupledModel<'a>, leading: &'a [Model<'a>], options: &Options) -> Self {
+        let source =
+            |(index, model): (usize, &'a Model<'a>)| Targets::new(model, options.draws, options.seed + index as u64);
+        Sources { coupled, leading, sources: leading.iter().enumerate().map(source).collect() }
     }
 
     fn draw(&mut self, number: usize) -> Target {

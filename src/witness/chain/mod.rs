@@ -17,14 +17,14 @@ mod targets;
 
 use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
-use super::{DUPLICATE, Judged, ORACLE, Options, SEEDS, SINGULAR, TIE, faults_of_each};
+use super::{DUPLICATE, Draws, FOLLOWS, Judged, MOVED, ORACLE, Options, SEEDS, SINGULAR, TIE, faults_of_each, share};
 use crate::kinematics::{Chain, Solution, Task};
 use crate::solver::Program;
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
 use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
 use rational::Rationals;
-use self_motion::{STEPS, SelfMotions};
+use self_motion::{MEMBER, STEPS, SelfMotions};
 use targets::{Target, Targets};
 
 /// Round targets among so many rows, from the first, are searched numerically too.
@@ -32,7 +32,7 @@ const SEARCHED: usize = 48;
 
 /// What is checked: anything that solves targets given as numbers.
 ///
-/// Inputs stand in the order of a derived program: position, then rotation by rows or direction, then the given joints.
+/// Inputs are in the order of a derived program: position, then rotation by rows or direction, then the given joints.
 pub trait Solver {
     /// All joint vectors of the target, with or without the given joints.
     ///
@@ -107,7 +107,7 @@ impl<'a> Check<'a> {
         let model = Model::new(chain);
         let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
-        let mut targets = Targets::new(&model, options.seed);
+        let mut targets = Targets::new(&model, options.draws, options.seed);
         // The angle of a joint that follows another by an odd factor is no rational point of the circle.
         let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
         let is_counted = !follows && chain.task() != Task::PositionPitchRoll;
@@ -142,8 +142,7 @@ impl<'a> Check<'a> {
         };
         let mut row = Row { exact, ..Row::open(number, kind, inputs, joints, answers.as_deref()) };
         if let Some(answers) = answers {
-            let complete = |answer: Solution| self.model.completed(&row.target, answer);
-            let answers: Vec<Solution> = answers.into_iter().map(complete).collect();
+            let answers = self.completed(&row.target, answers);
             let faults = self.faults(number, &mut row, &answers)?;
             row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };
         }
@@ -173,14 +172,57 @@ impl<'a> Check<'a> {
                 }
             }
         }
-        let is_searched =
-            number < self.options.oracle || (self.options.oracle > 0 && is_round(&row.kind) && number < SEARCHED);
-        if is_searched {
+        if number < self.options.oracle {
             let (count, agrees) = self.oracle(&row.target, answers)?;
             row.oracle = Some(count);
             faults.extend((!agrees).then_some(Fault::Oracle));
         }
+        if row.kind.is_round() {
+            faults.extend(self.round(number, row, answers)?);
+        }
         Ok(faults)
+    }
+
+    /// What a search of a round target finds, and what the target next to it has, beyond these answers. Each has been checked by itself.
+    fn round(&self, number: usize, row: &mut Row, answers: &[Solution]) -> Result<Vec<Fault>> {
+        let mut faults = Vec::new();
+        let is_early = number < SEARCHED || self.options.draws == Draws::Round;
+        if self.options.oracle > 0 && is_early && row.oracle.is_none() {
+            let found = self.model.search(&row.target, SEEDS[0])?;
+            let is_ours = |q: &Vec<f64>| self.model.sigma(q) <= ORDINARY || self.is_near(q, answers, ORACLE);
+            row.oracle = Some(found.len());
+            faults.extend((!found.iter().all(is_ours)).then_some(Fault::Oracle));
+        }
+        faults.extend((!self.agrees_beside(row, answers)?).then_some(Fault::Moved));
+        Ok(faults)
+    }
+
+    /// Whether each ordinary answer to a reached target that is moved by [`MOVED`] is next to one of these.
+    fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
+        let Some(mut q) = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone())) else {
+            return Ok(true);
+        };
+        for (number, &joint) in self.model.unknown().iter().enumerate() {
+            q[joint] += MOVED * share(number) * self.model.unit(joint);
+        }
+        self.model.settle(&mut q);
+        let beside = self.model.target(&q);
+        let others = match self.solver.solve(&beside) {
+            Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
+            others => self.completed(&beside, others?),
+        };
+        Ok(others.iter().all(|other| {
+            let sigma = self.model.sigma(&other.q);
+            sigma <= ORDINARY || self.is_near(&other.q, answers, FOLLOWS * MOVED / sigma)
+        }))
+    }
+
+    fn completed(&self, target: &[f64], answers: Vec<Solution>) -> Vec<Solution> {
+        answers.into_iter().map(|answer| self.model.completed(target, answer)).collect()
+    }
+
+    fn is_near(&self, q: &[f64], answers: &[Solution], within: f64) -> bool {
+        answers.iter().any(|answer| self.model.distance(q, &answer.q) <= within)
     }
 
     /// Checks each answer by itself, and records the worst residual.
@@ -219,14 +261,33 @@ impl<'a> Check<'a> {
         if self.model.is_in_self_motion(target, q) {
             return Some(Fault::SelfMotion);
         }
-        let is_same = |answer: &Solution| self.model.is_same(target, q, &answer.q);
+        let is_same = |answer: &Solution| {
+            self.model.is_same(target, q, &answer.q) || self.are_one_in_tolerance(target, q, &answer.q)
+        };
         (!answers.iter().any(is_same)).then_some(Fault::Missing)
     }
 
-    /// Whether `q` is of a self-motion that one of the answers stands for.
+    /// Whether joint values of a chain as described are one answer with `b` because a pose at which two answers meet is within the tolerance: between them all joint
+    /// values are as near to the target as an answer may be.
+    fn are_one_in_tolerance(&self, target: &[f64], q: &[f64], b: &[f64]) -> bool {
+        let open = self.tolerance.sqrt();
+        self.is_described()
+            && self.model.sigma(q) <= open
+            && self.model.distance(q, b) <= 2.0 * open
+            && self.model.is_joined(target, q, b, self.tolerance)
+    }
+
+    /// Whether answers may miss their targets: those of a chain as described, of which the chain that it means decides which there are.
+    fn is_described(&self) -> bool {
+        self.tolerance > RESIDUAL
+    }
+
+    /// Whether `q` is of a self-motion that one of the answers stands for. A chain as described may miss the target along the path from one to the other by as
+    /// much as each answer may: the chain that it means has the self-motion.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
         let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
-        let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, &answer.q, &answer.free, step);
+        let missed = if self.is_described() { self.tolerance } else { MEMBER };
+        let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, answer, (step, missed));
         self_motions().any(|answer| self.model.matches(target, q, &answer.q))
             || STEPS.into_iter().any(|step| self_motions().any(|answer| leads(answer, step)))
             || self_motions().any(|answer| self.model.runs_to(target, q, &answer.q))
@@ -246,7 +307,7 @@ impl<'a> Check<'a> {
         let covers = |some: &[Solution], answer: &Solution| {
             let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
             let sure = self.model.residual(target, &answer.q) <= least;
-            let is_same = |other: &Solution| self.model.is_same(target, &answer.q, &other.q);
+            let is_same = |other: &Solution| self.are_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };
         let asks_too_much = |answer: &Solution| {
@@ -257,6 +318,13 @@ impl<'a> Check<'a> {
             self.model.sigma(&answer.q) <= ORDINARY || asks_too_much(answer) || covers(others, answer)
         };
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
+    }
+
+    /// Whether `b` is the same answer as `a`. Two solvers of a chain as described may come to different joint values that are as near to the target as it may be
+    /// missed.
+    fn are_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let open = 2.0 * self.tolerance / self.model.sigma(a).max(self.tolerance.sqrt());
+        self.model.is_same(target, a, b) || (self.is_described() && self.model.distance(a, b) <= open)
     }
 
     /// The number of the oracle's answers, and whether its ordinary ones are ours.
@@ -274,19 +342,15 @@ impl<'a> Check<'a> {
 
     fn agrees_with_search(&self, answers: &[Solution], found: &[Vec<f64>]) -> bool {
         let ordinary = |q: &[f64]| self.model.sigma(q) > ORDINARY;
-        let near = |a: &[f64], b: &[f64]| self.model.distance(a, b) <= ORACLE;
-        let ours = |q: &Vec<f64>| !ordinary(q) || answers.iter().any(|answer| near(q, &answer.q));
-        let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
+        let ours = |q: &Vec<f64>| !ordinary(q) || self.is_near(q, answers, ORACLE);
+        let near = |q: &Vec<f64>, answer: &Solution| self.model.distance(q, &answer.q) <= ORACLE;
+        let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, answer));
         found.iter().all(ours) && answers.iter().all(theirs)
     }
 }
 
 /// The exact number of distinct real solutions with the tip where rational joint values bring it, and these.
 pub use rational::{Counted, count_exactly};
-
-fn is_round(kind: &Kind) -> bool {
-    matches!(kind, Kind::Round | Kind::Aligned)
-}
 
 fn is_random(kind: &Kind) -> bool {
     *kind == Kind::Random

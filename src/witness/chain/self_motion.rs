@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::model::{Configuration, ORDINARY, RESIDUAL};
 use super::singular::{least_squares, null_vector};
+use crate::kinematics::Solution;
 use crate::solver::BLUR;
 
 /// A self-motion's own configurations are at most this ordinary.
@@ -12,10 +13,13 @@ const SINGULAR: f64 = 1e-12;
 /// How far along the null vector a self-motion is looked for.
 const PROBE: f64 = 0.05;
 /// The residual of a member of a self-motion, after correction.
-const MEMBER: f64 = 1e-12;
+pub(super) const MEMBER: f64 = 1e-12;
 /// That of the member by which a self-motion is found: where an isolated answer is singular and another singularity is 1e-6 away, joint vectors
 /// 0.05 off miss by no more than 1e-12 and yet are no solutions.
 const ROUNDED: f64 = 1e-14;
+/// How many times that far a self-motion goes on: where two axes are off one line by 1e-6 rad there is a double solution instead, which misses by 1e-12 times
+/// the square of the way, less than rounding at first.
+const PROBES: usize = 4;
 /// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// Corrections of one member at most.
@@ -37,7 +41,19 @@ const ARRIVED: f64 = 1e-6;
 pub(super) trait SelfMotions: Configuration {
     /// Whether `q` is one of a curve of joint vectors with the same target.
     fn is_in_self_motion(&self, target: &[f64], q: &[f64]) -> bool {
-        self.tangent(q).is_some_and(|tangent| self.beside(target, q, &tangent, PROBE, ROUNDED).is_some())
+        self.tangent(q).is_some_and(|tangent| self.goes_on(target, q, tangent))
+    }
+
+    /// Whether the curve goes on from `q` to the side of `ahead`.
+    fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
+        let mut at = q.to_vec();
+        (0..PROBES).all(|_| {
+            let next = self.stepped(target, &at, &ahead, (PROBE, ROUNDED));
+            next.is_some_and(|(next, on)| {
+                (at, ahead) = (next, on);
+                true
+            })
+        })
     }
 
     /// The direction in which joints that are singular within rounding can move.
@@ -70,36 +86,45 @@ pub(super) trait SelfMotions: Configuration {
             return distance <= 1e-9;
         }
         let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
-        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b)
+        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
     }
 
-    /// Whether joint vectors next to the straight way from `a` to `b` reach the target.
-    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+    /// Whether joint vectors next to the straight way from `a` to `b` reach the target, within `missed`.
+    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64], missed: f64) -> bool {
         let none = |_: &[f64]| DMatrix::zeros(0, self.unknown().len());
         let width = self.distance(a, b);
         [0.25, 0.5, 0.75].iter().all(|share| {
             let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
             let between: Vec<f64> = (0..a.len()).map(point).collect();
-            let found = self.corrected(target, between.clone(), self.unknown(), &none, RESIDUAL);
+            let found = self.corrected(target, between.clone(), self.unknown(), &none, missed);
             found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
         })
     }
 
     /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
-    /// others keep the tip at the target and end at the answer; in such steps.
-    fn leads_to(&self, target: &[f64], q: &[f64], answer: &[f64], free: &[usize], step: f64) -> bool {
-        let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, answer[joint], q[joint])).collect();
+    /// others keep the tip at the target, within `missed`, and end at the answer; in such steps. What is missed leaves the others open by its square
+    /// root, next to a double root.
+    fn leads_to(&self, target: &[f64], q: &[f64], answer: &Solution, (step, missed): (f64, f64)) -> bool {
+        let Solution { q: end, free, .. } = answer;
+        let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, end[joint], q[joint])).collect();
         let round = |(way, &joint): (&f64, &usize)| {
             if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
         };
         let long: Vec<f64> = short.iter().zip(free).map(round).collect();
-        [short, long]
-            .iter()
-            .any(|way| self.led(target, q, free, way, step).is_some_and(|end| self.distance(&end, answer) <= ARRIVED))
+        [short, long].iter().any(|way| {
+            let led = self.led(target, q, (free, way), (step, missed));
+            led.is_some_and(|led| self.distance(&led, end) <= missed.sqrt())
+        })
     }
 
     /// The end of the path on which the free joints go `way` in such steps.
-    fn led(&self, target: &[f64], q: &[f64], free: &[usize], way: &[f64], step: f64) -> Option<Vec<f64>> {
+    fn led(
+        &self,
+        target: &[f64],
+        q: &[f64],
+        (free, way): (&[usize], &[f64]),
+        (step, missed): (f64, f64),
+    ) -> Option<Vec<f64>> {
         let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
         let units = free.iter().map(|&joint| self.unit(joint));
         let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
@@ -109,7 +134,7 @@ pub(super) trait SelfMotions: Configuration {
             for (&joint, way) in free.iter().zip(way) {
                 at[joint] = q[joint] + way * step as f64 / steps;
             }
-            self.corrected(target, at, &others, &none, MEMBER)
+            self.corrected(target, at, &others, &none, missed)
         })
     }
 
@@ -127,7 +152,7 @@ pub(super) trait SelfMotions: Configuration {
             if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
                 return true;
             }
-            match self.stepped(target, &at, &ahead, pace).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+            match self.stepped(target, &at, &ahead, (pace, MEMBER)).filter(|(_, next)| next.dot(&ahead) > STEADY) {
                 Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
                 None if pace > SHORTEST => pace /= 2.0,
                 None => return false,
@@ -143,9 +168,16 @@ pub(super) trait SelfMotions: Configuration {
         self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, and the curve's direction there.
-    fn stepped(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, way: f64) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, way, MEMBER)?;
+    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, which misses the target by no more than `tolerance`, and the curve's
+    /// direction there.
+    fn stepped(
+        &self,
+        target: &[f64],
+        at: &[f64],
+        ahead: &DVector<f64>,
+        (way, tolerance): (f64, f64),
+    ) -> Option<(Vec<f64>, DVector<f64>)> {
+        let next = self.beside(target, at, ahead, way, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))

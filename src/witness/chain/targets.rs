@@ -9,6 +9,7 @@ use super::model::{Configuration, Model};
 use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::spatial::Pose;
+use crate::witness::Draws;
 use crate::witness::random::Random;
 use crate::witness::report::Kind;
 
@@ -58,6 +59,9 @@ const PLAN: [Slot; 24] = {
     ]
 };
 
+/// What is tried in turn where all targets are to be round.
+const ROUND: [Slot; 3] = [Slot::Round(15), Slot::Round(30), Slot::Aligned];
+
 #[derive(Clone, Copy)]
 enum Slot {
     Random,
@@ -82,6 +86,7 @@ pub(super) struct Target {
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
     random: Random,
+    plan: &'static [Slot],
     round: RoundTargets<'a>,
     /// Values of single joints that make every configuration singular: joint and value.
     critical: Vec<(usize, f64)>,
@@ -95,16 +100,17 @@ struct Singularity {
 }
 
 impl<'a> Targets<'a> {
-    pub fn new(model: &'a Model<'a>, seed: u64) -> Self {
-        let round = RoundTargets::new(model, seed);
-        let mut targets = Targets { model, random: Random::new(seed), round, critical: Vec::new(), done: 0 };
+    pub fn new(model: &'a Model<'a>, draws: Draws, seed: u64) -> Self {
+        let (random, round) = (Random::new(seed), RoundTargets::new(model, seed));
+        let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
+        let mut targets = Targets { model, random, plan, round, critical: Vec::new(), done: 0 };
         targets.critical = targets.critical_values();
         targets
     }
 
     /// The target of row `number`.
     pub fn draw(&mut self, number: usize) -> Target {
-        let special = match PLAN[number % PLAN.len()] {
+        let special = match self.plan[number % self.plan.len()] {
             Slot::Random => None,
             Slot::Singular => self.singular().map(|found| self.reached(Kind::Singular, found.q)),
             Slot::Near(index) => self.near(NEAR[index]),

@@ -104,6 +104,7 @@ fn middle() -> Block {
             unknown: S2,
             polynomials: vec![vec![minus_square, constant(0.0), constant(1.0)]],
             typical: Some(constant(2.0)),
+            half_angle: false,
         },
     ];
     Block::numbered("q2", vec![], vec![case("generic", steps)])

@@ -102,7 +102,7 @@ fn derived_and_checked(family: &Family, chains: usize, options: &Options) -> Tal
 
 #[test]
 fn a_chain_of_each_family() {
-    let options = Options { targets: 20, oracle: 0, exact: 2, seed: 11 };
+    let options = Options { targets: 20, oracle: 0, exact: 2, seed: 11, ..Options::default() };
     let failed: Vec<&str> = FAMILIES
         .iter()
         .filter(|family| !derived_and_checked(family, 1, &options).failures.is_empty())
@@ -118,7 +118,7 @@ fn a_straight_wrist_is_found_behind_an_arm_whose_quartic_costs_digits() {
     let chain = family.chain(40, 12);
     let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
     let mut tally = Tally::default();
-    tally.check(40, &chain, &derived, &Options { targets: 200, oracle: 0, exact: 0, seed: 12 });
+    tally.check(40, &chain, &derived, &Options { targets: 200, oracle: 0, exact: 0, seed: 12, ..Options::default() });
     assert!(tally.failures.is_empty(), "{}", tally.failures.join("\n"));
 }
 
@@ -128,7 +128,7 @@ fn fifty_chains_of_each_family() {
     println!(
         "family,chains,dimensions,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99.9,derive_s_max"
     );
-    let options = Options { targets: 200, oracle: 0, exact: 20, seed: 12 };
+    let options = Options { targets: 200, oracle: 0, exact: 20, seed: 12, ..Options::default() };
     let tallies: Vec<Tally> = FAMILIES.iter().map(|family| derived_and_checked(family, 50, &options)).collect();
     for (family, tally) in FAMILIES.iter().zip(&tallies) {
         assert!(tally.failures.is_empty(), "{}: {} failures", family.name, tally.failures.len());

@@ -20,6 +20,9 @@ typedef struct {
     gb_six_list lost;
     /* Candidates off the real line, or such that led to no answer, at a target aside: a curve may be next to them. */
     gb_six_list far;
+    /* Whether complex solutions nearly meet, for a robot within `gb_chain.within`, and where such a robot may have answers. */
+    bool is_meeting;
+    gb_six_list meeting;
 } gb_six_search;
 
 /* The size of a way, of an angle's by the shorter way round. */

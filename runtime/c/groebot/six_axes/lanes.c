@@ -105,7 +105,7 @@ GB_INLINE void gb_six_subtract(gb_real *row, gb_real factor, const gb_real *over
     }
 }
 
-/* The largest magnitude in `count` numbers, whole registers, that is greater than `least`; what is no number is passed over. */
+/* The largest magnitude in `count` numbers, whole registers, that is greater than `least`; what is no number is ignored. */
 GB_INLINE gb_real gb_six_largest(gb_real least, const gb_real *numbers, size_t count)
 {
     gb_real lanes[GB_SIX_LANES], largest = least;

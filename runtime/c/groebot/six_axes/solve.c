@@ -63,6 +63,7 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_SIX_UNKNOWN);
     const bool is_far = deep > GB_SIX_FAR_OFF * accuracy, is_aside = attempt->size > R(0.0);
     gb_real q[6], first[6], last[6], start;
+    search->is_meeting |= !is_aside && deep > R(0.0) && deep <= GB_SIX_OFF * chain->within;
     if ((is_far && !is_aside) || gb_six_has_infinite(chain, candidate->q)) {
         return;
     }
@@ -97,9 +98,10 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
 {
     const size_t known = search->answers.count;
     const bool is_aside = attempt->size > R(0.0);
+    const gb_real blurred = gb_larger(GB_SIX_BLURRED, gb_square_root(GB_SIX_OFF * attempt->chain->within));
     gb_six_candidates candidates;
     gb_six_tally tally;
-    if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : GB_SIX_BLURRED, &candidates)
+    if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : blurred, &candidates)
         || candidates.conditioning < GB_SIX_SINGULAR_PENCIL) {
         return false;
     }
@@ -146,6 +148,28 @@ static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, con
     return GB_SIX_ATTEMPTS;
 }
 
+/* Solves targets next to this one, on both sides: two complex solutions are real there on one. Those that lead to no answer come near one of the robot that is
+ * meant. */
+static GB_APART void gb_six_meet(const gb_chain *chain, const gb_rigid *goal, const gb_rigid *target, gb_six_search *search)
+{
+    for (size_t k = 0; k < GB_SIX_MEETINGS; k++) {
+        const size_t number = k % 2, missing = gb_six_joint(gb_six_formulation(chain, number), 3);
+        const gb_rigid motion = gb_six_aside(gb_six_meetings[k] * chain->within, number), displacement = gb_six_after(&motion, goal);
+        const gb_rigid near = gb_six_after(&displacement, &chain->last);
+        gb_six_candidates candidates;
+        if (!gb_six_find_candidates(chain, &displacement, number, R(0.0), &candidates)) {
+            continue;
+        }
+        for (size_t i = 0; i < candidates.count; i++) {
+            gb_real *q = candidates.list[i].q, start;
+            q[missing] = gb_six_closing(chain, q, missing, &near);
+            if (gb_six_polish(chain, q, &near, &start) <= GB_SIX_ACCEPT && gb_six_polish(chain, q, target, &start) > GB_SIX_ACCEPT) {
+                gb_six_remember(&search->meeting, q);
+            }
+        }
+    }
+}
+
 static bool gb_six_is_sorted(const gb_real *a, const gb_real *b)
 {
     for (int k = 0; k < 6; k++) {
@@ -186,6 +210,9 @@ static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search
     for (size_t k = 0; k < search->lost.count; k++) {
         out[count++] = gb_six_tell(chain, search->lost.list[k], true);
     }
+    for (size_t k = 0; k < search->meeting.count && count < GB_SIX_ROOM; k++) {
+        out[count++] = gb_six_tell(chain, search->meeting.list[k], true);
+    }
     return count;
 }
 
@@ -200,10 +227,14 @@ GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_s
         goal.translation[i] = goal.translation[i] * (R(1.0) / chain->length);
     }
     const gb_rigid end = gb_six_after(&goal, &chain->last);
-    search.answers.count = search.lost.count = search.far.count = 0;
+    search.answers.count = search.lost.count = search.far.count = search.meeting.count = 0;
+    search.is_meeting = false;
     const size_t runs = gb_six_search_all(chain, &goal, &end, &search);
     if (runs > 1) {
         gb_six_walk_from(chain, &end, &search);
+    }
+    if (search.is_meeting) {
+        gb_six_meet(chain, &goal, &end, &search);
     }
     /* A run that can be trusted at once has seen no self-motion. */
     return gb_six_tell_all(chain, &search, runs == 1, out);

@@ -1,0 +1,16 @@
+//! Joints that follow others by `mimic`, in the answers of `solve`, `ik` and `derive`.
+
+use crate::document::shown;
+use crate::kinematics::Mimic;
+
+/// A line for each joint that follows another one: `finger_2 follows 2 * finger_1`.
+pub fn followers<'a>(joints: impl Iterator<Item = (&'a str, Option<&'a Mimic>)>) -> String {
+    let line = |(name, mimic): (&str, Option<&Mimic>)| Some(format!("  {} follows {}\n", shown(name), mimic?));
+    joints.filter_map(line).collect()
+}
+
+/// By joint the one that it follows, for JSON; none where no joint follows.
+pub fn leaders<'a>(follows: impl Iterator<Item = Option<&'a Mimic>>) -> Option<Vec<Option<&'a str>>> {
+    let leaders: Vec<_> = follows.map(|mimic| mimic.map(|mimic| mimic.leader.as_str())).collect();
+    leaders.iter().any(Option::is_some).then_some(leaders)
+}
