@@ -29,6 +29,7 @@
 #define GB_FARTHER R(16.0)
 #define GB_FARTHEST R(256.0)
 #define GB_ALONE GB_EITHER(1e-13, 5e-6)
+#define GB_DOUBTED GB_EITHER(1e-9, 1e-3)
 #define GB_LEVER R(0.1)
 #define GB_TWIN R(10.0)
 #define GB_INVERSIONS 3
@@ -79,6 +80,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/problem.c"
 #include "groebot/newton.c"
 #include "groebot/self_motion.c"
+#include "groebot/strays.c"
 #include "groebot/freedom.c"
 #include "groebot/refine.c"
 #include "groebot/limits.c"

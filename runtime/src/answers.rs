@@ -9,6 +9,7 @@ use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
 use crate::storage::Array;
+use crate::strays::{Merged, Strays};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -27,6 +28,18 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     /// How many candidates there have been, and had with the last one that did not hold where it was found.
     candidates: usize,
     pub unsound: usize,
+    /// The same with the last one of close roots.
+    pub doubted: usize,
+    /// Whether on each stratum so far the cases before have lost no answer.
+    pub suffices: bool,
+    /// Candidates for members of self-motions that were dropped for this.
+    pub strays: Strays,
+    /// The last member of a self-motion that has been found to be on one of its branch in the list, with its branch and free joints.
+    pub joined: Option<(usize, u32, Joints<M>)>,
+    /// Whether the member that is kept is on none of these.
+    pub is_another: bool,
+    /// Members with several free joints that were found to be on a self-motion of the list.
+    pub merged: Merged,
     /// The first stratum met that could not be derived.
     pub open: Option<usize>,
     /// The joints that missed the equations by the least share of their size, where they are no answer.
@@ -56,7 +69,12 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
 
     #[inline(always)]
     fn is_due(&mut self, before: usize, guard: Guard<f64>) -> bool {
-        self.is_rare(guard) && (guard.beside || !self.suffice_since(before))
+        self.is_rare(guard) && {
+            let suffices = self.suffice_since(before);
+            self.suffices &= suffices;
+            // A double root is off by the square root of what rounding leaves: a stratum may be nearer than that.
+            guard.beside || !suffices || self.doubted > before
+        }
     }
 
     #[inline(always)]
@@ -105,6 +123,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             count: 0,
             candidates: 0,
             unsound: 0,
+            doubted: 0,
+            suffices: true,
+            strays: Strays::NONE,
+            joined: None,
+            is_another: false,
+            merged: Merged::NONE,
             open: None,
             nearest: None,
             at: Array::by(places, |_| Array::by(room, |_| 0.0)),
@@ -120,12 +144,17 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Walks through the blocks, and takes in all candidates.
+    /// Walks through the blocks, and takes in all candidates; where an answer may have been lost, once more.
     #[inline(never)]
     pub fn find(&mut self) -> Result<(), Error> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
         walk(mechanism, parameters, self);
         self.flush();
+        if self.strays.are_doubtful() {
+            self.suffices = false;
+            walk(mechanism, parameters, self);
+            self.flush();
+        }
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
 

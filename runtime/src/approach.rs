@@ -1,5 +1,6 @@
 //! The short way from a candidate of a nearby mechanism's formulas to the answer next to it: [`Problem::approached`], and [`Ways`] of several.
 
+use crate::counters::{Event, Phase};
 use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Short, Shorts};
 use crate::number::{Number, With};
@@ -28,6 +29,7 @@ impl<M: Mechanism> Problem<'_, M> {
         self.step_back(&Array::by(self.joints(), |_| 0.0), &mut at, &mut end)?;
         let mut first = None;
         for _ in 0..APPROACHES {
+            Event::Short.count();
             let here = self.mechanism.short(self.parameters, &at);
             let mut sound = 1.0;
             let (step, pivot) = normal_step::<M, f64>(&here, self.joints(), &mut sound);
@@ -149,6 +151,7 @@ impl<M: Mechanism> Ways<M> {
     /// Those of the first so many candidates.
     #[inline(never)]
     pub fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+        let _phase = Phase::Waiting.begin();
         let (joints, room) = (problem.joints(), problem.facts().candidates);
         let none = || Array::by(room, |_| 0.0);
         let mut ways = Ways {
@@ -182,6 +185,7 @@ impl<M: Mechanism> Ways<M> {
         let mut sound = Lanes([1.0; LANES]);
         step_back_abreast(problem, &steps, &mut here, &mut sound);
         for round in 0..APPROACHES {
+            Event::Short.count();
             let short = problem.mechanism.short(p, &here);
             let (step, pivot) = normal_step::<M, Lanes<LANES>>(&short, joints, &mut sound);
             step_back_abreast(problem, &step, &mut here, &mut sound);

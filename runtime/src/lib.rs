@@ -14,6 +14,7 @@ mod approach;
 mod arithmetic;
 mod batch;
 mod conditions;
+pub mod counters;
 pub mod derivatives;
 mod described;
 mod double;
@@ -25,6 +26,7 @@ pub mod lanes;
 pub mod limits;
 mod measure;
 pub mod mechanism;
+mod members;
 mod newton;
 pub mod number;
 mod problem;
@@ -40,6 +42,7 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 pub mod storage;
+mod strays;
 pub mod tolerances;
 pub mod trigonometry;
 

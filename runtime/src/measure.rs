@@ -4,6 +4,7 @@ use core::array::from_fn;
 
 use crate::angles::{acute, unfold};
 use crate::approach::abreast;
+use crate::counters::Phase;
 use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Facts, Joint, Joints, Mechanism, Places};
 use crate::number::Number;
@@ -27,6 +28,7 @@ impl<M: Mechanism> Fits<M> {
         waiting: usize,
         alike: usize,
     ) -> Self {
+        let _phase = Phase::Waiting.begin();
         let room = problem.facts().candidates;
         let none = || Array::by(room, |_| 0.0);
         let mut fits: Fits<M> = Fits { residual: none(), relative: none(), sound: none() };

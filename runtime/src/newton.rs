@@ -1,13 +1,14 @@
 //! Newton's method with all that keeps it from going astray next to singular configurations.
 
 use crate::arithmetic::Arithmetic;
+use crate::counters::Event;
 use crate::joints::{beyond, is_in, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
 use crate::tolerances::{
-    BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
-    ROUNDING, SHORT, STIFF,
+    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
+    ROUNDING, SHORT, STEEP, STIFF,
 };
 
 /// A triangle of columns, the right side in the last one.
@@ -48,15 +49,20 @@ impl<M: Mechanism> Problem<'_, M> {
     fn improved(&self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
+        let (derivatives, values) = self.slopes(q);
         let mut fallen = None;
         for damping in DAMPINGS {
-            let Some(step) = self.newton_step(q, damping, held) else { continue };
+            let triangle = self.triangle_of(&derivatives, &values, damping, held);
+            let Some(step) = triangle.substituted() else { continue };
             let next = self.measured(stepped::<M>(&self.facts(), q, &step));
             if next.1.relative < enough {
                 return Some(next);
             }
             if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
                 return None;
+            }
+            if damping == 0.0 && fit.relative > ALONE && triangle.is_regular() {
+                return (next.1.relative < fit.relative).then_some(next);
             }
             if leaps && damping == 0.0 && held == 0 && next.1.relative <= OVERSHOT * fit.relative {
                 let end = self.returned(next.0.clone(), fit.relative, held);
@@ -168,6 +174,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The sum of the squares of what the equations are missed by, as shares of their sizes.
     fn squares(&self, q: &Joints<M>) -> f64 {
+        Event::Evaluation.count();
         let (values, sizes) = self.equations(&self.place(q));
         let mut sum = 0.0;
         for (value, &size) in values.as_ref().iter().zip(self.facts().size_of) {
@@ -218,9 +225,14 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The triangle of a step's equations.
     fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
-        let at = self.place(q);
-        let (derivatives, right) = (self.derivatives(&at), self.mechanism.values(self.parameters, &at));
+        let (derivatives, right) = self.slopes(q);
         self.triangle_of(&derivatives, &right, damping, held)
+    }
+
+    /// The equations' derivatives by the joints, and their values.
+    fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
+        let at = self.place(q);
+        (self.derivatives(&at), self.mechanism.values(self.parameters, &at))
     }
 
     /// The same with the equations as shares of their sizes.
@@ -256,6 +268,7 @@ impl<M: Mechanism> Problem<'_, M> {
         damping: f64,
         held: u32,
     ) -> Triangle<M> {
+        Event::Step.count();
         let (joints, equations) = (self.joints(), self.facts().size_of.len());
         let mut triangle = self.no_triangle();
         let mut size = 0.0;
@@ -309,6 +322,14 @@ impl<M: Mechanism> Triangle<M> {
             }
             mirror[0] = -length;
         }
+    }
+
+    /// Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads.
+    fn is_regular(&self) -> bool {
+        let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
+        let (least, most) =
+            pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
+        least * least > STEEP * most * norm(self.column(self.joints))
     }
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.

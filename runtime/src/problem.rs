@@ -1,5 +1,6 @@
 //! The equations at one target: how well joint values solve them ([`Fit`]), and how they change with the joints.
 
+use crate::counters::Event;
 use crate::derivatives::of_affine;
 use crate::joints::place;
 use crate::lanes::Lanes;
@@ -71,6 +72,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
 
     /// As [`Problem::measure`], where the cosines and sines of `q` are known.
     pub fn measure_at(&self, at: &Places<M>, q: &Joints<M>) -> Fit {
+        Event::Evaluation.count();
         let (values, sizes) = self.equations(at);
         let (size_of, sizes) = (self.facts().size_of, sizes.as_ref());
         let are_finite = q.as_ref().iter().all(|value| value.is_finite());

@@ -3,14 +3,14 @@
 use crate::answers::Answers;
 use crate::approach::Approach;
 use crate::arithmetic::Arithmetic;
+use crate::counters::Phase;
 use crate::joints::{differences, moved, shifted, stepped};
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::{End, Fit};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{
-    ADRIFT, ALIKE, ALONE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP,
-    TWIN, TWINS_AT,
+    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP, TWIN, TWINS_AT,
 };
 
 /// The most answers of a target.
@@ -22,6 +22,7 @@ impl<M: Mechanism> Answers<'_, M> {
     #[cold]
     #[inline(never)]
     pub fn refine(&mut self, number: usize, found: &Found, q: Joints<M>) {
+        let _phase = Phase::Polish.begin();
         if found.free != 0 {
             self.unsound = number;
             return self.refine_member(found, q);
@@ -33,9 +34,12 @@ impl<M: Mechanism> Answers<'_, M> {
         let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
         let is_nearby = self.problem.facts().nearby.is_some();
         let is_beside = (ROUNDING..=if is_nearby { OFF } else { NEAR }).contains(&missed);
-        // A double root is off by the square root of what rounding leaves: a stratum may be nearer than that.
-        if found.close || !(end.1.accepted && miss < ROUNDING && way <= MERGE) {
+        let holds = missed < ROUNDING || miss < ROUNDING && way <= MERGE;
+        if !(end.1.accepted && holds) {
             self.unsound = number;
+        }
+        if found.close {
+            self.doubted = number;
         }
         if is_nearby && is_beside && self.keep_moving(found, &end) {
             return;
@@ -53,64 +57,6 @@ impl<M: Mechanism> Answers<'_, M> {
             self.twin(found, &end.0, missed);
         }
         self.keep(found, end);
-    }
-
-    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
-    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
-    fn refine_member(&mut self, found: &Found, q: Joints<M>) {
-        let is_known = self.out[..self.count].iter().any(|a| is_told(a, found));
-        if is_known && !found.free.is_power_of_two() {
-            return;
-        }
-        let mut end = self.problem.measured(q);
-        let missed = end.1.relative;
-        if (ROUNDING..=ADRIFT).contains(&missed) {
-            end = self.problem.polish(end, found.free);
-        }
-        if is_known && !self.is_another(found, &end) {
-            return;
-        }
-        if self.keep_member(found, &end) || is_known {
-            return;
-        }
-        end = self.problem.polish(end, 0);
-        if !self.keep_member(found, &end) {
-            self.keep_alone(found, end, missed);
-        }
-    }
-
-    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that
-    /// is not asked.
-    fn is_another(&self, found: &Found, (q, fit): &End<M>) -> bool {
-        let joins = |a: &Solution<M>| is_told(a, found) && self.problem.leads_to(&a.q, q, found.free);
-        let is_sharp = fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free);
-        is_sharp && !self.out[..self.count].iter().any(joins)
-    }
-
-    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
-    /// isolated answer. One that has not been found before may have another next to it.
-    fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
-        if end.1.relative > ALONE {
-            return self.miss(end);
-        }
-        let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
-        let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
-        let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
-        let alone = Found { free: joint.unwrap_or(0), ..*found };
-        let known = self.count;
-        self.keep(&alone, end.clone());
-        if joint.is_none() && self.count > known && (ROUNDING..=NEAR).contains(&missed) {
-            self.around(&alone, &end, missed);
-        }
-    }
-
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
-    fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
-        let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
-        if is_member {
-            self.keep(found, end.clone());
-        }
-        is_member
     }
 
     /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
@@ -143,6 +89,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
     /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
     fn twin(&mut self, found: &Found, end: &Joints<M>, missed: f64) {
+        let _phase = Phase::Twin.begin();
         let Some((way, share)) = self.problem.stillest(end) else { return };
         if share > TWIN * Arithmetic::sqrt(missed) {
             return;
@@ -161,7 +108,8 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
     /// matters. Where none leads to an answer, from farther ones.
-    fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
+    pub fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
+        let _phase = Phase::Around.begin();
         let weights = self.problem.weights(&end.0);
         let mut is_found = end.1.accepted;
         let mut farther = 1.0;
@@ -184,7 +132,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Remembers a candidate that is no answer if it comes nearest so far.
-    fn miss(&mut self, end: End<M>) {
+    pub fn miss(&mut self, end: End<M>) {
         let is_nearer = self.nearest.as_ref().is_none_or(|nearest| end.1.relative < nearest.1.relative);
         if !end.1.accepted && end.1.relative.is_finite() && is_nearer {
             self.nearest = Some(end);
@@ -212,6 +160,7 @@ impl<M: Mechanism> Answers<'_, M> {
     #[cold]
     #[inline(never)]
     fn keep_one(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
+        let _phase = Phase::Compare.begin();
         let Found { branch, last, free, .. } = *found;
         let next = if free == 0 { last } else { branch };
         let is_taken = |branch: usize| self.out[..self.count].iter().any(|answer| answer.branch == branch);
@@ -224,6 +173,7 @@ impl<M: Mechanism> Answers<'_, M> {
             let other = &self.out[i];
             if self.is_one(other, &answer) {
                 if holds_against(other, &answer) {
+                    self.remember_merged(i, answer.relative, found);
                     return;
                 }
                 doubles[i / WORD] |= 1 << (i % WORD);
@@ -319,10 +269,21 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => self.are_blurred(a, b),
-            (false, false) => a.free == b.free && (self.are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free)),
-            (true, false) => b.relative <= ROUNDING && problem.lies_on_self_motion(&a.q, b.free, ROUNDING),
-            (false, true) => a.relative <= ROUNDING && problem.lies_on_self_motion(&b.q, a.free, ROUNDING),
+            (false, false) => {
+                let are_apart = self.is_another && a.relative <= ROUNDING && a.branch == b.branch;
+                let is_alike = a.free == b.free && !are_apart;
+                is_alike && (self.are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free))
+            }
+            (true, false) => b.relative <= ROUNDING && self.is_on(&b.q, b.free, &a.q),
+            (false, true) => a.relative <= ROUNDING && self.is_on(&a.q, a.free, &b.q),
         }
+    }
+
+    /// Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds
+    /// only almost.
+    fn is_on(&self, member: &Joints<M>, free: u32, isolated: &Joints<M>) -> bool {
+        self.problem.lies_on_self_motion(isolated, free, ROUNDING)
+            && (!self.suffices || self.problem.leads_to(member, isolated, free))
     }
 
     /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
@@ -341,11 +302,6 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         self.problem.are_joined(&a.q, &b.q, bound, 0)
     }
-}
-
-/// Whether an answer is a member of a self-motion within rounding, of the branch and with the free joints of a candidate.
-fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
-    a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free
 }
 
 /// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and

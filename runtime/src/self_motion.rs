@@ -18,6 +18,12 @@ impl<M: Mechanism> Problem<'_, M> {
         self.leads_to_self_motion(q, free, bound, self.regularity(q))
     }
 
+    /// The same within rounding, but for self-motions that go round a small part of the circle only.
+    pub fn lies_on_long_self_motion(&self, q: &Joints<M>, free: u32) -> bool {
+        let leads = |way: f64| self.leads_aside(q, free, way, ROUNDING);
+        self.regularity(q) <= REGULAR && (leads(ASIDE) || leads(-ASIDE))
+    }
+
     /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
     /// a nearby mechanism and free none, any joint.
     pub fn joint_on_self_motion(&self, q: &Joints<M>, bound: f64) -> Option<u32> {

@@ -1,13 +1,14 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 30] = [
+pub const RUST: [(&str, &str); 33] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
+    ("counters", include_str!("counters.rs")),
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
@@ -18,6 +19,7 @@ pub const RUST: [(&str, &str); 30] = [
     ("limits", include_str!("limits.rs")),
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
+    ("members", include_str!("members.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
     ("problem", include_str!("problem.rs")),
@@ -30,6 +32,7 @@ pub const RUST: [(&str, &str); 30] = [
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
     ("storage", include_str!("storage.rs")),
+    ("strays", include_str!("strays.rs")),
     ("tolerances", include_str!("tolerances.rs")),
     ("trigonometry", include_str!("trigonometry.rs")),
 ];
@@ -71,7 +74,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 44] = [
+pub const C_PARTS: [(&str, &str); 45] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -95,6 +98,7 @@ pub const C_PARTS: [(&str, &str); 44] = [
     ("groebot/self_motion.c", include_str!("../c/groebot/self_motion.c")),
     ("groebot/shared.h", include_str!("../c/groebot/shared.h")),
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
+    ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),

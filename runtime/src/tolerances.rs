@@ -62,6 +62,9 @@ pub const SHORT: f64 = 1e-9;
 /// A member of a self-motion that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
 /// blocks before, is polished with its free joints held: what stands beside it is told from it by rounding alone.
 pub const ADRIFT: f64 = 1e-7;
+/// So near a stratum, by what its candidates miss the equations by, rounding may hide an answer of the cases before where these come to the end of what
+/// is within reach.
+pub const DOUBTED: f64 = 1e-9;
 /// How far (rad, or relative to the length scale) a free joint is moved to see whether an answer lies on a self-motion.
 pub const ASIDE: f64 = 0.1;
 /// A pivot of a Jacobian's triangle that is this share of the largest or less is but rounding.

@@ -3,6 +3,7 @@
 mod angles;
 mod arm;
 mod real_roots;
+mod singular;
 
 /// Numbers in `[0, 1)`, the same in every run (xorshift, G. Marsaglia 2003).
 fn random() -> impl FnMut() -> f64 {

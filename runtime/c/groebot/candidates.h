@@ -142,11 +142,17 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed. */
+/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed and none is of close roots: a double
+ * root is off by the square root of what rounding leaves, and a stratum may be nearer than that. */
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
-    return GB_(is_rare)(c, guard) && (guard.beside || !gb_suffice_since(c, before));
+    if (!GB_(is_rare)(c, guard)) {
+        return false;
+    }
+    const bool suffices = gb_suffice_since(c, before);
+    c->all.suffices = c->all.suffices && suffices;
+    return guard.beside || !suffices || c->all.doubted > before;
 #else
     (void)before;
     return GB_(is_rare)(c, guard);

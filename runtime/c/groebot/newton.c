@@ -66,16 +66,34 @@ static void gb_fill_triangle(const gb_mechanism *m, const gb_real *rows, gb_real
     gb_reflect(triangle);
 }
 
+/* The equations' derivatives by the joints, and their values. */
+typedef struct {
+    gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
+    gb_real values[GB_MAX_EQUATIONS];
+} gb_slopes;
+
+static void gb_find_slopes(const gb_problem *problem, const gb_real *q, gb_slopes *slopes)
+{
+    gb_real at[GB_MAX_PLACES];
+    gb_place(problem, q, at);
+    problem->mechanism->jacobian(problem->p, at, slopes->rows);
+    problem->mechanism->values(problem->p, at, slopes->values);
+}
+
 /* The triangle of a step's equations, damped. */
+static void gb_triangle_of(const gb_mechanism *m, const gb_slopes *slopes, gb_real damping, uint32_t held, gb_triangle *triangle)
+{
+    gb_clear_triangle(m, triangle);
+    gb_copy(gb_column(triangle, m->joints), slopes->values, m->equations);
+    gb_fill_triangle(m, slopes->rows, damping, held, triangle);
+}
+
+/* The same at joint values. */
 static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
-    const gb_mechanism *m = problem->mechanism;
-    gb_real at[GB_MAX_PLACES], rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
-    gb_clear_triangle(m, triangle);
-    gb_place(problem, q, at);
-    m->jacobian(problem->p, at, rows);
-    m->values(problem->p, at, gb_column(triangle, m->joints));
-    gb_fill_triangle(m, rows, damping, held, triangle);
+    gb_slopes slopes;
+    gb_find_slopes(problem, q, &slopes);
+    gb_triangle_of(problem->mechanism, &slopes, damping, held, triangle);
 }
 
 /* The derivatives of the equations and their values, as shares of their sizes. */
@@ -168,6 +186,14 @@ static gb_real gb_norm(const gb_real *vector, size_t count)
         sum = sum + vector[i] * vector[i];
     }
     return gb_square_root(sum);
+}
+
+/* Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads. */
+static bool gb_is_regular(gb_triangle *triangle)
+{
+    gb_real least, most;
+    gb_pivots(triangle, &least, &most);
+    return least * least > GB_STEEP * most * gb_norm(gb_column(triangle, triangle->joints), triangle->rows);
 }
 
 /* The direction in which the equations change least at q, its longest way one, and by what share of the largest pivot they do. By inverse iteration; false
@@ -274,9 +300,13 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
     bool has_fallen = false;
     gb_end fallen, next, other;
     gb_real step[GB_MAX_JOINTS];
+    gb_triangle triangle;
+    gb_slopes slopes;
+    gb_find_slopes(problem, end->q, &slopes);
     for (size_t k = 0; k < GB_LENGTH_OF(gb_dampings); k++) {
         const bool is_plain = k == 0;
-        if (!gb_newton_step(problem, end->q, gb_dampings[k], held, step)) {
+        gb_triangle_of(m, &slopes, gb_dampings[k], held, &triangle);
+        if (!gb_substitute(&triangle, step)) {
             continue;
         }
         gb_stepped(m, end->q, step, next.q);
@@ -287,6 +317,11 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
         }
         if (is_plain && relative < GB_ROUNDING && gb_longest(m, step) <= GB_SHORT) {
             return false;
+        }
+        if (is_plain && relative > GB_ALONE && gb_is_regular(&triangle)) {
+            has_fallen = next.fit.relative < relative;
+            *end = has_fallen ? next : *end;
+            return has_fallen;
         }
         other = next;
         if (leaps && is_plain && held == 0 && next.fit.relative <= GB_OVERSHOT * relative && gb_return(problem, &other, relative, held)) {

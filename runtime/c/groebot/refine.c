@@ -87,6 +87,14 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
+/* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
+ * almost. */
+static bool gb_is_on(const gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
+{
+    return gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)
+        && (!all->suffices || gb_leads_to(&all->problem, member, isolated, free));
+}
+
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
  * too, as well as at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real relative, const gb_answer *b)
@@ -120,12 +128,13 @@ static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
         return gb_are_blurred(problem, a, relative, b);
     }
     if (free != 0 && b->free != 0) {
-        return free == b->free && (gb_are_by_branch(all, i, b) || gb_leads_to(problem, a, b->q, free));
+        const bool are_apart = all->is_another && relative <= GB_ROUNDING && *gb_branch_of(all, i) == b->branch;
+        return free == b->free && !are_apart && (gb_are_by_branch(all, i, b) || gb_leads_to(problem, a, b->q, free));
     }
     if (free == 0) {
-        return b->fit.relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, a, b->free, GB_ROUNDING);
+        return b->fit.relative <= GB_ROUNDING && gb_is_on(all, b->q, b->free, a);
     }
-    return relative <= GB_ROUNDING && gb_lies_on_self_motion(problem, b->q, free, GB_ROUNDING);
+    return relative <= GB_ROUNDING && gb_is_on(all, a, free, b->q);
 }
 
 /* Whether an answer in the list stays where a new one is equal to it: the better one does. But a self-motion that holds within rounding stays against its
@@ -179,6 +188,15 @@ static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
     return found->branch;
 }
 
+/* Remembers that members of a candidate's branch are on a self-motion of the list, where several joints are free. */
+static void gb_remember_merged(gb_answers *all, size_t i, const gb_answer *answer, const gb_found_1 *found)
+{
+    const bool are_sharp = gb_larger(*gb_relative_of(all, i), answer->fit.relative) <= GB_ROUNDING;
+    if (are_sharp && *gb_free_of(all, i) == found->free && !gb_is_single(found->free) && found->free != 0 && all->merged_count < GB_KINDS) {
+        all->merged[all->merged_count++] = *found;
+    }
+}
+
 /* Keeps an answer where others are near. */
 static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *found)
 {
@@ -190,6 +208,7 @@ static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *fo
     for (size_t i = 0; i < count; i++) {
         if (gb_is_one(all, i, answer)) {
             if (gb_holds_against(all, i, answer)) {
+                gb_remember_merged(all, i, answer, found);
                 return;
             }
             doubles[i / 64] |= (uint64_t)1 << (i % 64);
@@ -364,6 +383,11 @@ static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
 /* Whether some member of a candidate's self-motion is known. */
 static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
 {
+    for (size_t i = 0; i < all->merged_count; i++) {
+        if (all->merged[i].branch == found->branch && all->merged[i].free == found->free) {
+            return true;
+        }
+    }
     for (size_t i = 0; i < all->count; i++) {
         if (gb_is_told(all, i, found)) {
             return true;
@@ -372,19 +396,45 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
     return false;
 }
 
+/* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
+static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
+{
+    if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
+        gb_keep(all, found, end->q, &end->fit);
+        return true;
+    }
+    gb_kind_of_stray *kind = is_known ? NULL : gb_kind(&all->strays, found);
+    if (kind) {
+        kind->is_astray = true;
+    }
+    gb_miss(all, end->q, &end->fit);
+    return true;
+}
+
+/* Whether the member found last that is on a self-motion of the list, of this branch and with these free joints, is joined to another: most often it is the
+ * nearest. */
+static bool gb_joins(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    const gb_found_1 *last = &all->joined_as;
+    return last->free == found->free && last->branch == found->branch && gb_leads_to(&all->problem, all->joined, q, found->free);
+}
+
 /* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
  * asked. */
-static bool gb_is_another(const gb_answers *all, const gb_found_1 *found, const gb_end *end)
+static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
         return false;
     }
-    for (size_t i = 0; i < all->count; i++) {
-        if (gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free)) {
-            return false;
-        }
+    bool joins = gb_joins(all, found, end->q);
+    for (size_t i = 0; i < all->count && !joins; i++) {
+        joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
     }
-    return true;
+    if (joins) {
+        all->joined_as = *found;
+        gb_copy(all->joined, end->q, all->problem.mechanism->joints);
+    }
+    return !joins;
 }
 
 /* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
@@ -399,13 +449,20 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
     const gb_real missed = end.fit.relative;
+    if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
+        gb_miss(all, end.q, &end.fit);
+        return;
+    }
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
     if (is_known && !gb_is_another(all, found, &end)) {
         return;
     }
-    if (gb_keep_member(all, found, &end) || is_known) {
+    all->is_another = is_known;
+    const bool is_done = all->suffices ? gb_keep_long_member(all, found, &end, is_known) : gb_keep_member(all, found, &end);
+    all->is_another = false;
+    if (is_done || is_known) {
         return;
     }
     gb_polish(&all->problem, &end, 0);
@@ -442,10 +499,9 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
     const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
-    /* A double root is off by the square root of what rounding leaves: a stratum may be nearer than that. */
-    if (found->close || !(end.fit.accepted && miss < GB_ROUNDING && way <= GB_MERGE)) {
-        all->unsound = number;
-    }
+    const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
+    all->unsound = end.fit.accepted && holds ? all->unsound : number;
+    all->doubted = found->close ? number : all->doubted;
     if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
         return;
     }

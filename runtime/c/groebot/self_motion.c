@@ -69,6 +69,13 @@ GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real 
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
 
+/* The same within rounding, but for self-motions that go round a small part of the circle only. */
+static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_regularity(problem, q) <= GB_REGULAR
+        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
+}
+
 /* Whether a joint may be free: some case frees it, or none is freed by formulas of a nearby mechanism. */
 static bool gb_may_be_free(const gb_mechanism *m, size_t joint)
 {

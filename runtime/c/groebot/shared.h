@@ -207,15 +207,44 @@ struct gb_problem {
     const gb_real *extras;
 };
 
+/* Candidates for members of self-motions that are none, where no answer is lost without them, by branch and free joints: how many there are, the most that
+ * one of them misses the equations by, and whether they have turned out to be no members. */
+#define GB_KINDS 16
+typedef struct {
+    size_t branch;
+    size_t count;
+    gb_real missed;
+    uint32_t free;
+    bool is_astray;
+} gb_kind_of_stray;
+typedef struct {
+    gb_kind_of_stray kinds[GB_KINDS];
+    size_t count;
+    bool are_too_many;
+} gb_strays;
+
 /* The answers so far. */
 typedef struct {
     gb_problem problem;
     void *out;
     size_t room;
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold where it was found. */
+    /* How many candidates there have been, and had with the last one that did not hold where it was found, and with the last of close roots. */
     size_t candidates;
     size_t unsound;
+    size_t doubted;
+    /* Whether on each stratum so far the cases before have lost no answer. */
+    bool suffices;
+    /* Candidates for members of self-motions that were dropped for this. */
+    gb_strays strays;
+    /* The last member of a self-motion that has been found to be on one of its branch in the list, and how it was found; of no free joints before. And whether
+     * the one that is kept is on none of these. */
+    gb_found_1 joined_as;
+    gb_real joined[GB_MAX_JOINTS];
+    bool is_another;
+    /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
+    gb_found_1 merged[GB_KINDS];
+    size_t merged_count;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */
@@ -249,6 +278,7 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
+GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
 GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free);

@@ -35,13 +35,23 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.out = c->out = out;
     c->all.room = GB_CAPACITY;
     c->all.count = sought == GB_OTHERS ? c->known : 0;
-    c->all.candidates = c->all.unsound = c->waiting = 0;
-    c->all.is_open = c->all.has_nearest = false;
+    c->all.candidates = c->all.unsound = c->all.doubted = c->waiting = 0;
+    c->all.suffices = true;
+    c->all.strays.count = 0;
+    c->all.strays.are_too_many = false;
+    c->all.joined_as.free = 0;
+    c->all.merged_count = 0;
+    c->all.is_open = c->all.has_nearest = c->all.is_another = false;
     c->pairs = pairs;
     c->sought = sought;
     c->is_usual = c->is_ordinary = true;
     gb_walk_1(p, c);
     gb_flush(c);
+    if (gb_are_doubtful(&c->all.strays)) {
+        c->all.suffices = false;
+        gb_walk_1(p, c);
+        gb_flush(c);
+    }
     return c->all.is_open ? GB_OPEN_STRATUM : 0;
 }
 

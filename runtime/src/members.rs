@@ -1,0 +1,111 @@
+//! Candidates for members of self-motions.
+
+use crate::answers::Answers;
+use crate::counters::Phase;
+use crate::mechanism::{Found, Joints, Mechanism};
+use crate::problem::End;
+use crate::solution::Solution;
+use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, ROUNDING};
+
+impl<M: Mechanism> Answers<'_, M> {
+    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
+    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
+    pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
+        let _phase = Phase::Member.begin();
+        let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
+        if is_known && !found.free.is_power_of_two() {
+            return;
+        }
+        let mut end = self.problem.measured(q);
+        let missed = end.1.relative;
+        if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
+            return self.miss(end);
+        }
+        if (ROUNDING..=ADRIFT).contains(&missed) {
+            end = self.problem.polish(end, found.free);
+        }
+        if is_known && !self.is_another(found, &end) {
+            return;
+        }
+        self.is_another = is_known;
+        let is_done =
+            if self.suffices { self.keep_long_member(found, &end, is_known) } else { self.keep_member(found, &end) };
+        self.is_another = false;
+        if is_done || is_known {
+            return;
+        }
+        end = self.problem.polish(end, 0);
+        if !self.keep_member(found, &end) {
+            self.keep_alone(found, end, missed);
+        }
+    }
+
+    /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it; all is done then.
+    fn keep_long_member(&mut self, found: &Found, end: &End<M>, is_known: bool) -> bool {
+        if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
+            self.keep(found, end.clone());
+            return true;
+        }
+        if !is_known {
+            self.strays.mark(found);
+        }
+        self.miss(end.clone());
+        true
+    }
+
+    /// Remembers where several joints are free that members of a candidate's branch are on a self-motion of the list.
+    pub fn remember_merged(&mut self, i: usize, relative: f64, found: &Found) {
+        let are_sharp = f64::max(self.out[i].relative, relative) <= ROUNDING;
+        if are_sharp && self.out[i].free == found.free && found.free.count_ones() > 1 {
+            self.merged.remember(found);
+        }
+    }
+
+    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that
+    /// is not asked.
+    fn is_another(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
+        if !(fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free)) {
+            return false;
+        }
+        let leads = |a: &Joints<M>| self.problem.leads_to(a, q, found.free);
+        // Most often the last one is the nearest.
+        let last = self.joined.as_ref().filter(|(branch, free, _)| (*branch, *free) == (found.branch, found.free));
+        let joins = last.is_some_and(|(_, _, last)| leads(last))
+            || self.out[..self.count].iter().any(|a| is_told(a, found) && leads(&a.q));
+        if joins {
+            self.joined = Some((found.branch, found.free, q.clone()));
+        }
+        !joins
+    }
+
+    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
+    /// isolated answer. One that has not been found before may have another next to it.
+    fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
+        if end.1.relative > ALONE {
+            return self.miss(end);
+        }
+        let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
+        let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
+        let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
+        let alone = Found { free: joint.unwrap_or(0), ..*found };
+        let known = self.count;
+        self.keep(&alone, end.clone());
+        if joint.is_none() && self.count > known && (ROUNDING..=NEAR).contains(&missed) {
+            self.around(&alone, &end, missed);
+        }
+    }
+
+    /// Keeps a candidate if it is a member of a self-motion; whether it is.
+    fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
+        let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
+        if is_member {
+            self.keep(found, end.clone());
+        }
+        is_member
+    }
+}
+
+/// Whether an answer is a member of a self-motion within rounding, of the branch and with the free joints of a candidate.
+fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
+    a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free
+}

@@ -1,0 +1,57 @@
+//! Poses next to a singular wrist: isolated answers, the joint values that made the pose among them, and no self-motion.
+
+#![allow(clippy::duplicate_mod)]
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use groebot_runtime::Solve;
+
+use super::random;
+
+#[rustfmt::skip]
+#[path = "../../derivations/puma/5_solver.rs"]
+mod puma;
+
+/// Solutions for the pose that joint values of a PUMA reach.
+fn solved(q: &[f64; 6]) -> Vec<puma::Solution> {
+    let mut out = [puma::EMPTY; puma::CAPACITY];
+    let target = puma::Solver.forward(q).unwrap();
+    let count = puma::Solver.solve(&target, &mut out).unwrap();
+    out[..count].to_vec()
+}
+
+/// Joint values with the wrist so far from where two of its axes are parallel.
+fn beside_a_singular_wrist(way: f64) -> impl Iterator<Item = [f64; 6]> {
+    let mut random = random();
+    (0..200).map(move |_| {
+        let mut q = [(); 6].map(|()| PI * (2.0 * random() - 1.0));
+        q[4] = FRAC_PI_2 + way;
+        q
+    })
+}
+
+/// Eight answers, as at other poses of the arm, which is out of no pose's reach. Candidates for members of the self-motion that the singular pose has miss the
+/// pose by a share of the way; as long as they were polished along it, some came within what is accepted and were told as self-motions.
+#[test]
+fn poses_next_to_a_singular_wrist_have_isolated_answers() {
+    for way in [1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, -1e-6, -1e-9] {
+        for q in beside_a_singular_wrist(way) {
+            let found = solved(&q);
+            assert!(found.iter().all(|answer| answer.free == 0), "{way} {q:?}: {found:?}");
+            assert_eq!(found.len(), 8, "{way} {q:?}");
+            // Rounding of the pose, and what the arm's joints make of it, moves those of the wrist by its share of the way.
+            let bound = f64::max(1e-7, 1e-12 / f64::abs(way));
+            let near = |a: f64, b: f64| (a - b).sin().abs() < bound && (a - b).cos() > 0.0;
+            assert!(found.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| near(*a, b))), "{way} {q:?}");
+        }
+    }
+}
+
+/// At the singular pose itself the first and the last joint of the wrist turn against each other: a self-motion for each posture of the arm in which it is singular.
+#[test]
+fn a_singular_wrist_has_a_self_motion() {
+    for q in beside_a_singular_wrist(0.0) {
+        let found = solved(&q);
+        assert_eq!(found.iter().filter(|answer| answer.free != 0).count(), 2, "{q:?}: {found:?}");
+    }
+}
