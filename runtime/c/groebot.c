@@ -82,6 +82,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/self_motion.c"
 #include "groebot/strays.c"
 #include "groebot/freedom.c"
+#include "groebot/curve.c"
 #include "groebot/refine.c"
 #include "groebot/limits.c"
 

@@ -99,6 +99,7 @@ static const gb_real gb_six_origins[GB_SIX_ORIGINS] = {R(0.4), R(1.1), -R(0.5)};
 #define GB_SIX_SHORT R(0.015)
 #define GB_SIX_PACES 400
 /* Rounds of the false position between two steps. */
+#define GB_SIX_NEXT R(30.0)
 #define GB_SIX_NARROWED 16
 
 /* Answers whose joints all differ by no more than this (rad) are one. */

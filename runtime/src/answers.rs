@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::approach::{LANES, Ways};
+use crate::curve::Starts;
 use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
@@ -30,7 +31,7 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub unsound: usize,
     /// The same with the last one of close roots.
     pub doubted: usize,
-    /// Whether on each stratum so far the cases before have lost no answer.
+    /// Whether on each stratum so far the cases before have lost no answer; formulas of a nearby mechanism tell nothing of that.
     pub suffices: bool,
     /// Candidates for members of self-motions that were dropped for this.
     pub strays: Strays,
@@ -40,6 +41,8 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub is_another: bool,
     /// Members with several free joints that were found to be on a self-motion of the list.
     pub merged: Merged,
+    /// Candidates next to which a curve is walked along behind all others.
+    pub starts: Option<Starts<M>>,
     /// The first stratum met that could not be derived.
     pub open: Option<usize>,
     /// The joints that missed the equations by the least share of their size, where they are no answer.
@@ -113,7 +116,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     /// None yet; solutions go to `out`, or pairs to `pairs` if there is a place for them.
     #[inline(always)]
     pub fn new(problem: Problem<'a, M>, out: &'a mut [Solution<M>], pairs: Option<&'a mut [Pairs<M>]>) -> Self {
-        let Facts { places, candidates: room, .. } = problem.facts();
+        let Facts { places, candidates: room, nearby, .. } = problem.facts();
         Answers {
             problem,
             out,
@@ -124,11 +127,12 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             candidates: 0,
             unsound: 0,
             doubted: 0,
-            suffices: true,
+            suffices: nearby.is_none(),
             strays: Strays::NONE,
             joined: None,
             is_another: false,
             merged: Merged::NONE,
+            starts: None,
             open: None,
             nearest: None,
             at: Array::by(places, |_| Array::by(room, |_| 0.0)),
@@ -150,6 +154,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
         walk(mechanism, parameters, self);
         self.flush();
+        self.walk_curves();
         if self.strays.are_doubtful() {
             self.suffices = false;
             walk(mechanism, parameters, self);

@@ -16,14 +16,16 @@ pub enum Phase {
     Twin,
     /// Whether a candidate is a member of a self-motion.
     Member,
+    /// Walks along curves next to self-motions.
+    Curve,
     /// A new answer compared with those that are near.
     Compare,
 }
 
 impl Phase {
     /// All phases, in the order of [`take`]'s rows.
-    pub const ALL: [Phase; 7] =
-        [Phase::Walk, Phase::Waiting, Phase::Polish, Phase::Around, Phase::Twin, Phase::Member, Phase::Compare];
+    pub const ALL: [Phase; 8] =
+        [Phase::Walk, Phase::Waiting, Phase::Polish, Phase::Around, Phase::Twin, Phase::Member, Phase::Curve, Phase::Compare];
 }
 
 /// What is counted of each phase.

@@ -15,6 +15,7 @@ mod arithmetic;
 mod batch;
 mod conditions;
 pub mod counters;
+mod curve;
 pub mod derivatives;
 mod described;
 mod double;

@@ -34,6 +34,10 @@ impl<M: Mechanism> Answers<'_, M> {
         if is_done || is_known {
             return;
         }
+        let is_curve = self.problem.facts().nearby.is_some() && found.free.is_power_of_two();
+        if is_curve && self.begin_curve(found, &end.0) {
+            return;
+        }
         end = self.problem.polish(end, 0);
         if !self.keep_member(found, &end) {
             self.keep_alone(found, end, missed);

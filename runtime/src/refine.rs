@@ -10,7 +10,7 @@ use crate::problem::{End, Fit};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{
-    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP, TWIN, TWINS_AT,
+    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP, TWIN, TWINS_AT,
 };
 
 /// The most answers of a target.
@@ -41,8 +41,8 @@ impl<M: Mechanism> Answers<'_, M> {
         if found.close {
             self.doubted = number;
         }
-        if is_nearby && is_beside && self.keep_moving(found, &end) {
-            return;
+        if is_nearby && is_beside && self.is_curve(found, &end) && miss >= ROUNDING {
+            return self.miss(end);
         }
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
@@ -66,24 +66,17 @@ impl<M: Mechanism> Answers<'_, M> {
         if is_steep {
             self.unsound = number;
         }
-        if is_steep && self.keep_moving(found, &(end.clone(), fit)) {
-            return;
-        }
+        let is_curve = is_steep && self.is_curve(found, &(end.clone(), fit));
         self.keep(found, (end.clone(), fit));
-        if is_steep {
+        if is_steep && !(is_curve && fit.relative > ROUNDING) {
             self.twin(found, &end, missed);
         }
     }
 
-    /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
-    /// self-motion as to an isolated answer. Whether it is one.
-    fn keep_moving(&mut self, found: &Found, end: &End<M>) -> bool {
-        let is_sharp = end.1.relative <= ROUNDING;
-        let joint = if is_sharp { self.problem.joint_on_self_motion(&end.0, ROUNDING) } else { None };
-        if let Some(free) = joint {
-            self.keep(&Found { free, ..*found }, end.clone());
-        }
-        joint.is_some()
+    /// Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed.
+    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
+        let is_singular = (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && self.problem.regularity(q) <= REGULAR;
+        is_singular && self.begin_curve(found, q)
     }
 
     /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 33] = [
+pub const RUST: [(&str, &str); 34] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -9,6 +9,7 @@ pub const RUST: [(&str, &str); 33] = [
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
     ("counters", include_str!("counters.rs")),
+    ("curve", include_str!("curve.rs")),
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
@@ -74,13 +75,14 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 45] = [
+pub const C_PARTS: [(&str, &str); 46] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
     ("groebot/batch.h", include_str!("../c/groebot/batch.h")),
     ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
     ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
+    ("groebot/curve.c", include_str!("../c/groebot/curve.c")),
     ("groebot/described.h", include_str!("../c/groebot/described.h")),
     ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),

@@ -223,6 +223,15 @@ typedef struct {
     bool are_too_many;
 } gb_strays;
 
+/* Where walks along curves next to self-motions begin, as many as there is room for: how the candidates were found, and joints on the curves. */
+#define GB_STARTS 32
+typedef struct {
+    gb_found_1 found[GB_STARTS];
+    gb_real q[GB_STARTS][GB_MAX_JOINTS];
+    bool is_open[GB_STARTS];
+    size_t count;
+} gb_starts;
+
 /* The answers so far. */
 typedef struct {
     gb_problem problem;
@@ -233,7 +242,7 @@ typedef struct {
     size_t candidates;
     size_t unsound;
     size_t doubted;
-    /* Whether on each stratum so far the cases before have lost no answer. */
+    /* Whether on each stratum so far the cases before have lost no answer; formulas of a nearby mechanism tell nothing of that. */
     bool suffices;
     /* Candidates for members of self-motions that were dropped for this. */
     gb_strays strays;
@@ -245,6 +254,8 @@ typedef struct {
     /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
     gb_found_1 merged[GB_KINDS];
     size_t merged_count;
+    /* Candidates next to which a curve is walked along behind all others. */
+    gb_starts starts;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */
@@ -278,6 +289,7 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q);
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
+GB_LINKAGE void gb_walk_curves(gb_answers *all);
 GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);

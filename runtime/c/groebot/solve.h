@@ -36,7 +36,8 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.room = GB_CAPACITY;
     c->all.count = sought == GB_OTHERS ? c->known : 0;
     c->all.candidates = c->all.unsound = c->all.doubted = c->waiting = 0;
-    c->all.suffices = true;
+    c->all.suffices = !gb_this.is_nearby;
+    c->all.starts.count = 0;
     c->all.strays.count = 0;
     c->all.strays.are_too_many = false;
     c->all.joined_as.free = 0;
@@ -47,6 +48,9 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->is_usual = c->is_ordinary = true;
     gb_walk_1(p, c);
     gb_flush(c);
+    if (gb_this.is_nearby && c->all.starts.count > 0) {
+        gb_walk_curves(&c->all);
+    }
     if (gb_are_doubtful(&c->all.strays)) {
         c->all.suffices = false;
         gb_walk_1(p, c);

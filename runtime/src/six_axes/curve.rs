@@ -27,6 +27,8 @@ const STRIDE: f64 = 0.1;
 const SHORT: f64 = 0.015;
 /// The most steps of a walk in one direction.
 const PACES: usize = 400;
+/// A curve that misses no more than so many times what the robot is off may lead to answers of the one that is meant.
+const BESIDE: f64 = 30.0;
 /// Rounds of the false position between two steps.
 const NARROWED: usize = 16;
 
@@ -60,7 +62,7 @@ impl<'a> Walk<'a> {
     pub fn run(mut self, search: &mut Search) {
         for index in 0..self.count {
             let Some(start) = self.starts[index].take() else { continue };
-            let mut level = start.section.value.abs();
+            let mut level = [start.section.value.abs(); 2];
             for way in [1.0, -1.0] {
                 let mut first = start;
                 first.section.along = first.section.along.map(|entry| way * entry);
@@ -68,19 +70,22 @@ impl<'a> Walk<'a> {
                     break;
                 }
             }
-            if level <= LEVEL {
+            if level[1] <= LEVEL {
                 search.find(self.chain, start.q, self.target);
+            } else if self.chain.within > 0.0 && level[0] <= BESIDE * self.chain.within {
+                search.meeting.remember(start.q);
             }
         }
     }
 
-    /// Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the most that was missed.
-    fn leads_home(&mut self, home: Place, search: &mut Search, level: &mut f64) -> bool {
+    /// Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the least and the most that was missed.
+    fn leads_home(&mut self, home: Place, search: &mut Search, level: &mut [f64; 2]) -> bool {
         let slides = &self.chain.slides;
         let (mut before, mut at, mut stride, mut is_away) = (home, home, STRIDE, false);
         for _ in 0..PACES {
             let Some(next) = self.pace(&at, &mut stride) else { return false };
-            *level = f64::max(*level, next.section.value.abs());
+            let missed = next.section.value.abs();
+            *level = [f64::min(level[0], missed), f64::max(level[1], missed)];
             self.change(&at, &next, search);
             self.dip([&before, &at, &next], search);
             for start in &mut self.starts[..self.count] {

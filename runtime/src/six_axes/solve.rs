@@ -112,6 +112,11 @@ impl Chain {
         (disturbances.len(), None)
     }
 
+    /// The square of the depth of complex solutions that may be real for a robot that is a little off.
+    fn parted(&self) -> f64 {
+        f64::max(OFF * self.within, f64::min(FAR_OFF * self.within, BLURRED * BLURRED))
+    }
+
     /// Solves targets next to this one, on both sides: two complex solutions are real there on one. Those that lead to no answer come near one of
     /// the robot that is meant.
     #[cold]
@@ -171,6 +176,7 @@ impl Attempt<'_> {
         if candidates.conditioning < SINGULAR {
             return None;
         }
+        search.is_meeting |= candidates.conditioning < self.chain.within;
         let mut tally = Tally { own: Distinct::NONE, lost: 0, worst: 0.0 };
         for candidate in candidates.as_slice() {
             self.follow(candidate, search, &mut tally);
@@ -190,7 +196,7 @@ impl Attempt<'_> {
     fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
         let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
         let is_far = deep > FAR_OFF * accuracy;
-        search.is_meeting |= self.size <= 0.0 && deep > 0.0 && deep <= OFF * self.chain.within;
+        search.is_meeting |= self.size <= 0.0 && deep > 0.0 && deep <= self.chain.parted();
         if (is_far && self.size <= 0.0) || self.chain.has_infinite(&candidate.q) {
             return;
         }

@@ -127,7 +127,7 @@ static gb_six_point gb_six_beside(const gb_six_point *home, const gb_six_point *
     return end;
 }
 
-/* Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the most that was missed. */
+/* Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the least and the most that was missed. */
 static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_real *level)
 {
     const bool *slides = walk->chain->slides;
@@ -138,7 +138,8 @@ static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_re
         if (!gb_six_pace(walk, &at, &stride, &next)) {
             return false;
         }
-        *level = gb_larger(*level, gb_magnitude(next.value));
+        level[0] = gb_smaller(level[0], gb_magnitude(next.value));
+        level[1] = gb_larger(level[1], gb_magnitude(next.value));
         gb_six_change(walk, &at, &next);
         gb_six_dip(walk, &before, &at, &next);
         for (size_t k = 0; k < walk->count; k++) {
@@ -168,15 +169,17 @@ static void gb_six_run_walk(gb_six_walk *walk)
         walk->is_open[index] = false;
         const gb_six_point *start = &walk->starts[index];
         gb_six_point home = *start;
-        gb_real level = gb_magnitude(start->value);
-        if (!gb_six_leads_home(walk, &home, &level)) {
+        gb_real level[2] = {gb_magnitude(start->value), gb_magnitude(start->value)};
+        if (!gb_six_leads_home(walk, &home, level)) {
             for (int k = 0; k < 6; k++) {
                 home.along[k] = -start->along[k];
             }
-            gb_six_leads_home(walk, &home, &level);
+            gb_six_leads_home(walk, &home, level);
         }
-        if (level <= GB_SIX_LEVEL) {
+        if (level[1] <= GB_SIX_LEVEL) {
             gb_six_find(walk->chain, walk->target, start->q, walk->search);
+        } else if (walk->chain->within > R(0.0) && level[0] <= GB_SIX_NEXT * walk->chain->within) {
+            gb_six_remember(&walk->search->meeting, start->q);
         }
     }
 }

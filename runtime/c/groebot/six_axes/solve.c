@@ -56,6 +56,12 @@ static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real
     return gb_six_lead(attempt, q, last);
 }
 
+/* The square of the depth of complex solutions that may be real for a robot that is a little off. */
+static gb_real gb_six_parted(const gb_chain *chain)
+{
+    return gb_larger(GB_SIX_OFF * chain->within, gb_smaller(GB_SIX_FAR_OFF * chain->within, GB_SIX_BLURRED * GB_SIX_BLURRED));
+}
+
 /* Polishes a candidate, and keeps or remembers it. */
 static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate *candidate, gb_six_search *search, gb_six_tally *tally)
 {
@@ -63,7 +69,7 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_SIX_UNKNOWN);
     const bool is_far = deep > GB_SIX_FAR_OFF * accuracy, is_aside = attempt->size > R(0.0);
     gb_real q[6], first[6], last[6], start;
-    search->is_meeting |= !is_aside && deep > R(0.0) && deep <= GB_SIX_OFF * chain->within;
+    search->is_meeting |= !is_aside && deep > R(0.0) && deep <= gb_six_parted(chain);
     if ((is_far && !is_aside) || gb_six_has_infinite(chain, candidate->q)) {
         return;
     }
@@ -105,6 +111,7 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
         || candidates.conditioning < GB_SIX_SINGULAR_PENCIL) {
         return false;
     }
+    search->is_meeting |= candidates.conditioning < attempt->chain->within;
     tally.own.count = tally.lost = 0;
     tally.worst = R(0.0);
     for (size_t k = 0; k < candidates.count; k++) {

@@ -1,0 +1,348 @@
+/* Curves all along which the equations of a nearby mechanism almost hold: curve.rs
+ *
+ * Where its formulas have a self-motion, the mechanism itself may have isolated answers anywhere on what is left of that, and Newton's steps find none of them:
+ * along the curve the equations hardly change. A walk holds one joint after the other while the others fit best; what is then missed changes its sign at each
+ * answer. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
+
+/* The tolerances are those of curve.rs, which says what they are for. */
+#define GB_CURVE_ROUNDS 6
+#define GB_CURVE_BOUND R(0.5)
+#define GB_CURVE_SETTLED GB_EITHER(1e-8, 1e-3)
+#define GB_CURVE_PACES 400
+#define GB_CURVE_STRAIGHT R(0.5)
+#define GB_CURVE_NARROWED 24
+#define GB_CURVE_VERTICES 3
+#define GB_CURVE_NARROWER R(0.1)
+#define GB_CURVE_WHOLE (R(10.0) * GB_ACCEPT)
+/* The shortest, the first and the longest step along a curve. */
+static const gb_real gb_curve_pace[] = {R(1.5e-3), R(2.5e-2), R(0.1)};
+
+/* A place on a curve: joints, what is missed there as shares of the equations' sizes, and the most of it. */
+typedef struct {
+    gb_real q[GB_MAX_JOINTS];
+    gb_real miss[GB_MAX_EQUATIONS];
+    gb_real most;
+} gb_spot;
+
+/* A walk along one curve: how its answers are found, where it begins, the place so far that misses least, and the most that is missed so far. */
+typedef struct {
+    gb_found_1 found;
+    gb_spot home;
+    gb_spot best;
+    gb_real most;
+} gb_curve;
+
+static bool gb_is_listed(const gb_answers *all, const gb_real *q);
+
+/* The place of the entry with the greatest magnitude, the first of equals. */
+static size_t gb_greatest(const gb_real *way, size_t count)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < count; i++) {
+        best = gb_magnitude(way[i]) > gb_magnitude(way[best]) ? i : best;
+    }
+    return best;
+}
+
+/* The joint that goes farthest from `b` to `a`. */
+static size_t gb_farthest_joint(const gb_mechanism *m, const gb_real *a, const gb_real *b)
+{
+    gb_real way[GB_MAX_JOINTS];
+    gb_differences(m, a, b, way);
+    return gb_greatest(way, m->joints);
+}
+
+/* What a place misses in the direction of what another one misses, times the length of that. */
+static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_spot *b)
+{
+    gb_real sum = R(0.0);
+    for (size_t i = 0; i < m->equations; i++) {
+        sum = sum + a->miss[i] * b->miss[i];
+    }
+    return sum;
+}
+
+/* Least-squares steps from `spot->q` with one joint held, until they are short; false where they are not. */
+static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *spot)
+{
+    const gb_mechanism *m = problem->mechanism;
+    for (int round = 0; round < GB_CURVE_ROUNDS; round++) {
+        gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], step[GB_MAX_JOINTS];
+        gb_triangle triangle;
+        gb_share(problem, spot->q, rows, spot->miss);
+        gb_clear_triangle(m, &triangle);
+        gb_copy(gb_column(&triangle, m->joints), spot->miss, m->equations);
+        gb_fill_triangle(m, rows, R(0.0), (uint32_t)1 << held, &triangle);
+        if (!gb_substitute(&triangle, step)) {
+            return false;
+        }
+        const gb_real longest = gb_longest(m, step);
+        if (longest > GB_CURVE_BOUND) {
+            return false;
+        }
+        gb_stepped(m, spot->q, step, spot->q);
+        if (longest <= GB_CURVE_SETTLED) {
+            spot->most = R(0.0);
+            for (size_t i = 0; i < m->equations; i++) {
+                for (size_t k = 0; k < m->joints; k++) {
+                    spot->miss[i] = spot->miss[i] - rows[i * m->joints + k] * step[k];
+                }
+                spot->most = gb_larger(spot->most, gb_magnitude(spot->miss[i]));
+            }
+            return spot->most <= GB_NEAR;
+        }
+    }
+    return false;
+}
+
+/* The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is, the one that moves farthest where the
+ * equations hardly change. */
+static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
+{
+    const size_t joints = problem->mechanism->joints;
+    gb_real way[GB_MAX_JOINTS], share;
+    if (free == 0 && !gb_stillest(problem, q, way, &share)) {
+        return false;
+    }
+    if (free == 0) {
+        *held = gb_greatest(way, joints);
+    } else {
+        for (*held = 0; !gb_is_in(free, *held); (*held)++) {
+        }
+    }
+    gb_copy(spot->q, q, joints);
+    return gb_settle_on_curve(problem, *held, spot);
+}
+
+/* The place on the curve at a share of the way from `a` to `b`. */
+static bool gb_between_spots(const gb_problem *problem, const gb_spot *a, const gb_spot *b, gb_real share, gb_spot *middle)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_beyond(m, b->q, a->q, -share, middle->q);
+    return gb_settle_on_curve(problem, gb_farthest_joint(m, b->q, a->q), middle);
+}
+
+/* A step along the curve from `at`, shorter where it bends, and its length, which `last` was before; false where the curve ends. */
+static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_spot *at, gb_real *last, gb_real *pace, gb_spot *next)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const size_t held = gb_farthest_joint(m, at->q, before->q);
+    for (; *pace >= gb_curve_pace[0]; *pace *= R(0.5)) {
+        gb_real ahead[GB_MAX_JOINTS];
+        gb_beyond(m, before->q, at->q, *pace / *last, ahead);
+        gb_copy(next->q, ahead, m->joints);
+        if (gb_settle_on_curve(problem, held, next) && gb_farthest(m, next->q, ahead) <= GB_CURVE_STRAIGHT * *pace) {
+            *last = gb_farthest(m, next->q, at->q);
+            *pace = gb_smaller(R(2.0) * *pace, gb_curve_pace[2]);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps what a place on a curve is polished to, if that is an answer that is not known. */
+static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    gb_end end;
+    gb_copy(end.q, q, all->problem.mechanism->joints);
+    gb_polish_from(&all->problem, &end, 0);
+    if (!gb_is_listed(all, end.q)) {
+        gb_keep(all, found, end.q, &end.fit);
+    }
+}
+
+/* Keeps the answer between two places where what is missed changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
+ * 168-174). */
+static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    if (gb_miss_along(m, a, b) > R(0.0) || gb_larger(a->most, b->most) <= GB_ALONE) {
+        return;
+    }
+    const gb_spot unit = a->most > b->most ? *a : *b;
+    gb_spot near = *a, far = *b, middle;
+    gb_real low = gb_miss_along(m, a, &unit), high = gb_miss_along(m, b, &unit);
+    int side = 0;
+    for (int round = 0; round < GB_CURVE_NARROWED; round++) {
+        if (!gb_between_spots(&all->problem, &near, &far, low / (low - high), &middle)) {
+            break;
+        }
+        const gb_real value = gb_miss_along(m, &middle, &unit);
+        if ((value <= R(0.0)) == (low <= R(0.0))) {
+            high = side < 0 ? R(0.5) * high : gb_miss_along(m, &far, &unit);
+            near = middle;
+            low = value;
+            side = -1;
+        } else {
+            low = side > 0 ? R(0.5) * low : gb_miss_along(m, &near, &unit);
+            far = middle;
+            high = value;
+            side = 1;
+        }
+        if (middle.most <= GB_ROUNDING) {
+            break;
+        }
+    }
+    gb_keep_on_curve(all, found, near.most <= far.most ? near.q : far.q);
+}
+
+/* Where a parabola through what three places miss is least, if the one between misses less than the others. */
+static bool gb_find_vertex(const gb_problem *problem, const gb_spot *least, const gb_spot *sides, gb_spot *vertex)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const gb_real low = gb_miss_along(m, &sides[0], least), middle = gb_miss_along(m, least, least), high = gb_miss_along(m, &sides[1], least);
+    const gb_real before = gb_farthest(m, sides[0].q, least->q), behind = gb_farthest(m, sides[1].q, least->q);
+    const gb_real fall = (middle - low) / before, rise = (high - middle) / behind;
+    const gb_real way = R(0.5) * (fall * behind + rise * before) / (fall - rise);
+    const gb_spot *side = way < R(0.0) ? &sides[0] : &sides[1];
+    return low > middle && high > middle && gb_between_spots(problem, least, side, gb_magnitude(way) / (way < R(0.0) ? before : behind), vertex);
+}
+
+/* Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola. */
+static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b, const gb_spot *c)
+{
+    const gb_problem *problem = &all->problem;
+    const gb_mechanism *m = problem->mechanism;
+    if (!(gb_smaller(gb_miss_along(m, a, b), gb_miss_along(m, c, b)) > gb_miss_along(m, b, b) && gb_larger(a->most, c->most) > GB_ALONE)) {
+        return;
+    }
+    gb_spot least = *b, sides[2] = {*a, *c}, narrower[2], vertex;
+    for (int round = 0; round < GB_CURVE_VERTICES && least.most > GB_ALONE; round++) {
+        if (!gb_find_vertex(problem, &least, sides, &vertex)) {
+            if (round == 0) {
+                return;
+            }
+            break;
+        }
+        if (gb_miss_along(m, &vertex, &least) < R(0.0)) {
+            gb_keep_change(all, found, &vertex, &sides[0]);
+            gb_keep_change(all, found, &vertex, &sides[1]);
+            return;
+        }
+        const bool has_both = gb_between_spots(problem, &vertex, &sides[0], GB_CURVE_NARROWER, &narrower[0])
+            && gb_between_spots(problem, &vertex, &sides[1], GB_CURVE_NARROWER, &narrower[1]);
+        least = vertex;
+        if (!has_both) {
+            break;
+        }
+        sides[0] = narrower[0];
+        sides[1] = narrower[1];
+    }
+    gb_keep_on_curve(all, found, least.q);
+}
+
+/* Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves. */
+static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    gb_found_1 moving = *found;
+    gb_end end;
+    gb_copy(end.q, q, all->problem.mechanism->joints);
+    gb_polish_from(&all->problem, &end, found->free);
+    if (found->free == 0) {
+        moving.free = gb_joint_on_self_motion(&all->problem, end.q, end.fit.relative);
+    }
+    if (moving.free != 0) {
+        gb_keep(all, &moving, end.q, &end.fit);
+    }
+}
+
+/* Takes in a place that a walk passes, and forgets the starts next to it. */
+static void gb_pass(const gb_mechanism *m, gb_starts *starts, gb_curve *curve, const gb_spot *at)
+{
+    for (size_t k = 0; k < starts->count; k++) {
+        starts->is_open[k] = starts->is_open[k] && !(gb_farthest(m, starts->q[k], at->q) <= gb_curve_pace[2]);
+    }
+    curve->most = gb_larger(curve->most, at->most);
+    curve->best = at->most < curve->best.most ? *at : curve->best;
+}
+
+/* Walks from home through a place until the curve closes or ends; whether it closed. */
+static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, const gb_spot *side)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_spot before = curve->home, at = *side, next;
+    gb_real pace = gb_curve_pace[1], last = gb_curve_pace[1];
+    bool is_away = false;
+    gb_keep_change(all, &curve->found, &before, &at);
+    for (int k = 0; k < GB_CURVE_PACES; k++) {
+        gb_pass(m, starts, curve, &at);
+        const gb_real way = gb_farthest(m, at.q, curve->home.q);
+        is_away |= way > R(3.0) * gb_curve_pace[2];
+        if (is_away && way <= gb_curve_pace[2]) {
+            gb_keep_change(all, &curve->found, &at, &curve->home);
+            return true;
+        }
+        if (!gb_pace(&all->problem, &before, &at, &last, &pace, &next)) {
+            return false;
+        }
+        gb_keep_change(all, &curve->found, &at, &next);
+        gb_keep_dip(all, &curve->found, &before, &at, &next);
+        before = at;
+        at = next;
+    }
+    return false;
+}
+
+/* Walks along the curve next to a candidate, both ways if it does not close; of one that misses nothing, a self-motion, a member is kept. */
+static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *found, const gb_real *q)
+{
+    const gb_problem *problem = &all->problem;
+    gb_curve curve;
+    gb_spot sides[2];
+    bool is_there[2];
+    size_t held;
+    if (!gb_start_on_curve(problem, q, found->free, &curve.home, &held)) {
+        return;
+    }
+    for (int k = 0; k < 2; k++) {
+        gb_copy(sides[k].q, curve.home.q, problem->mechanism->joints);
+        sides[k].q[held] = gb_moved(problem->mechanism, curve.home.q, held, k == 0 ? -gb_curve_pace[1] : gb_curve_pace[1]);
+        is_there[k] = gb_settle_on_curve(problem, held, &sides[k]);
+    }
+    curve.found = *found;
+    curve.found.free = 0;
+    curve.best = curve.home;
+    curve.most = curve.home.most;
+    if (is_there[0] && is_there[1]) {
+        gb_keep_dip(all, &curve.found, &sides[0], &curve.home, &sides[1]);
+    }
+    if (!(is_there[0] && gb_leads_home(all, starts, &curve, &sides[0])) && is_there[1]) {
+        gb_leads_home(all, starts, &curve, &sides[1]);
+    }
+    if (curve.most <= GB_CURVE_WHOLE) {
+        gb_keep_whole_curve(all, found, curve.best.q);
+    }
+}
+
+/* Walks along the curves next to candidates, and keeps the answers on them. */
+GB_LINKAGE void gb_walk_curves(gb_answers *all)
+{
+    gb_starts starts = all->starts;
+    all->starts.count = 0;
+    for (size_t k = 0; k < starts.count; k++) {
+        if (starts.is_open[k]) {
+            starts.is_open[k] = false;
+            gb_walk_curve(all, &starts, &starts.found[k], starts.q[k]);
+        }
+    }
+}
+
+/* Remembers a candidate next to which there is a curve, for a walk behind all candidates; whether there is one. */
+static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    const gb_mechanism *m = all->problem.mechanism;
+    gb_spot start;
+    size_t held;
+    /* Another candidate's numbers that follow from no joint would not fit. */
+    if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held)) {
+        return false;
+    }
+    if (all->starts.count == GB_STARTS) {
+        gb_walk_curves(all);
+    }
+    const size_t k = all->starts.count++;
+    all->starts.found[k] = *found;
+    all->starts.is_open[k] = true;
+    gb_copy(all->starts.q[k], start.q, m->joints);
+    return true;
+}

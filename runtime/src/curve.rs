@@ -1,0 +1,322 @@
+//! Curves all along which the equations of a nearby mechanism almost hold. Where its formulas have a self-motion, the mechanism itself may have isolated answers
+//! anywhere on what is left of that, and Newton's steps find none of them: along the curve the equations hardly change. A walk holds one joint after the other
+//! while the others fit best; what is then missed changes its sign at each answer.
+//!
+//! As `six_axes/curve.rs`, for any number of joints and equations. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
+
+use crate::answers::Answers;
+use crate::counters::Phase;
+use crate::joints::{beyond, differences, moved, stepped};
+use crate::mechanism::{Equations, Facts, Found, Joints, Mechanism};
+use crate::problem::Problem;
+use crate::tolerances::{ACCEPT, ALONE, MERGE, NEAR, ROUNDING};
+
+/// How many starts wait for their walk.
+const ROOM: usize = 32;
+/// The most least-squares steps across the curve.
+const ROUNDS: usize = 6;
+/// None of them moves a joint by more (rad, or relative to the length scale).
+const BOUND: f64 = 0.5;
+/// The last one moves no joint by more.
+const SETTLED: f64 = 1e-8;
+/// The shortest, the first and the longest step along the curve (rad, or relative to the length scale).
+const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
+/// The most steps of a walk in one direction.
+const PACES: usize = 400;
+/// A step leads to no other curve where it ends no farther from the line of the step before than this share of its length.
+const STRAIGHT: f64 = 0.5;
+/// Rounds of the false position between two steps.
+const NARROWED: usize = 24;
+/// How many parabolas tell where a curve misses least, each so much narrower than the one before.
+const VERTICES: usize = 3;
+/// How much.
+const NARROWER: f64 = 0.1;
+/// A curve that misses no more than this all along is a self-motion: next to one that is exact an answer's tolerance has room for it.
+const WHOLE: f64 = 10.0 * ACCEPT;
+
+/// A place on a curve.
+struct Place<M: Mechanism> {
+    q: Joints<M>,
+    /// What is missed there, as shares of the equations' sizes.
+    miss: Equations<M>,
+    /// The most of it.
+    most: f64,
+}
+
+/// A walk along one curve.
+struct Walk<M: Mechanism> {
+    /// How its answers are found: as its start was, but isolated.
+    found: Found,
+    home: Place<M>,
+    /// The place so far that misses least.
+    best: Place<M>,
+    /// The most that is missed so far.
+    most: f64,
+}
+
+/// Where walks begin: the candidates, and joints on the curves next to them.
+pub(crate) struct Starts<M: Mechanism> {
+    list: [Option<(Found, Joints<M>)>; ROOM],
+    count: usize,
+}
+
+impl<M: Mechanism> Clone for Place<M> {
+    fn clone(&self) -> Self {
+        Place { q: self.q.clone(), miss: self.miss.clone(), most: self.most }
+    }
+}
+
+impl<M: Mechanism> Place<M> {
+    /// What is missed in the direction of what another place misses, times the length of that.
+    fn along(&self, other: &Place<M>) -> f64 {
+        let both = self.miss.as_ref().iter().zip(other.miss.as_ref());
+        both.fold(0.0, |sum, (a, b)| sum + a * b)
+    }
+}
+
+impl<M: Mechanism> Walk<M> {
+    fn pass(&mut self, place: &Place<M>) {
+        self.most = f64::max(self.most, place.most);
+        if place.most < self.best.most {
+            self.best = place.clone();
+        }
+    }
+}
+
+impl<M: Mechanism> Starts<M> {
+    const NONE: Self = Starts { list: [const { None }; ROOM], count: 0 };
+
+    fn add(&mut self, found: Found, q: Joints<M>) {
+        self.list[self.count] = Some((found, q));
+        self.count += 1;
+    }
+
+    /// Forgets those that a walk passes.
+    fn pass(&mut self, facts: &Facts<'_>, at: &Joints<M>) {
+        for start in &mut self.list[..self.count] {
+            let is_passed = |(_, q): &(Found, Joints<M>)| facts.farthest(q.as_ref(), at.as_ref()) <= PACE[2];
+            if start.as_ref().is_some_and(is_passed) {
+                *start = None;
+            }
+        }
+    }
+}
+
+impl<M: Mechanism> Answers<'_, M> {
+    /// Remembers a candidate next to which there is a curve, for [a walk](Answers::walk_curves) behind all candidates; whether there is one.
+    #[cold]
+    pub fn begin_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        let _phase = Phase::Curve.begin();
+        // Another candidate's numbers that follow from no joint would not fit.
+        let place = if self.problem.facts().has_extras { None } else { self.problem.start(q.clone(), found.free) };
+        let Some((start, _)) = place else { return false };
+        if self.starts.as_ref().is_some_and(|starts| starts.count == ROOM) {
+            self.walk_curves();
+        }
+        self.starts.get_or_insert(Starts::NONE).add(*found, start.q);
+        true
+    }
+
+    /// Walks along the curves next to candidates, and keeps the answers on them.
+    #[cold]
+    pub fn walk_curves(&mut self) {
+        let _phase = Phase::Curve.begin();
+        let Some(mut starts) = self.starts.take() else { return };
+        for index in 0..starts.count {
+            if let Some((found, q)) = starts.list[index].take() {
+                self.walk_curve(&found, q, &mut starts);
+            }
+        }
+    }
+
+    /// Walks along the curve next to a candidate, both ways if it does not close; of one that misses nothing, a self-motion, a member is kept.
+    fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
+        let Some((home, held)) = self.problem.start(q, found.free) else { return };
+        let sides = [-PACE[1], PACE[1]].map(|way| {
+            let side = moved::<M>(&self.problem.facts(), &home.q, held, way);
+            self.problem.settled(side, held)
+        });
+        let most = home.most;
+        let mut walk = Walk { found: Found { free: 0, ..*found }, best: home.clone(), home, most };
+        if let [Some(before), Some(behind)] = &sides {
+            self.dip(&walk.found, [before, &walk.home, behind]);
+        }
+        for side in sides.into_iter().flatten() {
+            if self.leads_home(&mut walk, side, starts) {
+                break;
+            }
+        }
+        if walk.most <= WHOLE {
+            self.keep_whole_curve(found, walk.best.q);
+        }
+    }
+
+    /// Walks from home through `at` until the curve closes or ends; whether it closed.
+    fn leads_home(&mut self, walk: &mut Walk<M>, mut at: Place<M>, starts: &mut Starts<M>) -> bool {
+        let (mut before, mut pace, mut last, mut is_away) = (walk.home.clone(), PACE[1], PACE[1], false);
+        self.change(&walk.found, &before, &at);
+        for _ in 0..PACES {
+            let facts = self.problem.facts();
+            starts.pass(&facts, &at.q);
+            walk.pass(&at);
+            let way = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
+            is_away |= way > 3.0 * PACE[2];
+            if is_away && way <= PACE[2] {
+                self.change(&walk.found, &at, &walk.home);
+                return true;
+            }
+            let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else { return false };
+            self.change(&walk.found, &at, &next);
+            self.dip(&walk.found, [&before, &at, &next]);
+            (before, at, last) = (at, next, length);
+        }
+        false
+    }
+
+    /// Keeps the answer between two places where what is missed changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt,
+    /// BIT 11 (1971) 168-174).
+    fn change(&mut self, found: &Found, a: &Place<M>, b: &Place<M>) {
+        if a.along(b) > 0.0 || f64::max(a.most, b.most) <= ALONE {
+            return;
+        }
+        let unit = if a.most > b.most { a } else { b };
+        let (mut low, mut high) = (a.along(unit), b.along(unit));
+        let (mut near, mut far, mut side) = (a.clone(), b.clone(), 0.0);
+        for _ in 0..NARROWED {
+            let Some(middle) = self.problem.between(&near, &far, low / (low - high)) else { break };
+            let (value, is_exact) = (middle.along(unit), middle.most <= ROUNDING);
+            if (value <= 0.0) == (low <= 0.0) {
+                high = if side < 0.0 { 0.5 * high } else { far.along(unit) };
+                (near, low, side) = (middle, value, -1.0);
+            } else {
+                low = if side > 0.0 { 0.5 * low } else { near.along(unit) };
+                (far, high, side) = (middle, value, 1.0);
+            }
+            if is_exact {
+                break;
+            }
+        }
+        self.keep_on_curve(found, if near.most <= far.most { near.q } else { far.q });
+    }
+
+    /// Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola.
+    fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
+        let is_dip = f64::min(a.along(b), c.along(b)) > b.along(b) && f64::max(a.most, c.most) > ALONE;
+        if !is_dip {
+            return;
+        }
+        let (mut least, mut sides) = (b.clone(), [a.clone(), c.clone()]);
+        for round in 0..VERTICES {
+            if least.most <= ALONE {
+                break;
+            }
+            let Some(vertex) = self.problem.vertex(&least, &sides) else {
+                if round == 0 {
+                    return;
+                }
+                break;
+            };
+            if vertex.along(&least) < 0.0 {
+                sides.iter().for_each(|side| self.change(found, &vertex, side));
+                return;
+            }
+            let narrower = sides.each_ref().map(|side| self.problem.between(&vertex, side, NARROWER));
+            least = vertex;
+            let [Some(before), Some(behind)] = narrower else { break };
+            sides = [before, behind];
+        }
+        self.keep_on_curve(found, least.q);
+    }
+
+    /// Keeps what a place on a curve is polished to, if that is an answer that is not known.
+    fn keep_on_curve(&mut self, found: &Found, q: Joints<M>) {
+        let end = self.problem.polished(q, 0);
+        let (facts, known) = (self.problem.facts(), &self.out[..self.count]);
+        let is_same = |other: &Joints<M>| facts.is_within(other.as_ref(), end.0.as_ref(), MERGE);
+        if !known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
+            self.keep(found, end);
+        }
+    }
+
+    /// Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves.
+    fn keep_whole_curve(&mut self, found: &Found, q: Joints<M>) {
+        let end = self.problem.polished(q, found.free);
+        let moving = || self.problem.joint_on_self_motion(&end.0, end.1.relative);
+        let free = if found.free == 0 { moving() } else { Some(found.free) };
+        if let Some(free) = free {
+            self.keep(&Found { free, ..*found }, end);
+        }
+    }
+}
+
+impl<M: Mechanism> Problem<'_, M> {
+    /// The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is, the one that moves farthest where the
+    /// equations hardly change.
+    fn start(&self, q: Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
+        let held = if free == 0 { farthest(self.stillest(&q)?.0.as_ref()) } else { free.trailing_zeros() as usize };
+        Some((self.settled(q, held)?, held))
+    }
+
+    /// Least-squares steps with one joint held, until they are short.
+    fn settled(&self, mut q: Joints<M>, held: usize) -> Option<Place<M>> {
+        for _ in 0..ROUNDS {
+            let (derivatives, mut miss) = self.shared(&q);
+            let step = self.triangle_of(&derivatives, &miss, 0.0, 1 << held).substituted()?;
+            let longest = self.facts().longest(step.as_ref());
+            if longest > BOUND {
+                return None;
+            }
+            q = stepped::<M>(&self.facts(), &q, &step);
+            if longest <= SETTLED {
+                for (value, row) in miss.as_mut().iter_mut().zip(derivatives.as_ref()) {
+                    let slopes = row.as_ref().iter().zip(step.as_ref());
+                    *value = slopes.fold(*value, |rest, (slope, way)| rest - slope * way);
+                }
+                let most = miss.as_ref().iter().fold(0.0, |most, value| f64::max(most, value.abs()));
+                return (most <= NEAR).then_some(Place { q, miss, most });
+            }
+        }
+        None
+    }
+
+    /// The place on the curve at a share of the way from `a` to `b`.
+    fn between(&self, a: &Place<M>, b: &Place<M>, share: f64) -> Option<Place<M>> {
+        let facts = self.facts();
+        let held = farthest(differences::<M>(&facts, &b.q, &a.q).as_ref());
+        self.settled(beyond::<M>(&facts, &b.q, &a.q, -share), held)
+    }
+
+    /// A step along the curve from `at`, shorter where it bends, and its length; none where the curve ends.
+    fn pace(&self, before: &Place<M>, at: &Place<M>, last: f64, pace: &mut f64) -> Option<(Place<M>, f64)> {
+        let facts = self.facts();
+        let held = farthest(differences::<M>(&facts, &at.q, &before.q).as_ref());
+        while *pace >= PACE[0] {
+            let ahead = beyond::<M>(&facts, &before.q, &at.q, *pace / last);
+            let is_straight = |next: &Place<M>| facts.farthest(next.q.as_ref(), ahead.as_ref()) <= STRAIGHT * *pace;
+            if let Some(next) = self.settled(ahead.clone(), held).filter(is_straight) {
+                let length = facts.farthest(next.q.as_ref(), at.q.as_ref());
+                *pace = f64::min(2.0 * *pace, PACE[2]);
+                return Some((next, length));
+            }
+            *pace *= 0.5;
+        }
+        None
+    }
+
+    /// Where a parabola through what three places miss is least, if the one between misses less than the others.
+    fn vertex(&self, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<Place<M>> {
+        let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(least));
+        let [before, behind] = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
+        let (fall, rise) = ((middle - low) / before, (high - middle) / behind);
+        let way = 0.5 * (fall * behind + rise * before) / (fall - rise);
+        let is_dip = low > middle && high > middle;
+        let (side, length) = if way < 0.0 { (&sides[0], before) } else { (&sides[1], behind) };
+        if is_dip { self.between(least, side, way.abs() / length) } else { None }
+    }
+}
+
+/// The place of the entry with the greatest magnitude, the first of equals.
+fn farthest(way: &[f64]) -> usize {
+    let farther = |best: usize, i: usize| if way[i].abs() > way[best].abs() { i } else { best };
+    (1..way.len()).fold(0, farther)
+}
