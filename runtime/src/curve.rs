@@ -19,18 +19,24 @@ const ROUNDS: usize = 6;
 const BOUND: f64 = 0.5;
 /// The last one moves no joint by more.
 const SETTLED: f64 = 1e-8;
+/// Where another joint too hardly changes the equations, by this share of what others do, there is more than a curve.
+const RANK: f64 = 1e-3;
 /// The shortest, the first and the longest step along the curve (rad, or relative to the length scale).
 const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
 /// The most steps of a walk in one direction.
 const PACES: usize = 400;
 /// A step leads to no other curve where it ends no farther from the line of the step before than this share of its length.
 const STRAIGHT: f64 = 0.5;
+/// The square of the least cosine between what two places next to each other miss.
+const ALIGNED: f64 = 0.5;
+/// How many times as much the square of what is missed may be at one of them as at the other.
+const FEWFOLD: f64 = 30.0;
 /// Rounds of the false position between two steps.
 const NARROWED: usize = 24;
-/// How many parabolas tell where a curve misses least, each so much narrower than the one before.
-const VERTICES: usize = 3;
-/// How much.
-const NARROWER: f64 = 0.1;
+/// Where a parabola's vertex misses more than this share of what the place before missed, the curve may stay away from zero.
+const FALLEN: f64 = 0.5;
+/// It does where so many do.
+const STALLS: usize = 2;
 /// A curve that misses no more than this all along is a self-motion: next to one that is exact an answer's tolerance has room for it.
 const WHOLE: f64 = 10.0 * ACCEPT;
 
@@ -71,6 +77,13 @@ impl<M: Mechanism> Place<M> {
     fn along(&self, other: &Place<M>) -> f64 {
         let both = self.miss.as_ref().iter().zip(other.miss.as_ref());
         both.fold(0.0, |sum, (a, b)| sum + a * b)
+    }
+
+    /// Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked.
+    fn goes_on(&self, other: &Place<M>) -> bool {
+        let [here, there, along] = [self.along(self), other.along(other), self.along(other)];
+        let is_aligned = along * along > ALIGNED * here * there;
+        is_aligned && (along < 0.0 || f64::max(here, there) <= FEWFOLD * f64::min(here, there))
     }
 }
 
@@ -138,6 +151,9 @@ impl<M: Mechanism> Answers<'_, M> {
         });
         let most = home.most;
         let mut walk = Walk { found: Found { free: 0, ..*found }, best: home.clone(), home, most };
+        if walk.home.most <= ALONE {
+            self.keep_on_curve(&walk.found, walk.home.q.clone());
+        }
         if let [Some(before), Some(behind)] = &sides {
             self.dip(&walk.found, [before, &walk.home, behind]);
         }
@@ -168,6 +184,9 @@ impl<M: Mechanism> Answers<'_, M> {
             let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else { return false };
             self.change(&walk.found, &at, &next);
             self.dip(&walk.found, [&before, &at, &next]);
+            if at.most > ALONE && next.most <= ALONE {
+                self.keep_on_curve(&walk.found, next.q.clone());
+            }
             (before, at, last) = (at, next, length);
         }
         false
@@ -201,41 +220,40 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola.
     fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
-        let is_dip = f64::min(a.along(b), c.along(b)) > b.along(b) && f64::max(a.most, c.most) > ALONE;
-        if !is_dip {
+        let is_dip = f64::min(a.along(b), c.along(b)) > b.along(b);
+        if !is_dip || b.most <= ALONE {
             return;
         }
-        let (mut least, mut sides) = (b.clone(), [a.clone(), c.clone()]);
-        for round in 0..VERTICES {
-            if least.most <= ALONE {
-                break;
-            }
-            let Some(vertex) = self.problem.vertex(&least, &sides) else {
-                if round == 0 {
-                    return;
-                }
-                break;
-            };
+        let (mut least, mut sides, mut stalls) = (b.clone(), [a.clone(), c.clone()], 0);
+        while least.most > ALONE && stalls < STALLS {
+            let Some((side, vertex)) = self.problem.vertex(&least, &sides) else { break };
             if vertex.along(&least) < 0.0 {
-                sides.iter().for_each(|side| self.change(found, &vertex, side));
-                return;
+                return sides.iter().for_each(|side| self.change(found, &vertex, side));
             }
-            let narrower = sides.each_ref().map(|side| self.problem.between(&vertex, side, NARROWER));
-            least = vertex;
-            let [Some(before), Some(behind)] = narrower else { break };
-            sides = [before, behind];
+            if vertex.most > FALLEN * least.most {
+                stalls += 1;
+            }
+            if vertex.most < least.most {
+                sides[1 - side] = core::mem::replace(&mut least, vertex);
+            } else {
+                sides[side] = vertex;
+            }
         }
-        self.keep_on_curve(found, least.q);
+        if least.most <= FALLEN * b.most {
+            self.keep_on_curve(found, least.q);
+        }
     }
 
-    /// Keeps what a place on a curve is polished to, if that is an answer that is not known.
+    /// Keeps what a place on a curve is polished to, if that is an answer that is not known: a member of a self-motion where one joint moves.
     fn keep_on_curve(&mut self, found: &Found, q: Joints<M>) {
         let end = self.problem.polished(q, 0);
         let (facts, known) = (self.problem.facts(), &self.out[..self.count]);
         let is_same = |other: &Joints<M>| facts.is_within(other.as_ref(), end.0.as_ref(), MERGE);
-        if !known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
-            self.keep(found, end);
+        if known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
+            return;
         }
+        let moving = if end.1.relative <= ALONE { self.problem.joint_on_self_motion(&end.0, end.1.relative) } else { None };
+        self.keep(&Found { free: moving.unwrap_or(0), ..*found }, end);
     }
 
     /// Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves.
@@ -254,7 +272,8 @@ impl<M: Mechanism> Problem<'_, M> {
     /// equations hardly change.
     fn start(&self, q: Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
         let held = if free == 0 { farthest(self.stillest(&q)?.0.as_ref()) } else { free.trailing_zeros() as usize };
-        Some((self.settled(q, held)?, held))
+        let place = self.settled(q, held)?;
+        (self.regularity_of(&place.q, 1 << held) > RANK).then_some((place, held))
     }
 
     /// Least-squares steps with one joint held, until they are short.
@@ -292,7 +311,10 @@ impl<M: Mechanism> Problem<'_, M> {
         let held = farthest(differences::<M>(&facts, &at.q, &before.q).as_ref());
         while *pace >= PACE[0] {
             let ahead = beyond::<M>(&facts, &before.q, &at.q, *pace / last);
-            let is_straight = |next: &Place<M>| facts.farthest(next.q.as_ref(), ahead.as_ref()) <= STRAIGHT * *pace;
+            let is_straight = |next: &Place<M>| {
+                let is_near = facts.farthest(next.q.as_ref(), ahead.as_ref()) <= STRAIGHT * *pace;
+                is_near && (*pace <= PACE[1] || next.goes_on(at))
+            };
             if let Some(next) = self.settled(ahead.clone(), held).filter(is_straight) {
                 let length = facts.farthest(next.q.as_ref(), at.q.as_ref());
                 *pace = f64::min(2.0 * *pace, PACE[2]);
@@ -303,15 +325,14 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where a parabola through what three places miss is least, if the one between misses less than the others.
-    fn vertex(&self, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<Place<M>> {
+    /// Where a parabola through what three places miss is least, the one between missing less than the others, and towards which of these that is.
+    fn vertex(&self, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(least));
-        let [before, behind] = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
-        let (fall, rise) = ((middle - low) / before, (high - middle) / behind);
-        let way = 0.5 * (fall * behind + rise * before) / (fall - rise);
-        let is_dip = low > middle && high > middle;
-        let (side, length) = if way < 0.0 { (&sides[0], before) } else { (&sides[1], behind) };
-        if is_dip { self.between(least, side, way.abs() / length) } else { None }
+        let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
+        let (fall, rise) = ((middle - low) / lengths[0], (high - middle) / lengths[1]);
+        let way = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+        let side = usize::from(way >= 0.0);
+        Some((side, self.between(least, &sides[side], way.abs() / lengths[side])?))
     }
 }
 

@@ -11,8 +11,11 @@
 #define GB_CURVE_PACES 400
 #define GB_CURVE_STRAIGHT R(0.5)
 #define GB_CURVE_NARROWED 24
-#define GB_CURVE_VERTICES 3
-#define GB_CURVE_NARROWER R(0.1)
+#define GB_CURVE_FALLEN R(0.5)
+#define GB_CURVE_STALLS 2
+#define GB_CURVE_RANK GB_EITHER(1e-3, 1e-2)
+#define GB_CURVE_ALIGNED R(0.5)
+#define GB_CURVE_FEWFOLD R(30.0)
 #define GB_CURVE_WHOLE (R(10.0) * GB_ACCEPT)
 /* The shortest, the first and the longest step along a curve. */
 static const gb_real gb_curve_pace[] = {R(1.5e-3), R(2.5e-2), R(0.1)};
@@ -60,6 +63,13 @@ static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_s
         sum = sum + a->miss[i] * b->miss[i];
     }
     return sum;
+}
+
+/* Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked. */
+static bool gb_goes_on(const gb_mechanism *m, const gb_spot *spot, const gb_spot *other)
+{
+    const gb_real here = gb_miss_along(m, spot, spot), there = gb_miss_along(m, other, other), along = gb_miss_along(m, spot, other);
+    return along * along > GB_CURVE_ALIGNED * here * there && (along < R(0.0) || gb_larger(here, there) <= GB_CURVE_FEWFOLD * gb_smaller(here, there));
 }
 
 /* Least-squares steps from `spot->q` with one joint held, until they are short; false where they are not. */
@@ -111,7 +121,7 @@ static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint3
         }
     }
     gb_copy(spot->q, q, joints);
-    return gb_settle_on_curve(problem, *held, spot);
+    return gb_settle_on_curve(problem, *held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << *held) > GB_CURVE_RANK;
 }
 
 /* The place on the curve at a share of the way from `a` to `b`. */
@@ -131,7 +141,8 @@ static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_s
         gb_real ahead[GB_MAX_JOINTS];
         gb_beyond(m, before->q, at->q, *pace / *last, ahead);
         gb_copy(next->q, ahead, m->joints);
-        if (gb_settle_on_curve(problem, held, next) && gb_farthest(m, next->q, ahead) <= GB_CURVE_STRAIGHT * *pace) {
+        if (gb_settle_on_curve(problem, held, next) && gb_farthest(m, next->q, ahead) <= GB_CURVE_STRAIGHT * *pace
+            && (*pace <= gb_curve_pace[1] || gb_goes_on(m, next, at))) {
             *last = gb_farthest(m, next->q, at->q);
             *pace = gb_smaller(R(2.0) * *pace, gb_curve_pace[2]);
             return true;
@@ -140,15 +151,18 @@ static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_s
     return false;
 }
 
-/* Keeps what a place on a curve is polished to, if that is an answer that is not known. */
+/* Keeps what a place on a curve is polished to, if that is an answer that is not known: a member of a self-motion where one joint moves. */
 static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
+    gb_found_1 moving = *found;
     gb_end end;
     gb_copy(end.q, q, all->problem.mechanism->joints);
     gb_polish_from(&all->problem, &end, 0);
-    if (!gb_is_listed(all, end.q)) {
-        gb_keep(all, found, end.q, &end.fit);
+    if (gb_is_listed(all, end.q)) {
+        return;
     }
+    moving.free = end.fit.relative <= GB_ALONE ? gb_joint_on_self_motion(&all->problem, end.q, end.fit.relative) : 0;
+    gb_keep(all, &moving, end.q, &end.fit);
 }
 
 /* Keeps the answer between two places where what is missed changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
@@ -186,49 +200,44 @@ static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_sp
     gb_keep_on_curve(all, found, near.most <= far.most ? near.q : far.q);
 }
 
-/* Where a parabola through what three places miss is least, if the one between misses less than the others. */
-static bool gb_find_vertex(const gb_problem *problem, const gb_spot *least, const gb_spot *sides, gb_spot *vertex)
+/* Where a parabola through what three places miss is least, the one between missing less than the others, and towards which of these that is. */
+static bool gb_find_vertex(const gb_problem *problem, const gb_spot *least, const gb_spot *sides, size_t *side, gb_spot *vertex)
 {
     const gb_mechanism *m = problem->mechanism;
     const gb_real low = gb_miss_along(m, &sides[0], least), middle = gb_miss_along(m, least, least), high = gb_miss_along(m, &sides[1], least);
-    const gb_real before = gb_farthest(m, sides[0].q, least->q), behind = gb_farthest(m, sides[1].q, least->q);
-    const gb_real fall = (middle - low) / before, rise = (high - middle) / behind;
-    const gb_real way = R(0.5) * (fall * behind + rise * before) / (fall - rise);
-    const gb_spot *side = way < R(0.0) ? &sides[0] : &sides[1];
-    return low > middle && high > middle && gb_between_spots(problem, least, side, gb_magnitude(way) / (way < R(0.0) ? before : behind), vertex);
+    const gb_real lengths[2] = {gb_farthest(m, sides[0].q, least->q), gb_farthest(m, sides[1].q, least->q)};
+    const gb_real fall = (middle - low) / lengths[0], rise = (high - middle) / lengths[1];
+    const gb_real way = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+    *side = way >= R(0.0);
+    return gb_between_spots(problem, least, &sides[*side], gb_magnitude(way) / lengths[*side], vertex);
 }
 
 /* Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola. */
 static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b, const gb_spot *c)
 {
-    const gb_problem *problem = &all->problem;
-    const gb_mechanism *m = problem->mechanism;
-    if (!(gb_smaller(gb_miss_along(m, a, b), gb_miss_along(m, c, b)) > gb_miss_along(m, b, b) && gb_larger(a->most, c->most) > GB_ALONE)) {
+    const gb_mechanism *m = all->problem.mechanism;
+    if (!(gb_smaller(gb_miss_along(m, a, b), gb_miss_along(m, c, b)) > gb_miss_along(m, b, b)) || b->most <= GB_ALONE) {
         return;
     }
-    gb_spot least = *b, sides[2] = {*a, *c}, narrower[2], vertex;
-    for (int round = 0; round < GB_CURVE_VERTICES && least.most > GB_ALONE; round++) {
-        if (!gb_find_vertex(problem, &least, sides, &vertex)) {
-            if (round == 0) {
-                return;
-            }
-            break;
-        }
+    gb_spot least = *b, sides[2] = {*a, *c}, vertex;
+    size_t side;
+    for (int stalls = 0; least.most > GB_ALONE && stalls < GB_CURVE_STALLS && gb_find_vertex(&all->problem, &least, sides, &side, &vertex);) {
         if (gb_miss_along(m, &vertex, &least) < R(0.0)) {
             gb_keep_change(all, found, &vertex, &sides[0]);
             gb_keep_change(all, found, &vertex, &sides[1]);
             return;
         }
-        const bool has_both = gb_between_spots(problem, &vertex, &sides[0], GB_CURVE_NARROWER, &narrower[0])
-            && gb_between_spots(problem, &vertex, &sides[1], GB_CURVE_NARROWER, &narrower[1]);
-        least = vertex;
-        if (!has_both) {
-            break;
+        stalls += vertex.most > GB_CURVE_FALLEN * least.most;
+        if (vertex.most < least.most) {
+            sides[1 - side] = least;
+            least = vertex;
+        } else {
+            sides[side] = vertex;
         }
-        sides[0] = narrower[0];
-        sides[1] = narrower[1];
     }
-    gb_keep_on_curve(all, found, least.q);
+    if (least.most <= GB_CURVE_FALLEN * b->most) {
+        gb_keep_on_curve(all, found, least.q);
+    }
 }
 
 /* Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves. */
@@ -277,6 +286,9 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
         }
         gb_keep_change(all, &curve->found, &at, &next);
         gb_keep_dip(all, &curve->found, &before, &at, &next);
+        if (at.most > GB_ALONE && next.most <= GB_ALONE) {
+            gb_keep_on_curve(all, &curve->found, next.q);
+        }
         before = at;
         at = next;
     }
@@ -303,6 +315,9 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
     curve.found.free = 0;
     curve.best = curve.home;
     curve.most = curve.home.most;
+    if (curve.home.most <= GB_ALONE) {
+        gb_keep_on_curve(all, &curve.found, curve.home.q);
+    }
     if (is_there[0] && is_there[1]) {
         gb_keep_dip(all, &curve.found, &sides[0], &curve.home, &sides[1]);
     }
