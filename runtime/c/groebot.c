@@ -18,7 +18,7 @@
 #define GB_STIFF R(1e-6)
 #define GB_PATIENCE 3
 #define GB_SHORT GB_EITHER(1e-9, 1e-4)
-#define GB_ADRIFT GB_EITHER(1e-7, 1e-3)
+#define GB_ADRIFT GB_EITHER(1e-6, 1e-3)
 #define GB_ASIDE R(0.1)
 #define GB_SINGULAR GB_EITHER(1e-13, 3e-5)
 #define GB_REGULAR GB_EITHER(1e-6, 1e-2)

@@ -33,6 +33,8 @@ const ALIGNED: f64 = 0.5;
 const FEWFOLD: f64 = 30.0;
 /// Rounds of the false position between two steps.
 const NARROWED: usize = 24;
+/// The most parabolas that tell where a curve misses least.
+const PARABOLAS: usize = 12;
 /// Where a parabola's vertex misses more than this share of what the place before missed, the curve may stay away from zero.
 const FALLEN: f64 = 0.5;
 /// It does where so many do.
@@ -220,26 +222,29 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola.
     fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
-        let is_dip = f64::min(a.along(b), c.along(b)) > b.along(b);
-        if !is_dip || b.most <= ALONE {
+        let unit = if a.most > c.most { a } else { c };
+        let (middle, ends) = (b.along(unit), f64::min(a.along(unit), c.along(unit)));
+        let is_zero = b.most <= ALONE;
+        if !(f64::min(a.most, c.most) > ALONE && ends > middle && (is_zero || middle > 0.0)) {
             return;
         }
         let (mut least, mut sides, mut stalls) = (b.clone(), [a.clone(), c.clone()], 0);
-        while least.most > ALONE && stalls < STALLS {
-            let Some((side, vertex)) = self.problem.vertex(&least, &sides) else { break };
-            if vertex.along(&least) < 0.0 {
+        for _ in 0..PARABOLAS {
+            let Some((side, vertex)) = self.problem.vertex(unit, &least, &sides) else { break };
+            if vertex.along(unit) < 0.0 {
                 return sides.iter().for_each(|side| self.change(found, &vertex, side));
             }
-            if vertex.most > FALLEN * least.most {
-                stalls += 1;
-            }
+            stalls += usize::from(vertex.most > FALLEN * least.most);
             if vertex.most < least.most {
                 sides[1 - side] = core::mem::replace(&mut least, vertex);
             } else {
                 sides[side] = vertex;
             }
+            if least.most > ALONE && stalls >= STALLS {
+                break;
+            }
         }
-        if least.most <= FALLEN * b.most {
+        if is_zero || least.most <= FALLEN * b.most {
             self.keep_on_curve(found, least.q);
         }
     }
@@ -325,9 +330,9 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where a parabola through what three places miss is least, the one between missing less than the others, and towards which of these that is.
-    fn vertex(&self, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
-        let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(least));
+    /// Where a parabola through what three places miss of a direction is least, the one between missing less than the others, and towards which of these that is.
+    fn vertex(&self, unit: &Place<M>, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
+        let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
         let (fall, rise) = ((middle - low) / lengths[0], (high - middle) / lengths[1]);
         let way = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);

@@ -61,7 +61,7 @@ pub const POLISHED: f64 = 1e-15;
 pub const SHORT: f64 = 1e-9;
 /// A member of a self-motion that misses the equations by more than [`ROUNDING`] and no more than this share of their size, by rounding in the
 /// blocks before, is polished with its free joints held: what stands beside it is told from it by rounding alone.
-pub const ADRIFT: f64 = 1e-7;
+pub const ADRIFT: f64 = 1e-6;
 /// So near a stratum, by what its candidates miss the equations by, rounding may hide an answer of the cases before where these come to the end of what
 /// is within reach.
 pub const DOUBTED: f64 = 1e-9;

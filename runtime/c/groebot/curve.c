@@ -11,6 +11,7 @@
 #define GB_CURVE_PACES 400
 #define GB_CURVE_STRAIGHT R(0.5)
 #define GB_CURVE_NARROWED 24
+#define GB_CURVE_PARABOLAS 12
 #define GB_CURVE_FALLEN R(0.5)
 #define GB_CURVE_STALLS 2
 #define GB_CURVE_RANK GB_EITHER(1e-3, 1e-2)
@@ -200,11 +201,11 @@ static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_sp
     gb_keep_on_curve(all, found, near.most <= far.most ? near.q : far.q);
 }
 
-/* Where a parabola through what three places miss is least, the one between missing less than the others, and towards which of these that is. */
-static bool gb_find_vertex(const gb_problem *problem, const gb_spot *least, const gb_spot *sides, size_t *side, gb_spot *vertex)
+/* Where a parabola through what three places miss of a direction is least, the one between missing less than the others, and towards which of these that is. */
+static bool gb_find_vertex(const gb_problem *problem, const gb_spot *unit, const gb_spot *least, const gb_spot *sides, size_t *side, gb_spot *vertex)
 {
     const gb_mechanism *m = problem->mechanism;
-    const gb_real low = gb_miss_along(m, &sides[0], least), middle = gb_miss_along(m, least, least), high = gb_miss_along(m, &sides[1], least);
+    const gb_real low = gb_miss_along(m, &sides[0], unit), middle = gb_miss_along(m, least, unit), high = gb_miss_along(m, &sides[1], unit);
     const gb_real lengths[2] = {gb_farthest(m, sides[0].q, least->q), gb_farthest(m, sides[1].q, least->q)};
     const gb_real fall = (middle - low) / lengths[0], rise = (high - middle) / lengths[1];
     const gb_real way = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
@@ -216,13 +217,17 @@ static bool gb_find_vertex(const gb_problem *problem, const gb_spot *least, cons
 static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b, const gb_spot *c)
 {
     const gb_mechanism *m = all->problem.mechanism;
-    if (!(gb_smaller(gb_miss_along(m, a, b), gb_miss_along(m, c, b)) > gb_miss_along(m, b, b)) || b->most <= GB_ALONE) {
+    const gb_spot unit = a->most > c->most ? *a : *c;
+    const gb_real middle = gb_miss_along(m, b, &unit), ends = gb_smaller(gb_miss_along(m, a, &unit), gb_miss_along(m, c, &unit));
+    const bool is_zero = b->most <= GB_ALONE;
+    if (!(gb_smaller(a->most, c->most) > GB_ALONE && ends > middle && (is_zero || middle > R(0.0)))) {
         return;
     }
     gb_spot least = *b, sides[2] = {*a, *c}, vertex;
     size_t side;
-    for (int stalls = 0; least.most > GB_ALONE && stalls < GB_CURVE_STALLS && gb_find_vertex(&all->problem, &least, sides, &side, &vertex);) {
-        if (gb_miss_along(m, &vertex, &least) < R(0.0)) {
+    int stalls = 0;
+    for (int k = 0; k < GB_CURVE_PARABOLAS && gb_find_vertex(&all->problem, &unit, &least, sides, &side, &vertex); k++) {
+        if (gb_miss_along(m, &vertex, &unit) < R(0.0)) {
             gb_keep_change(all, found, &vertex, &sides[0]);
             gb_keep_change(all, found, &vertex, &sides[1]);
             return;
@@ -234,8 +239,11 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
         } else {
             sides[side] = vertex;
         }
+        if (least.most > GB_ALONE && stalls >= GB_CURVE_STALLS) {
+            break;
+        }
     }
-    if (least.most <= GB_CURVE_FALLEN * b->most) {
+    if (is_zero || least.most <= GB_CURVE_FALLEN * b->most) {
         gb_keep_on_curve(all, found, least.q);
     }
 }
