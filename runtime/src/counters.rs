@@ -24,8 +24,16 @@ pub enum Phase {
 
 impl Phase {
     /// All phases, in the order of [`take`]'s rows.
-    pub const ALL: [Phase; 8] =
-        [Phase::Walk, Phase::Waiting, Phase::Polish, Phase::Around, Phase::Twin, Phase::Member, Phase::Curve, Phase::Compare];
+    pub const ALL: [Phase; 8] = [
+        Phase::Walk,
+        Phase::Waiting,
+        Phase::Polish,
+        Phase::Around,
+        Phase::Twin,
+        Phase::Member,
+        Phase::Curve,
+        Phase::Compare,
+    ];
 }
 
 /// What is counted of each phase.

@@ -6,7 +6,7 @@
 
 use crate::answers::Answers;
 use crate::counters::Phase;
-use crate::joints::{beyond, differences, moved, stepped};
+use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Facts, Found, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::tolerances::{ACCEPT, ALONE, MERGE, NEAR, ROUNDING};
@@ -123,12 +123,13 @@ impl<M: Mechanism> Answers<'_, M> {
     pub fn begin_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
         let _phase = Phase::Curve.begin();
         // Another candidate's numbers that follow from no joint would not fit.
-        let place = if self.problem.facts().has_extras { None } else { self.problem.start(q.clone(), found.free) };
-        let Some((start, _)) = place else { return false };
+        let place = if self.problem.facts().has_extras { None } else { self.problem.start(q, found.free) };
+        let Some((start, held)) = place else { return false };
+        let free = if is_in(found.free, held) { found.free } else { 0 };
         if self.starts.as_ref().is_some_and(|starts| starts.count == ROOM) {
             self.walk_curves();
         }
-        self.starts.get_or_insert(Starts::NONE).add(*found, start.q);
+        self.starts.get_or_insert(Starts::NONE).add(Found { free, ..*found }, start.q);
         true
     }
 
@@ -146,7 +147,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Walks along the curve next to a candidate, both ways if it does not close; of one that misses nothing, a self-motion, a member is kept.
     fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
-        let Some((home, held)) = self.problem.start(q, found.free) else { return };
+        let Some((home, held)) = self.problem.start(&q, found.free) else { return };
         let sides = [-PACE[1], PACE[1]].map(|way| {
             let side = moved::<M>(&self.problem.facts(), &home.q, held, way);
             self.problem.settled(side, held)
@@ -257,7 +258,8 @@ impl<M: Mechanism> Answers<'_, M> {
         if known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
             return;
         }
-        let moving = if end.1.relative <= ALONE { self.problem.joint_on_self_motion(&end.0, end.1.relative) } else { None };
+        let moving =
+            if end.1.relative <= ALONE { self.problem.joint_on_self_motion(&end.0, end.1.relative) } else { None };
         self.keep(&Found { free: moving.unwrap_or(0), ..*found }, end);
     }
 
@@ -273,12 +275,13 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is, the one that moves farthest where the
-    /// equations hardly change.
-    fn start(&self, q: Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
-        let held = if free == 0 { farthest(self.stillest(&q)?.0.as_ref()) } else { free.trailing_zeros() as usize };
-        let place = self.settled(q, held)?;
-        (self.regularity_of(&place.q, 1 << held) > RANK).then_some((place, held))
+    /// The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is or others move without it, the one that
+    /// moves farthest where the equations hardly change.
+    fn start(&self, q: &Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
+        let is_curve = |(place, held): &(Place<M>, usize)| self.regularity_of(&place.q, 1 << held) > RANK;
+        let place_of = |held: usize| self.settled(q.clone(), held).map(|place| (place, held)).filter(is_curve);
+        let of_free = if free == 0 { None } else { place_of(free.trailing_zeros() as usize) };
+        of_free.or_else(|| place_of(farthest(self.stillest(q)?.0.as_ref())))
     }
 
     /// Least-squares steps with one joint held, until they are short.

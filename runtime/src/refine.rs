@@ -10,7 +10,8 @@ use crate::problem::{End, Fit};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{
-    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP, TWIN, TWINS_AT,
+    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP, TWIN,
+    TWINS_AT,
 };
 
 /// The most answers of a target.
@@ -41,7 +42,7 @@ impl<M: Mechanism> Answers<'_, M> {
         if found.close {
             self.doubted = number;
         }
-        if is_nearby && is_beside && self.is_curve(found, &end) && miss >= ROUNDING {
+        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end) {
             return self.miss(end);
         }
         if (ROUNDING..=NEAR).contains(&miss) {
@@ -57,6 +58,18 @@ impl<M: Mechanism> Answers<'_, M> {
             self.twin(found, &end.0, missed);
         }
         self.keep(found, end);
+    }
+
+    /// Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to
+    /// an end on a curve.
+    fn leads_to_curve(&mut self, found: &Found, (q, is_beside): (&Joints<M>, bool), end: &End<M>) -> bool {
+        if is_beside && self.is_curve(found, end) && end.1.relative >= ROUNDING {
+            return true;
+        }
+        if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > BLUR {
+            self.begin_curve(found, q);
+        }
+        false
     }
 
     /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
@@ -75,7 +88,8 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed.
     fn is_curve(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
-        let is_singular = (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && self.problem.regularity(q) <= REGULAR;
+        let is_singular =
+            (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && self.problem.regularity(q) <= REGULAR;
         is_singular && self.begin_curve(found, q)
     }
 

@@ -106,23 +106,30 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
     return false;
 }
 
-/* The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is, the one that moves farthest where the
- * equations hardly change. */
+/* The place next to joints that is come to with one joint held; whether it is on a curve, along which all others follow. */
+static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t held, gb_spot *spot)
+{
+    gb_copy(spot->q, q, problem->mechanism->joints);
+    return gb_settle_on_curve(problem, held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << held) > GB_CURVE_RANK;
+}
+
+/* The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is or others move without it, the one that moves
+ * farthest where the equations hardly change. */
 static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
 {
-    const size_t joints = problem->mechanism->joints;
     gb_real way[GB_MAX_JOINTS], share;
-    if (free == 0 && !gb_stillest(problem, q, way, &share)) {
-        return false;
-    }
-    if (free == 0) {
-        *held = gb_greatest(way, joints);
-    } else {
+    if (free != 0) {
         for (*held = 0; !gb_is_in(free, *held); (*held)++) {
         }
+        if (gb_start_with(problem, q, *held, spot)) {
+            return true;
+        }
     }
-    gb_copy(spot->q, q, joints);
-    return gb_settle_on_curve(problem, *held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << *held) > GB_CURVE_RANK;
+    if (!gb_stillest(problem, q, way, &share)) {
+        return false;
+    }
+    *held = gb_greatest(way, problem->mechanism->joints);
+    return gb_start_with(problem, q, *held, spot);
 }
 
 /* The place on the curve at a share of the way from `a` to `b`. */
@@ -365,6 +372,7 @@ static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_re
     }
     const size_t k = all->starts.count++;
     all->starts.found[k] = *found;
+    all->starts.found[k].free = gb_is_in(found->free, held) ? found->free : 0;
     all->starts.is_open[k] = true;
     gb_copy(all->starts.q[k], start.q, m->joints);
     return true;

@@ -480,6 +480,19 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
     gb_keep(all, found, start.q, &start.fit);
 }
 
+/* Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to an end
+ * on a curve. */
+static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end)
+{
+    if (is_beside && gb_is_curve(all, found, end->q, &end->fit) && end->fit.relative >= GB_ROUNDING) {
+        return true;
+    }
+    if (gb_farthest(all->problem.mechanism, q, end->q) > GB_BLUR) {
+        gb_begin_curve(all, found, q);
+    }
+    return false;
+}
+
 /* Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too. */
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q)
 {
@@ -499,7 +512,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;
-    if (is_nearby && is_beside && gb_is_curve(all, found, end.q, &end.fit) && miss >= GB_ROUNDING) {
+    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
