@@ -85,7 +85,8 @@ impl<M: Mechanism> Place<M> {
     fn goes_on(&self, other: &Place<M>) -> bool {
         let [here, there, along] = [self.along(self), other.along(other), self.along(other)];
         let is_aligned = along * along > ALIGNED * here * there;
-        is_aligned && (along < 0.0 || f64::max(here, there) <= FEWFOLD * f64::min(here, there))
+        let is_flat = (ROUNDING..=WHOLE).contains(&self.most);
+        is_aligned && !is_flat && (along < 0.0 || f64::max(here, there) <= FEWFOLD * f64::min(here, there))
     }
 }
 
@@ -187,8 +188,9 @@ impl<M: Mechanism> Answers<'_, M> {
             let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else { return false };
             self.change(&walk.found, &at, &next);
             self.dip(&walk.found, [&before, &at, &next]);
-            if at.most > ALONE && next.most <= ALONE {
-                self.keep_on_curve(&walk.found, next.q.clone());
+            // Places that miss nothing but rounding are one answer, or several next to each other.
+            if (at.most <= ALONE) != (next.most <= ALONE) {
+                self.keep_on_curve(&walk.found, if at.most <= ALONE { at.q.clone() } else { next.q.clone() });
             }
             (before, at, last) = (at, next, length);
         }
@@ -231,9 +233,16 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         let (mut least, mut sides, mut stalls) = (b.clone(), [a.clone(), c.clone()], 0);
         for _ in 0..PARABOLAS {
+            if f64::max(sides[0].most, sides[1].most) <= ALONE {
+                break;
+            }
             let Some((side, vertex)) = self.problem.vertex(unit, &least, &sides) else { break };
             if vertex.along(unit) < 0.0 {
-                return sides.iter().for_each(|side| self.change(found, &vertex, side));
+                sides.iter().for_each(|side| self.change(found, &vertex, side));
+                // Rounding alone may have changed the sign.
+                return if least.most <= ALONE {
+                    self.keep_on_curve(found, least.q)
+                };
             }
             stalls += usize::from(vertex.most > FALLEN * least.most);
             if vertex.most < least.most {
@@ -258,9 +267,8 @@ impl<M: Mechanism> Answers<'_, M> {
         if known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
             return;
         }
-        let moving =
-            if end.1.relative <= ALONE { self.problem.joint_on_self_motion(&end.0, end.1.relative) } else { None };
-        self.keep(&Found { free: moving.unwrap_or(0), ..*found }, end);
+        let free = self.problem.joint_on_long_self_motion(&end.0).unwrap_or(0);
+        self.keep(&Found { free, ..*found }, end);
     }
 
     /// Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves.

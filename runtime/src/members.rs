@@ -21,6 +21,10 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
             return self.miss(end);
         }
+        let may_miss = self.problem.facts().nearby.is_some() && found.free.is_power_of_two() && !is_known;
+        if may_miss && missed > ROUNDING && self.begin_curve(found, &end.0) {
+            return;
+        }
         if (ROUNDING..=ADRIFT).contains(&missed) {
             end = self.problem.polish(end, found.free);
         }
@@ -32,10 +36,6 @@ impl<M: Mechanism> Answers<'_, M> {
             if self.suffices { self.keep_long_member(found, &end, is_known) } else { self.keep_member(found, &end) };
         self.is_another = false;
         if is_done || is_known {
-            return;
-        }
-        let is_curve = self.problem.facts().nearby.is_some() && found.free.is_power_of_two();
-        if is_curve && self.begin_curve(found, &end.0) {
             return;
         }
         end = self.problem.polish(end, 0);

@@ -20,22 +20,31 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The same within rounding, but for self-motions that go round a small part of the circle only.
     pub fn lies_on_long_self_motion(&self, q: &Joints<M>, free: u32) -> bool {
-        let leads = |way: f64| self.leads_aside(q, free, way, ROUNDING);
-        self.regularity(q) <= REGULAR && (leads(ASIDE) || leads(-ASIDE))
+        self.regularity(q) <= REGULAR && self.leads_far_aside(q, free)
+    }
+
+    fn leads_far_aside(&self, q: &Joints<M>, free: u32) -> bool {
+        self.leads_aside(q, free, ASIDE, ROUNDING) || self.leads_aside(q, free, -ASIDE, ROUNDING)
     }
 
     /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
     /// a nearby mechanism and free none, any joint.
     pub fn joint_on_self_motion(&self, q: &Joints<M>, bound: f64) -> Option<u32> {
+        let regularity = self.regularity(q);
+        self.joint_that(|free| self.leads_to_self_motion(q, free, bound, regularity))
+    }
+
+    /// The same of long self-motions within rounding.
+    pub fn joint_on_long_self_motion(&self, q: &Joints<M>) -> Option<u32> {
+        let is_singular = self.regularity(q) <= REGULAR;
+        self.joint_that(|free| is_singular && self.leads_far_aside(q, free))
+    }
+
+    fn joint_that(&self, moves: impl Fn(u32) -> bool) -> Option<u32> {
         let facts = self.facts();
         let is_any = facts.freed.is_empty() && facts.nearby.is_some();
-        if facts.freed.is_empty() && !is_any {
-            return None;
-        }
-        let regularity = self.regularity(q);
         let may = |joint: &&usize| is_any || facts.freed.contains(joint);
-        let mut alone = facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint);
-        alone.find(|free| self.leads_to_self_motion(q, *free, bound, regularity))
+        facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint).find(|free| moves(*free))
     }
 
     /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.

@@ -70,7 +70,9 @@ static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_s
 static bool gb_goes_on(const gb_mechanism *m, const gb_spot *spot, const gb_spot *other)
 {
     const gb_real here = gb_miss_along(m, spot, spot), there = gb_miss_along(m, other, other), along = gb_miss_along(m, spot, other);
-    return along * along > GB_CURVE_ALIGNED * here * there && (along < R(0.0) || gb_larger(here, there) <= GB_CURVE_FEWFOLD * gb_smaller(here, there));
+    const bool is_flat = gb_is_between(spot->most, GB_ROUNDING, GB_CURVE_WHOLE);
+    return along * along > GB_CURVE_ALIGNED * here * there && !is_flat
+        && (along < R(0.0) || gb_larger(here, there) <= GB_CURVE_FEWFOLD * gb_smaller(here, there));
 }
 
 /* Least-squares steps from `spot->q` with one joint held, until they are short; false where they are not. */
@@ -169,7 +171,7 @@ static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_listed(all, end.q)) {
         return;
     }
-    moving.free = end.fit.relative <= GB_ALONE ? gb_joint_on_self_motion(&all->problem, end.q, end.fit.relative) : 0;
+    moving.free = gb_joint_on_long_self_motion(&all->problem, end.q);
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
@@ -233,10 +235,17 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
     gb_spot least = *b, sides[2] = {*a, *c}, vertex;
     size_t side;
     int stalls = 0;
-    for (int k = 0; k < GB_CURVE_PARABOLAS && gb_find_vertex(&all->problem, &unit, &least, sides, &side, &vertex); k++) {
+    for (int k = 0; k < GB_CURVE_PARABOLAS && gb_larger(sides[0].most, sides[1].most) > GB_ALONE; k++) {
+        if (!gb_find_vertex(&all->problem, &unit, &least, sides, &side, &vertex)) {
+            break;
+        }
         if (gb_miss_along(m, &vertex, &unit) < R(0.0)) {
             gb_keep_change(all, found, &vertex, &sides[0]);
             gb_keep_change(all, found, &vertex, &sides[1]);
+            /* Rounding alone may have changed the sign. */
+            if (least.most <= GB_ALONE) {
+                gb_keep_on_curve(all, found, least.q);
+            }
             return;
         }
         stalls += vertex.most > GB_CURVE_FALLEN * least.most;
@@ -301,8 +310,9 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
         }
         gb_keep_change(all, &curve->found, &at, &next);
         gb_keep_dip(all, &curve->found, &before, &at, &next);
-        if (at.most > GB_ALONE && next.most <= GB_ALONE) {
-            gb_keep_on_curve(all, &curve->found, next.q);
+        /* Places that miss nothing but rounding are one answer, or several next to each other. */
+        if ((at.most <= GB_ALONE) != (next.most <= GB_ALONE)) {
+            gb_keep_on_curve(all, &curve->found, at.most <= GB_ALONE ? at.q : next.q);
         }
         before = at;
         at = next;

@@ -447,6 +447,10 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
         gb_miss(all, end.q, &end.fit);
         return;
     }
+    const bool may_miss = all->problem.mechanism->is_nearby && gb_is_single(found->free) && !is_known;
+    if (may_miss && missed > GB_ROUNDING && gb_begin_curve(all, found, end.q)) {
+        return;
+    }
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
@@ -457,9 +461,6 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     const bool is_done = all->suffices ? gb_keep_long_member(all, found, &end, is_known) : gb_keep_member(all, found, &end);
     all->is_another = false;
     if (is_done || is_known) {
-        return;
-    }
-    if (all->problem.mechanism->is_nearby && gb_is_single(found->free) && gb_begin_curve(all, found, end.q)) {
         return;
     }
     gb_polish(&all->problem, &end, 0);

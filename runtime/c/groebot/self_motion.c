@@ -69,11 +69,15 @@ GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real 
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
 
+static bool gb_leads_far_aside(const gb_problem *problem, const gb_real *q, uint32_t free)
+{
+    return gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING);
+}
+
 /* The same within rounding, but for self-motions that go round a small part of the circle only. */
 static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
-    return gb_regularity(problem, q) <= GB_REGULAR
-        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
+    return gb_regularity(problem, q) <= GB_REGULAR && gb_leads_far_aside(problem, q, free);
 }
 
 /* Whether a joint may be free: some case frees it, or none is freed by formulas of a nearby mechanism. */
@@ -99,6 +103,20 @@ static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real
     for (size_t i = m->joints; i-- > 0;) {
         const uint32_t free = (uint32_t)1 << m->last_first[i];
         if (gb_may_be_free(m, m->last_first[i]) && gb_leads_to_self_motion(problem, q, free, bound, regularity)) {
+            return free;
+        }
+    }
+    return 0;
+}
+
+/* The same of long self-motions within rounding. */
+static uint32_t gb_joint_on_long_self_motion(const gb_problem *problem, const gb_real *q)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const bool is_singular = gb_regularity(problem, q) <= GB_REGULAR;
+    for (size_t i = m->joints; is_singular && i-- > 0;) {
+        const uint32_t free = (uint32_t)1 << m->last_first[i];
+        if (gb_may_be_free(m, m->last_first[i]) && gb_leads_far_aside(problem, q, free)) {
             return free;
         }
     }
