@@ -8,6 +8,7 @@ use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechani
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
+use crate::steps::Steps;
 use crate::storage::Array;
 use crate::strays::{Merged, Strays};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
@@ -150,7 +151,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
         walk(mechanism, parameters, self);
         self.flush();
-        if self.strays.are_doubtful() {
+        if self.strays.are_doubtful() && !self.problem.steps.are_spent() {
             self.suffices = false;
             walk(mechanism, parameters, self);
             self.flush();
@@ -158,12 +159,13 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
 
-    /// Brings all answers into the form that callers see.
+    /// Brings all answers into the form that callers see; their number.
     #[inline(always)]
-    pub fn conclude(&mut self) {
+    pub fn conclude(&mut self) -> Result<usize, Error> {
         self.unite();
         self.sort();
         self.mark_choice();
+        settle(self.problem.steps, &mut self.out[..self.count])
     }
 
     /// Whether all candidates could be written as pairs.
@@ -254,7 +256,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let approached = if is_short {
                 Some(ways.approach(&self.problem, k, &q))
             } else if found.free == 0 {
-                self.problem.approached(&self.places_of(k), &q)
+                let at = self.places_of(k);
+                self.problem.approached(&at, &q)
             } else {
                 None
             };
@@ -294,7 +297,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     pub fn write(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
         let Found { branch, free, .. } = *found;
         let Fit { residual, relative, .. } = *fit;
-        self.out[self.count] = Solution { q, residual, relative, branch, chosen: false, free };
+        self.out[self.count] = Solution { q, residual, relative, branch, chosen: false, free, settled: true };
         self.count += 1;
     }
 
@@ -348,7 +351,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             if !self.usual {
                 return;
             }
-            pairs[self.count] = Pairs { joints, residual, branch, free };
+            pairs[self.count] = Pairs { joints, residual, branch, free, settled: true };
             self.count += 1;
         }
     }
@@ -366,6 +369,14 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
         false
     }
+}
+
+/// Marks all answers to a target that are not settled, for its steps are spent; their number.
+#[inline(always)]
+pub(crate) fn settle<M: Mechanism>(steps: &Steps, answers: &mut [Solution<M>]) -> Result<usize, Error> {
+    let are_settled = !steps.are_spent();
+    answers.iter_mut().for_each(|answer| answer.settled = are_settled);
+    if are_settled || !answers.is_empty() { Ok(answers.len()) } else { Err(Error::Unsettled) }
 }
 
 /// Apart from callers, so that the parameters are known not to change.

@@ -89,7 +89,7 @@ pub(crate) fn turned_within<M: Mechanism>(
 /// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 pub(crate) fn strides_within<M: Mechanism>(
-    problem: &Problem<'_, M>,
+    problem: &mut Problem<'_, M>,
     answer: &Solution<M>,
     limits: &Joints<M, [f64; 2]>,
 ) -> Option<(Joints<M>, f64)> {
@@ -97,7 +97,10 @@ pub(crate) fn strides_within<M: Mechanism>(
         let mut q = answer.q.clone();
         for _ in 0..STRIDES {
             let way = if i % 2 == 0 { STRIDE } else { -STRIDE };
-            let (next, fit) = problem.polished(moved::<M>(&problem.facts(), &q, i / 2, way), answer.free);
+            let (next, fit) = {
+                let start = moved::<M>(&problem.facts(), &q, i / 2, way);
+                problem.polished(start, answer.free)
+            };
             if !fit.accepted {
                 break;
             }

@@ -13,13 +13,16 @@ impl<M: Mechanism> Answers<'_, M> {
     pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
-        if is_known && !found.free.is_power_of_two() {
+        if is_known && (!found.free.is_power_of_two() || self.problem.steps.are_spent()) {
             return;
         }
         let mut end = self.problem.measured(q);
         let missed = end.1.relative;
         if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
             return self.miss(end);
+        }
+        if self.problem.steps.are_spent() {
+            return self.keep(found, end);
         }
         if (ROUNDING..=ADRIFT).contains(&missed) {
             end = self.problem.polish(end, found.free);
@@ -67,11 +70,12 @@ impl<M: Mechanism> Answers<'_, M> {
         if !(fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free)) {
             return false;
         }
-        let leads = |a: &Joints<M>| self.problem.leads_to(a, q, found.free);
+        let Answers { problem, out, count, joined, .. } = self;
+        let mut leads = |a: &Joints<M>| problem.leads_to(a, q, found.free);
         // Most often the last one is the nearest.
-        let last = self.joined.as_ref().filter(|(branch, free, _)| (*branch, *free) == (found.branch, found.free));
+        let last = joined.as_ref().filter(|(branch, free, _)| (*branch, *free) == (found.branch, found.free));
         let joins = last.is_some_and(|(_, _, last)| leads(last))
-            || self.out[..self.count].iter().any(|a| is_told(a, found) && leads(&a.q));
+            || out[..*count].iter().any(|a| is_told(a, found) && leads(&a.q));
         if joins {
             self.joined = Some((found.branch, found.free, q.clone()));
         }

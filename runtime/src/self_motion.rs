@@ -14,19 +14,20 @@ impl<M: Mechanism> Problem<'_, M> {
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
     /// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
     /// circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
-    pub fn lies_on_self_motion(&self, q: &Joints<M>, free: u32, bound: f64) -> bool {
-        self.leads_to_self_motion(q, free, bound, self.regularity(q))
+    pub fn lies_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
+        let regularity = self.regularity(q);
+        self.leads_to_self_motion(q, free, bound, regularity)
     }
 
     /// The same within rounding, but for self-motions that go round a small part of the circle only.
-    pub fn lies_on_long_self_motion(&self, q: &Joints<M>, free: u32) -> bool {
-        let leads = |way: f64| self.leads_aside(q, free, way, ROUNDING);
-        self.regularity(q) <= REGULAR && (leads(ASIDE) || leads(-ASIDE))
+    pub fn lies_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
+        let is_singular = self.regularity(q) <= REGULAR && !self.steps.are_spent();
+        is_singular && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ROUNDING))
     }
 
     /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
     /// a nearby mechanism and free none, any joint.
-    pub fn joint_on_self_motion(&self, q: &Joints<M>, bound: f64) -> Option<u32> {
+    pub fn joint_on_self_motion(&mut self, q: &Joints<M>, bound: f64) -> Option<u32> {
         let facts = self.facts();
         let is_any = facts.freed.is_empty() && facts.nearby.is_some();
         if facts.freed.is_empty() && !is_any {
@@ -39,14 +40,14 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.
-    pub fn has_member(&self, q: &Joints<M>, free: u32) -> bool {
+    pub fn has_member(&mut self, q: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polished(q.clone(), 0);
         fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
     }
 
-    fn leads_to_self_motion(&self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
+    fn leads_to_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
         let (mut way, bound) = (ASIDE, f64::max(bound, ROUNDING));
-        if regularity > REGULAR {
+        if regularity > REGULAR || self.steps.are_spent() {
             return false;
         }
         for narrow in 0..NARROWS {
@@ -63,7 +64,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
     /// may be led to a self-motion next to it, but not back.
-    fn leads_aside(&self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
+    fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
         let mut share = 1.0;
         for _ in 1..DOUBLINGS {
@@ -85,7 +86,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the joints come back to `q` on along the line from `far` through `near`.
-    fn leads_back(&self, q: &Joints<M>, free: u32, near: &Joints<M>, far: &Joints<M>, bound: f64) -> bool {
+    fn leads_back(&mut self, q: &Joints<M>, free: u32, near: &Joints<M>, far: &Joints<M>, bound: f64) -> bool {
         let mut back = beyond::<M>(&self.facts(), far, near, 1.0);
         for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
             back.as_mut()[i] = q.as_ref()[i];
@@ -95,13 +96,13 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the self-motion that `q` is a member of is a curve there, along which one free joint tells all others.
-    pub fn is_on_curve(&self, q: &Joints<M>, free: u32) -> bool {
+    pub fn is_on_curve(&mut self, q: &Joints<M>, free: u32) -> bool {
         free.is_power_of_two() && self.regularity_of(q, free) > REGULAR
     }
 
     /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
     /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
-    pub fn leads_to(&self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+    pub fn leads_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b, a);
         let long = self.other_way(&short, free);
         if self.is_straight(a, &short) || long.as_ref().is_some_and(|long| self.is_straight(a, long)) {
@@ -123,20 +124,25 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the equations hold on the straight line along `way`, as they do where axes coincide.
-    fn is_straight(&self, a: &Joints<M>, way: &Joints<M>) -> bool {
-        let at = |share: f64| Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
-        [0.5, 0.25, 0.75].iter().all(|share| self.measure(&at(*share)).relative <= ROUNDING)
+    fn is_straight(&mut self, a: &Joints<M>, way: &Joints<M>) -> bool {
+        [0.5, 0.25, 0.75].iter().all(|share| {
+            let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
+            self.measure(&at).relative <= ROUNDING
+        })
     }
 
     /// Whether the joints come to `b` as the free ones go `way` from `a` and the others follow, in steps with which they keep up; none where they
     /// do not.
-    fn leads_along(&self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
+    fn leads_along(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
         let facts = self.facts();
         let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { way.as_ref()[i] } else { 0.0 });
         let (length, [shortest, first, longest]) = (facts.longest(freed.as_ref()), ALONG);
         let (mut before, mut at) = (a.clone(), a.clone());
         let (mut gone, mut last, mut pace) = (0.0, 1.0, first);
         for _ in 0..PACES {
+            if self.steps.are_spent() {
+                return None;
+            }
             let is_last = pace >= length - gone;
             let (step, share) = if is_last { (length - gone, 1.0) } else { (pace, (gone + pace) / length) };
             let mut ahead = beyond::<M>(&facts, &before, &at, step / last);
@@ -160,7 +166,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Where the others follow to as the free joints have been moved, if that is near: by a few steps, and with more care where these come next to it.
-    fn followed(&self, ahead: Joints<M>, free: u32) -> Option<Joints<M>> {
+    fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<Joints<M>> {
         let mut end = self.measured(ahead.clone());
         for _ in 0..RETURNS {
             if end.1.accepted {
@@ -177,7 +183,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
-    fn is_there(&self, q: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+    fn is_there(&mut self, q: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(q, b, ROUNDING, free)
     }
 }

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 33] = [
+pub const RUST: [(&str, &str); 34] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -31,6 +31,7 @@ pub const RUST: [(&str, &str); 33] = [
     ("singly", include_str!("singly.rs")),
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
+    ("steps", include_str!("steps.rs")),
     ("storage", include_str!("storage.rs")),
     ("strays", include_str!("strays.rs")),
     ("tolerances", include_str!("tolerances.rs")),

@@ -1,0 +1,28 @@
+//! How much polishing a target may take: [`Steps`].
+
+use crate::counters::Event;
+
+/// What is left of the steps that a target may take ([`crate::tolerances::MOST_STEPS`]).
+pub(crate) struct Steps {
+    left: usize,
+}
+
+impl Steps {
+    /// So many steps at most.
+    pub fn at_most(most: usize) -> Self {
+        Steps { left: most }
+    }
+
+    /// Takes one.
+    #[inline(always)]
+    pub fn take(&mut self, event: Event) {
+        event.count();
+        self.left = self.left.saturating_sub(1);
+    }
+
+    /// Whether none is left: what has not been polished stays as it is.
+    #[inline(always)]
+    pub fn are_spent(&self) -> bool {
+        self.left == 0
+    }
+}
