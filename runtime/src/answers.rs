@@ -10,7 +10,7 @@ use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 use crate::storage::Array;
-use crate::strays::{Merged, Strays};
+use crate::strays::{Loners, Merged, Strays, Trails};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -35,8 +35,10 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub suffices: bool,
     /// Candidates for members of self-motions that were dropped for this.
     pub strays: Strays,
-    /// The last member of a self-motion that has been found to be on one of its branch in the list, with its branch and free joints.
-    pub joined: Option<(usize, u32, Joints<M>)>,
+    /// Answers that are no members of self-motions.
+    pub loners: Loners<M>,
+    /// Members that have been found to be on self-motions of the list.
+    pub trails: Trails<M>,
     /// Whether the member that is kept is on none of these.
     pub is_another: bool,
     /// Members with several free joints that were found to be on a self-motion of the list.
@@ -127,7 +129,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             doubted: 0,
             suffices: true,
             strays: Strays::NONE,
-            joined: None,
+            loners: Loners::NONE,
+            trails: Trails::NONE,
             is_another: false,
             merged: Merged::NONE,
             open: None,

@@ -257,7 +257,7 @@ pub(crate) fn solve_described<M: Mechanism>(
         let mut nearest = Solution::empty(mechanism);
         nearest.q = q;
         fit_to(&mut Problem::new(&described, &p, steps), &mut nearest);
-        return Ok((0, Some(nearest)));
+        return Ok((settle::<M>(steps, &mut [])?, Some(nearest)));
     }
     let member = if free == 0 { None } else { find_member(mechanism, &p, within, steps)? };
     let q = member.unwrap_or(q);

@@ -7,7 +7,8 @@ use crate::joints::{is_in, moved};
 use crate::mechanism::{Facts, Joint, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::solution::Solution;
-use crate::tolerances::{SLACK, STRIDE, STRIDES};
+use crate::steps::Steps;
+use crate::tolerances::{MOST_STEPS, SLACK, STRIDE, STRIDES};
 
 /// The most turns that are counted.
 pub const MOST_TURNS: usize = 1_000_000;
@@ -93,6 +94,7 @@ pub(crate) fn strides_within<M: Mechanism>(
     answer: &Solution<M>,
     limits: &Joints<M, [f64; 2]>,
 ) -> Option<(Joints<M>, f64)> {
+    *problem.steps = Steps::at_most(MOST_STEPS);
     for i in (0..2 * problem.joints()).filter(|i| is_in(answer.free, i / 2)) {
         let mut q = answer.q.clone();
         for _ in 0..STRIDES {

@@ -70,15 +70,11 @@ impl<M: Mechanism> Answers<'_, M> {
         if !(fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free)) {
             return false;
         }
-        let Answers { problem, out, count, joined, .. } = self;
+        let Answers { problem, out, count, trails, .. } = self;
         let mut leads = |a: &Joints<M>| problem.leads_to(a, q, found.free);
-        // Most often the last one is the nearest.
-        let last = joined.as_ref().filter(|(branch, free, _)| (*branch, *free) == (found.branch, found.free));
-        let joins = last.is_some_and(|(_, _, last)| leads(last))
-            || out[..*count].iter().any(|a| is_told(a, found) && leads(&a.q));
-        if joins {
-            self.joined = Some((found.branch, found.free, q.clone()));
-        }
+        let joins = trails.last(found).is_some_and(&mut leads)
+            || out[..*count].iter().rev().any(|a| is_told(a, found) && leads(&a.q));
+        trails.follow(found, q);
         !joins
     }
 

@@ -204,8 +204,11 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
-    /// inverse iteration; none where a pivot is zero.
+    /// inverse iteration; none where a pivot is zero, or no steps are left.
     pub fn stillest(&mut self, q: &Joints<M>) -> Option<(Joints<M>, f64)> {
+        if self.steps.are_spent() {
+            return None;
+        }
         let mut triangle = self.triangle(q, 0.0, 0);
         let joints = self.joints();
         let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));

@@ -9,6 +9,7 @@ use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::Solution;
 use crate::storage::Array;
+use crate::strays::Loners;
 use crate::tolerances::{
     ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP, TWIN, TWINS_AT, UNSETTLED,
 };
@@ -272,7 +273,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Whether two answers are one: members of one self-motion, or within [`MERGE`] with joints left out that are free in either, or one singular
     /// configuration.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
-        let Answers { problem, out, is_another, suffices, .. } = self;
+        let Answers { problem, out, is_another, suffices, loners, .. } = self;
         let a = &out[index];
         if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), a.free | b.free, MERGE) {
             return true;
@@ -287,8 +288,8 @@ impl<M: Mechanism> Answers<'_, M> {
                 let is_alike = a.free == b.free && !are_apart;
                 is_alike && (are_by_branch(problem, a, b) || problem.leads_to(&a.q, &b.q, a.free))
             }
-            (true, false) => is_on(problem, b, a, *suffices),
-            (false, true) => is_on(problem, a, b, *suffices),
+            (true, false) => is_on(problem, loners, b, a, *suffices),
+            (false, true) => is_on(problem, loners, a, b, *suffices),
         }
     }
 }
@@ -297,13 +298,20 @@ impl<M: Mechanism> Answers<'_, M> {
 /// of one that holds only almost.
 fn is_on<M: Mechanism>(
     problem: &mut Problem<'_, M>,
+    loners: &mut Loners<M>,
     member: &Solution<M>,
     isolated: &Solution<M>,
     suffices: bool,
 ) -> bool {
-    member.relative <= ROUNDING
-        && problem.lies_on_self_motion(&isolated.q, member.free, ROUNDING)
-        && (!suffices || problem.leads_to(&member.q, &isolated.q, member.free))
+    let free = member.free;
+    if member.relative > ROUNDING || loners.contains(&isolated.q, free) {
+        return false;
+    }
+    if !problem.lies_on_self_motion(&isolated.q, free, ROUNDING) {
+        loners.remember(&isolated.q, free);
+        return false;
+    }
+    !suffices || problem.leads_to(&member.q, &isolated.q, free)
 }
 
 /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.

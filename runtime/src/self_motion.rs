@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Joints, Mechanism};
-use crate::problem::Problem;
+use crate::problem::{End, Problem};
 use crate::storage::Array;
 use crate::tolerances::{
     ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
@@ -46,36 +46,43 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     fn leads_to_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
-        let (mut way, bound) = (ASIDE, f64::max(bound, ROUNDING));
+        let bound = f64::max(bound, ROUNDING);
         if regularity > REGULAR || self.steps.are_spent() {
             return false;
         }
-        for narrow in 0..NARROWS {
-            if narrow == 1 && (bound > ROUNDING || regularity > SINGULAR) {
-                return false;
-            }
-            if self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound) {
-                return true;
-            }
-            way /= 8.0;
+        let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
+        // What leads nowhere along the last way but one leads nowhere along longer ones.
+        let may = narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
+        may && (0..narrows).any(|narrow| {
+            let way = narrowed(narrow);
+            self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound)
+        })
+    }
+
+    /// Whether the others follow where the joints `free` are moved by the first stage of a way.
+    fn sets_out(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
+        let start = self.moved_all(q, q, free, way / FIRST_STAGE);
+        self.polished(start, free).1.relative <= bound
+    }
+
+    /// Joints of which those that are `free` are as far from `q` as a way.
+    fn moved_all(&self, others: &Joints<M>, q: &Joints<M>, free: u32, way: f64) -> Joints<M> {
+        let mut next = others.clone();
+        for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
+            next.as_mut()[i] = moved::<M>(&self.facts(), q, i, way).as_ref()[i];
         }
-        false
+        next
     }
 
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
     /// may be led to a self-motion next to it, but not back.
     fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
-        let mut share = 1.0;
-        for _ in 1..DOUBLINGS {
-            share *= 0.5;
-        }
+        let mut share = 1.0 / FIRST_STAGE;
         for stage in 0..DOUBLINGS {
-            let mut next = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
-            for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
-                next.as_mut()[i] = moved::<M>(&self.facts(), q, i, share * way).as_ref()[i];
-            }
-            let (next, fit) = self.polished(next, free);
+            let ahead = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
+            let start = self.moved_all(&ahead, q, free, share * way);
+            let (next, fit) = self.polished(start, free);
             if fit.relative > bound || (stage == 1 && !self.leads_back(q, free, &at, &next, bound)) {
                 return false;
             }
@@ -152,9 +159,9 @@ impl<M: Mechanism> Problem<'_, M> {
             let next = self.followed(ahead, free);
             if let Some(next) = next {
                 if is_last {
-                    return Some(self.is_there(&next, b, free));
+                    return Some(self.is_there(next, b, free));
                 }
-                (before, at) = (at, next);
+                (before, at) = (at, next.0);
                 (gone, last, pace) = (gone + step, step, f64::min(2.0 * pace, longest));
             } else if pace > shortest {
                 pace *= 0.25;
@@ -165,25 +172,32 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps, and with more care where these come next to it.
-    fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<Joints<M>> {
+    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps.
+    fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead.clone());
         for _ in 0..RETURNS {
-            if end.1.accepted {
+            if end.1.relative <= ASTRAY {
                 break;
             }
             let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
-        if !end.1.accepted && end.1.relative <= ASTRAY {
-            end = self.polish(end, free);
-        }
         let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;
-        (end.1.accepted && is_near).then_some(end.0)
+        (end.1.relative <= ASTRAY && is_near).then_some(end)
     }
 
     /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
-    fn is_there(&mut self, q: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
-        self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(q, b, ROUNDING, free)
+    fn is_there(&mut self, end: End<M>, b: &Joints<M>, free: u32) -> bool {
+        let (q, fit) = self.polish(end, free);
+        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
+        is_close && self.are_joined(&q, b, ROUNDING, free)
     }
+}
+
+/// The first stage of a way is this share's inverse of it.
+const FIRST_STAGE: f64 = (1 << (DOUBLINGS - 1)) as f64;
+
+/// One of the ways aside, each an eighth of the one before.
+fn narrowed(narrow: usize) -> f64 {
+    (0..narrow).fold(ASIDE, |way, _| way / 8.0)
 }

@@ -1,6 +1,6 @@
-//! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`].
+//! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`]; and answers that are no members: [`Loners`].
 
-use crate::mechanism::Found;
+use crate::mechanism::{Found, Joints, Mechanism};
 use crate::tolerances::DOUBTED;
 
 /// How many kinds are told apart.
@@ -88,5 +88,51 @@ impl Merged {
 
     pub fn contains(&self, found: &Found) -> bool {
         self.kinds[..self.count].contains(&(found.branch, found.free))
+    }
+}
+
+/// The last member of a branch with the same free joints that has been found to be on a self-motion, for as many kinds as there is room for: the next one is
+/// near it most often.
+pub(crate) struct Trails<M: Mechanism> {
+    list: [Option<(usize, u32, Joints<M>)>; KINDS],
+}
+
+impl<M: Mechanism> Trails<M> {
+    pub const NONE: Self = Trails { list: [const { None }; KINDS] };
+
+    pub fn last(&self, found: &Found) -> Option<&Joints<M>> {
+        let of_kind = |(branch, free, _): &&(usize, u32, Joints<M>)| (*branch, *free) == (found.branch, found.free);
+        self.list.iter().map_while(Option::as_ref).find(of_kind).map(|(_, _, q)| q)
+    }
+
+    pub fn follow(&mut self, found: &Found, q: &Joints<M>) {
+        let is_free = |place: &Option<(usize, u32, Joints<M>)>| {
+            place.as_ref().is_none_or(|(branch, free, _)| (*branch, *free) == (found.branch, found.free))
+        };
+        if let Some(place) = self.list.iter_mut().find(|place| is_free(place)) {
+            *place = Some((found.branch, found.free, q.clone()));
+        }
+    }
+}
+
+/// How many answers are known to be alone at most; then the first is forgotten.
+const LONERS: usize = 8;
+
+/// Isolated answers that have been found to lie on no self-motion of these joints.
+pub(crate) struct Loners<M: Mechanism> {
+    list: [Option<(Joints<M>, u32)>; LONERS],
+    next: usize,
+}
+
+impl<M: Mechanism> Loners<M> {
+    pub const NONE: Self = Loners { list: [const { None }; LONERS], next: 0 };
+
+    pub fn remember(&mut self, q: &Joints<M>, free: u32) {
+        self.list[self.next % LONERS] = Some((q.clone(), free));
+        self.next += 1;
+    }
+
+    pub fn contains(&self, q: &Joints<M>, free: u32) -> bool {
+        self.list.iter().flatten().any(|(other, of)| *of == free && other.as_ref() == q.as_ref())
     }
 }

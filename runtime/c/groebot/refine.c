@@ -87,12 +87,35 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
+/* Whether an isolated answer has been found to lie on no self-motion of these joints. */
+static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
+{
+    for (size_t i = 0; i < GB_LONERS && i < all->loners_count; i++) {
+        bool is_same = all->loners_of[i] == free;
+        for (size_t k = 0; k < all->problem.mechanism->joints; k++) {
+            is_same = is_same && all->loners[i][k] == q[k];
+        }
+        if (is_same) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
  * almost. */
-static bool gb_is_on(const gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
+static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
 {
-    return gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)
-        && (!all->suffices || gb_leads_to(&all->problem, member, isolated, free));
+    if (gb_is_loner(all, isolated, free)) {
+        return false;
+    }
+    if (!gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)) {
+        const size_t next = all->loners_count++ % GB_LONERS;
+        gb_copy(all->loners[next], isolated, all->problem.mechanism->joints);
+        all->loners_of[next] = free;
+        return false;
+    }
+    return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
@@ -114,15 +137,29 @@ static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b
     return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, b->q, b->free));
 }
 
+/* Whether an answer in the list and a new one that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to
+ * the other. */
+static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
+    if (*gb_free_of(all, i) == 0 && b->free == 0) {
+        return relative > GB_ACCEPT && gb_farthest(all->problem.mechanism, gb_q_of(all, i), b->q) <= GB_BLUR;
+    }
+    return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
+}
+
 /* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
  * singular configuration. */
-static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
+static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
     const gb_real *a = gb_q_of(all, i), relative = *gb_relative_of(all, i);
     const uint32_t free = *gb_free_of(all, i);
     if (gb_is_close(problem->mechanism, a, b->q, free | b->free, GB_MERGE)) {
         return true;
+    }
+    if (gb_are_spent(problem)) {
+        return gb_are_alike(all, i, b);
     }
     if (free == 0 && b->free == 0) {
         return gb_are_blurred(problem, a, relative, b);
@@ -239,12 +276,25 @@ static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb
     return found->free == 0;
 }
 
+/* Whether what no steps are left to polish is near enough to an answer. */
+static bool gb_may_stay(const gb_problem *problem, const gb_real *q, const gb_fit *fit)
+{
+    bool is_whole = true;
+    for (size_t i = 0; i < problem->mechanism->joints; i++) {
+        is_whole = is_whole && gb_is_finite(q[i]);
+    }
+    for (size_t i = 0; problem->extras && i < problem->mechanism->places; i++) {
+        is_whole = is_whole && gb_is_finite(problem->extras[i]);
+    }
+    return gb_are_spent(problem) && fit->relative <= GB_TOLERATED && is_whole;
+}
+
 /* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second root of a double one
  * takes the next free number below `last`. */
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
 {
     gb_answer answer;
-    if (!fit->accepted) {
+    if (!fit->accepted && !gb_may_stay(&all->problem, q, fit)) {
         gb_miss(all, q, fit);
         return;
     }
@@ -267,7 +317,7 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     gb_real weights[GB_MAX_JOINTS];
     bool is_found = end->fit.accepted;
     gb_weights(&all->problem, end->q, weights);
-    for (gb_real farther = R(1.0); farther <= GB_FARTHEST; farther *= GB_FARTHER) {
+    for (gb_real farther = R(1.0); farther <= GB_FARTHEST && !gb_are_spent(&all->problem); farther *= GB_FARTHER) {
         for (size_t i = 0; i < 2 * m->joints; i++) {
             const gb_real sign = i % 2 == 0 ? R(-1.0) : R(1.0), weight = end->fit.accepted ? R(1.0) : weights[i / 2];
             const gb_real way = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
@@ -411,12 +461,24 @@ static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const 
     return true;
 }
 
-/* Whether the member found last that is on a self-motion of the list, of this branch and with these free joints, is joined to another: most often it is the
- * nearest. */
-static bool gb_joins(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
+/* The place of the last member of a candidate's kind, or where there is room for it. */
+static size_t gb_trail_of(const gb_answers *all, const gb_found_1 *found)
 {
-    const gb_found_1 *last = &all->joined_as;
-    return last->free == found->free && last->branch == found->branch && gb_leads_to(&all->problem, all->joined, q, found->free);
+    size_t i = 0;
+    while (i < all->trails_count && !(all->trails_of[i].branch == found->branch && all->trails_of[i].free == found->free)) {
+        i++;
+    }
+    return i;
+}
+
+/* Remembers the last member of its kind if there is room. */
+static void gb_follow_trail(gb_answers *all, size_t place, const gb_found_1 *found, const gb_real *q)
+{
+    if (place < GB_KINDS) {
+        all->trails_count += place == all->trails_count;
+        all->trails_of[place] = *found;
+        gb_copy(all->trails[place], q, all->problem.mechanism->joints);
+    }
 }
 
 /* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
@@ -426,14 +488,13 @@ static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end
     if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
         return false;
     }
-    bool joins = gb_joins(all, found, end->q);
-    for (size_t i = 0; i < all->count && !joins; i++) {
+    const size_t trail = gb_trail_of(all, found);
+    bool joins = trail < all->trails_count && gb_leads_to(&all->problem, all->trails[trail], end->q, found->free);
+    for (size_t i = all->count; i > 0 && !joins;) {
+        i--;
         joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
     }
-    if (joins) {
-        all->joined_as = *found;
-        gb_copy(all->joined, end->q, all->problem.mechanism->joints);
-    }
+    gb_follow_trail(all, trail, found, end->q);
     return !joins;
 }
 
@@ -443,7 +504,7 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
 {
     const bool is_known = gb_is_known(all, found);
     gb_end end;
-    if (is_known && !gb_is_single(found->free)) {
+    if (is_known && (!gb_is_single(found->free) || gb_are_spent(&all->problem))) {
         return;
     }
     gb_copy(end.q, q, all->problem.mechanism->joints);
@@ -451,6 +512,10 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     const gb_real missed = end.fit.relative;
     if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
         gb_miss(all, end.q, &end.fit);
+        return;
+    }
+    if (gb_are_spent(&all->problem)) {
+        gb_keep(all, found, end.q, &end.fit);
         return;
     }
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
@@ -579,7 +644,7 @@ static void gb_mark_choice(gb_answers *all)
 }
 
 /* Brings answers into order. */
-GB_LINKAGE void gb_settle(gb_answers *all)
+GB_LINKAGE void gb_put_in_order(gb_answers *all)
 {
     gb_unite(all);
     gb_sort(all);
