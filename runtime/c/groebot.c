@@ -85,6 +85,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/strays.c"
 #include "groebot/freedom.c"
 #include "groebot/refine.c"
+#include "groebot/members.c"
 #include "groebot/limits.c"
 
 #endif

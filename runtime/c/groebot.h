@@ -66,9 +66,9 @@ typedef double gb_real;
  *     relative    the largest share of an equation's value in its size
  *     branch      which cases and which roots gave it; it keeps its number from target to target
  *     chosen      whether the source of the mechanism would choose this one
- *     free        bit j is set where joint j may take any value here: this is one member of a self-motion
  *     settled     false where the steps of the target (GB_MOST_STEPS) were spent before all work was done. All of its answers say so: others may be missing,
  *                 and `relative` tells how well each holds, at most 1e-6 (1e-3 in single precision)
+ *     free        bit j is set where joint j may take any value here: this is one member of a self-motion
  * NAME_pairs: an answer by joint's cosine and sine; a length's value and zero.
  *
  * NAME_solve: writes all solutions to the front of out, which has room for NAME_CAPACITY, by branch; their number, 0 out of reach, or a code below 0.
@@ -95,8 +95,8 @@ typedef double gb_real;
         gb_real relative;                                                                                                          \
         size_t branch;                                                                                                             \
         bool chosen;                                                                                                               \
-        uint32_t free;                                                                                                             \
         bool settled;                                                                                                              \
+        uint32_t free;                                                                                                             \
     } name##_solution;                                                                                                             \
     typedef struct {                                                                                                               \
         gb_real joints[joints_][2];                                                                                                \

@@ -8,7 +8,7 @@ use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechani
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
-use crate::steps::Steps;
+use crate::steps::settle;
 use crate::storage::Array;
 use crate::strays::{Loners, Merged, Strays, Trails};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
@@ -37,7 +37,7 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub strays: Strays,
     /// Answers that are no members of self-motions.
     pub loners: Loners<M>,
-    /// Members that have been found to be on self-motions of the list.
+    /// Members of self-motions of the list.
     pub trails: Trails<M>,
     /// Whether the member that is kept is on none of these.
     pub is_another: bool,
@@ -372,14 +372,6 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
         false
     }
-}
-
-/// Marks all answers to a target that are not settled, for its steps are spent; their number.
-#[inline(always)]
-pub(crate) fn settle<M: Mechanism>(steps: &Steps, answers: &mut [Solution<M>]) -> Result<usize, Error> {
-    let are_settled = !steps.are_spent();
-    answers.iter_mut().for_each(|answer| answer.settled = are_settled);
-    if are_settled || !answers.is_empty() { Ok(answers.len()) } else { Err(Error::Unsettled) }
 }
 
 /// Apart from callers, so that the parameters are known not to change.

@@ -5,7 +5,6 @@
 //! squares, to where the mechanism as described is nearest to the target itself.
 
 use crate::angles::angle;
-use crate::answers::settle;
 use crate::conditions::conform;
 use crate::exactly::solve_ideal;
 use crate::joints::place;
@@ -16,7 +15,7 @@ use crate::mechanism::{
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
-use crate::steps::Steps;
+use crate::steps::{Steps, settle};
 use crate::storage::Array;
 use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, MOST_STEPS, POLISHED, ROUNDING};
 
@@ -143,11 +142,7 @@ fn propose<M: Mechanism>(
 }
 
 /// The joints with which the ideal mechanism is nearest to a target, if there are any candidates, and the joints that some of these free.
-fn closest<M: Mechanism>(
-    mechanism: &M,
-    p: &Parameters<M>,
-    steps: &mut Steps,
-) -> Result<(Option<End<M>>, u32), Error> {
+fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>, steps: &mut Steps) -> Result<(Option<End<M>>, u32), Error> {
     let (mut problem, mut best) = (Problem::new(mechanism, p, steps), None::<End<M>>);
     let free = propose(mechanism, p, |_, q| {
         // On a stratum joints only seem to be free where the other equations tell them.
@@ -322,7 +317,8 @@ pub(crate) fn within_limits<M: Mechanism>(
     let strides = |steps: &mut Steps| {
         let within = f64::max(mechanism.facts().within?, ACCEPT);
         let mut own = Problem::new(mechanism, p, steps);
-        let q = if answer.free == 0 { None } else { onto_self_motion(&mut own, answer.q.clone(), answer.free, within) }?;
+        let q =
+            if answer.free == 0 { None } else { onto_self_motion(&mut own, answer.q.clone(), answer.free, within) }?;
         let ideal = ideal_parameters(mechanism, &q)?;
         let member = Solution { q, ..answer.clone() };
         let turned = turned_within::<M>(&mechanism.facts(), &member.q, limits);

@@ -11,7 +11,8 @@ use crate::solution::Solution;
 use crate::storage::Array;
 use crate::strays::Loners;
 use crate::tolerances::{
-    ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP, TWIN, TWINS_AT, UNSETTLED,
+    ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, ROUNDING, STEEP, TWIN,
+    TWINS_AT, UNSETTLED,
 };
 
 /// The most answers of a target.

@@ -7,7 +7,7 @@ use crate::mechanism::{Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::Array;
 use crate::tolerances::{
-    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
+    ALONG, ARRIVED, ASIDE, ASTRAY, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR, STIFF,
 };
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -52,7 +52,8 @@ impl<M: Mechanism> Problem<'_, M> {
         }
         let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
         // What leads nowhere along the last way but one leads nowhere along longer ones.
-        let may = narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
+        let may =
+            narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
         may && (0..narrows).any(|narrow| {
             let way = narrowed(narrow);
             self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound)
@@ -179,7 +180,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if end.1.relative <= ASTRAY {
                 break;
             }
-            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            let step = self.newton_step(&end.0, STIFF, free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
         let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;

@@ -64,5 +64,11 @@ pub(crate) fn pairs_of<M: Mechanism>(mechanism: &M, solution: &Solution<M>) -> P
         let value = solution.q.as_ref()[i];
         if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
     });
-    Pairs { joints, residual: solution.residual, branch: solution.branch, free: solution.free, settled: solution.settled }
+    Pairs {
+        joints,
+        residual: solution.residual,
+        branch: solution.branch,
+        free: solution.free,
+        settled: solution.settled,
+    }
 }

@@ -32,12 +32,7 @@ pub trait Solve: Mechanism {
     ///
     /// # Errors
     /// As [`Solve::solve`]; [`Error::Unsettled`] where no answer was found before.
-    fn solve_bounded(
-        &self,
-        target: &Inputs<Self>,
-        steps: usize,
-        out: &mut [Solution<Self>],
-    ) -> Result<usize, Error> {
+    fn solve_bounded(&self, target: &Inputs<Self>, steps: usize, out: &mut [Solution<Self>]) -> Result<usize, Error> {
         solve_one(self, target, out, &mut Steps::at_most(steps))
     }
 
@@ -160,8 +155,7 @@ pub trait Solve: Mechanism {
                 out[k].q = q;
             } else if facts.has_extras {
                 continue;
-            } else if let Some((q, residual)) =
-                strides_within(&mut Problem::new(self, &p, &mut steps), &out[k], limits)
+            } else if let Some((q, residual)) = strides_within(&mut Problem::new(self, &p, &mut steps), &out[k], limits)
             {
                 (out[k].q, out[k].residual) = (q, residual);
             } else {

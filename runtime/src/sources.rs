@@ -75,7 +75,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 45] = [
+pub const C_PARTS: [(&str, &str); 46] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -88,6 +88,7 @@ pub const C_PARTS: [(&str, &str); 45] = [
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
     ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
+    ("groebot/members.c", include_str!("../c/groebot/members.c")),
     ("groebot/newton.c", include_str!("../c/groebot/newton.c")),
     ("groebot/number.h", include_str!("../c/groebot/number.h")),
     ("groebot/problem.c", include_str!("../c/groebot/problem.c")),

@@ -1,6 +1,8 @@
 //! How much polishing a target may take: [`Steps`].
 
 use crate::counters::Event;
+use crate::mechanism::Mechanism;
+use crate::solution::{Error, Solution};
 
 /// What is left of the steps that a target may take ([`crate::tolerances::MOST_STEPS`]).
 pub(crate) struct Steps {
@@ -25,4 +27,12 @@ impl Steps {
     pub fn are_spent(&self) -> bool {
         self.left == 0
     }
+}
+
+/// Marks all answers to a target that are not settled, for its steps are spent; their number.
+#[inline(always)]
+pub(crate) fn settle<M: Mechanism>(steps: &Steps, answers: &mut [Solution<M>]) -> Result<usize, Error> {
+    let are_settled = !steps.are_spent();
+    answers.iter_mut().for_each(|answer| answer.settled = are_settled);
+    if are_settled || !answers.is_empty() { Ok(answers.len()) } else { Err(Error::Unsettled) }
 }

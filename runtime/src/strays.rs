@@ -1,6 +1,6 @@
 //! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`]; and answers that are no members: [`Loners`].
 
-use crate::mechanism::{Found, Joints, Mechanism};
+use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::DOUBTED;
 
 /// How many kinds are told apart.
@@ -91,27 +91,37 @@ impl Merged {
     }
 }
 
-/// The last member of a branch with the same free joints that has been found to be on a self-motion, for as many kinds as there is room for: the next one is
-/// near it most often.
+/// How many members are remembered; of more, the first is forgotten.
+const MEMBERS: usize = 32;
+
+/// Candidates that have turned out to be members of self-motions of the list, with their branches and free joints: strata repeat each other, and the next
+/// candidate of a branch is near the last one most often.
 pub(crate) struct Trails<M: Mechanism> {
-    list: [Option<(usize, u32, Joints<M>)>; KINDS],
+    list: [Option<(usize, u32, Joints<M>)>; MEMBERS],
+    count: usize,
 }
 
 impl<M: Mechanism> Trails<M> {
-    pub const NONE: Self = Trails { list: [const { None }; KINDS] };
+    pub const NONE: Self = Trails { list: [const { None }; MEMBERS], count: 0 };
 
-    pub fn last(&self, found: &Found) -> Option<&Joints<M>> {
-        let of_kind = |(branch, free, _): &&(usize, u32, Joints<M>)| (*branch, *free) == (found.branch, found.free);
-        self.list.iter().map_while(Option::as_ref).find(of_kind).map(|(_, _, q)| q)
+    pub fn remember(&mut self, found: &Found, q: &Joints<M>) {
+        self.list[self.count % MEMBERS] = Some((found.branch, found.free, q.clone()));
+        self.count += 1;
     }
 
-    pub fn follow(&mut self, found: &Found, q: &Joints<M>) {
-        let is_free = |place: &Option<(usize, u32, Joints<M>)>| {
-            place.as_ref().is_none_or(|(branch, free, _)| (*branch, *free) == (found.branch, found.free))
-        };
-        if let Some(place) = self.list.iter_mut().find(|place| is_free(place)) {
-            *place = Some((found.branch, found.free, q.clone()));
-        }
+    /// Whether the same joints have been found before, within a distance.
+    pub fn contains(&self, facts: &Facts<'_>, q: &Joints<M>, free: u32, distance: f64) -> bool {
+        self.latest_first().any(|(_, of, other)| *of == free && facts.is_within(other.as_ref(), q.as_ref(), distance))
+    }
+
+    /// The last one of a branch with one of these sets of free joints.
+    pub fn last(&self, branch: usize, is_free: impl Fn(u32) -> bool) -> Option<&(usize, u32, Joints<M>)> {
+        self.latest_first().find(|(of, free, _)| *of == branch && is_free(*free))
+    }
+
+    fn latest_first(&self) -> impl Iterator<Item = &(usize, u32, Joints<M>)> {
+        let latest = (1..=self.count.min(MEMBERS)).map(|k| (self.count - k) % MEMBERS);
+        latest.filter_map(|place| self.list[place].as_ref())
     }
 }
 

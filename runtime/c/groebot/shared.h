@@ -213,6 +213,7 @@ struct gb_problem {
  * one of them misses the equations by, and whether they have turned out to be no members. */
 #define GB_KINDS 16
 #define GB_LONERS 8
+#define GB_MEMBERS 32
 typedef struct {
     size_t branch;
     size_t count;
@@ -240,10 +241,10 @@ typedef struct {
     bool suffices;
     /* Candidates for members of self-motions that were dropped for this. */
     gb_strays strays;
-    /* The last member of a branch with the same free joints that has been found to be on a self-motion, for as many kinds as there is room for: the next one is
-     * near it most often. And whether the one that is kept is on none of these. */
-    gb_found_1 trails_of[GB_KINDS];
-    gb_real trails[GB_KINDS][GB_MAX_JOINTS];
+    /* Candidates that have turned out to be members of self-motions of the list; of more, the first is forgotten. Strata repeat each other, and the next
+     * candidate of a branch is near the last one most often. And whether the one that is kept is of another self-motion. */
+    gb_found_1 trails_of[GB_MEMBERS];
+    gb_real trails[GB_MEMBERS][GB_MAX_JOINTS];
     size_t trails_count;
     bool is_another;
     /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
