@@ -109,7 +109,7 @@ typedef double gb_real;
     GB_API const char *const name##_joint_names[joints_];                                                                          \
     GB_API const gb_real name##_limits[2 * (joints_)];                                                                             \
     GB_API int name##_solve(const gb_real *target, name##_solution *out);                                                          \
-    GB_API int name##_solve_bounded(const gb_real *target, size_t steps, name##_solution *out);                                    \
+    GB_API int name##_solve_bounded(const gb_real *target, size_t most, name##_solution *out);                                     \
     GB_API int name##_solve_or_nearest(const gb_real *target, name##_solution *out, name##_solution *nearest);                     \
     GB_API int name##_solve_pairs(const gb_real *target, name##_pairs *out);                                                       \
     GB_API size_t name##_solve_batch(const gb_real *targets, size_t count, name##_solution *out, size_t room, int *counts);        \

@@ -10,9 +10,9 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// So many steps at most.
+    /// So many steps at most: they are spent with the next one, which tells that they are not enough.
     pub fn at_most(most: usize) -> Self {
-        Steps { left: most }
+        Steps { left: most.saturating_add(1) }
     }
 
     /// Takes one.

@@ -197,7 +197,7 @@ static bool gb_bring_within(const gb_real *p, const gb_real *limits, gb_solution
 {
     gb_real ideal[GB_PARAMETERS];
     const gb_mechanism mechanism = gb_as_described();
-    size_t steps = GB_MOST_STEPS;
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
     const gb_problem problem = {&mechanism, p, NULL, &steps}, own = {&gb_this, p, NULL, &steps};
     const uint32_t free = answer->free;
     answer->free = 0;

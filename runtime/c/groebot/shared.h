@@ -301,6 +301,12 @@ GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits);
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q);
 GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target);
 
+/* So many steps at most: they are spent with the next one, which tells that they are not enough. */
+GB_INLINE size_t gb_steps_at_most(size_t most)
+{
+    return most < SIZE_MAX ? most + 1 : most;
+}
+
 /* The greater of two numbers; the first where the second is none. */
 GB_INLINE gb_real gb_larger(gb_real a, gb_real b)
 {

@@ -90,8 +90,9 @@ GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out, size_t *st
     return gb_settle(*steps, out, c.all.count);
 }
 
-int GB_PUBLIC(solve_bounded)(const gb_real *target, size_t steps, gb_solution *out)
+int GB_PUBLIC(solve_bounded)(const gb_real *target, size_t most, gb_solution *out)
 {
+    size_t steps = gb_steps_at_most(most);
 #ifdef GB_WITHIN
     return gb_solve_described(target, out, NULL, &steps);
 #else
@@ -109,7 +110,7 @@ int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solu
     memset(nearest, 0, sizeof *nearest);
     nearest->residual = nearest->relative = INFINITY;
     nearest->settled = true;
-    size_t steps = GB_MOST_STEPS;
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
 #ifdef GB_WITHIN
     return gb_solve_described(target, out, nearest, &steps);
 #else
@@ -160,7 +161,7 @@ int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
 #else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    size_t steps = GB_MOST_STEPS;
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
     const int code = gb_walk_through(&c, target, p, NULL, out, GB_ANSWERS, &steps);
     if (code < 0) {
         return code;
