@@ -36,7 +36,7 @@ pub const JOINTS: usize = 14;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 270;
 /// No answer yet: what a buffer is filled with.
-pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true };
 /// The names of a target's numbers, in order.
 pub const INPUT_NAMES: [&str; INPUTS] = ["left_px", "left_py", "left_pz", "left_r11", "left_r12", "left_r13", "left_r21", "left_r22", "left_r23", "left_r31", "left_r32", "left_r33", "left_TorsoPitch", "left_TorsoRoll", "right_px", "right_py", "right_pz", "right_r11", "right_r12", "right_r13", "right_r21", "right_r22", "right_r23", "right_r31", "right_r32", "right_r33"];
 /// The names of the joints, in order.

@@ -33,7 +33,7 @@ pub const JOINTS: usize = 6;
 /// The most solutions that a target can have.
 pub const CAPACITY: usize = 22;
 /// No answer yet: what a buffer is filled with.
-pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 };
+pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true };
 /// The names of a target's numbers, in order.
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 /// The names of the joints, in order.

@@ -15,7 +15,7 @@ Floats = npt.NDArray[np.floating[Any]]
 
 
 class Status(IntEnum):
-    """Why a row has no solution."""
+    """Why a row has no solution, or not all."""
 
     SOLVED = 0
     """It has some."""
@@ -31,6 +31,8 @@ class Status(IntEnum):
     """It lies on a stratum that could not be derived."""
     BEYOND_LIMITS = 6
     """All solutions are beyond the limits."""
+    UNSETTLED = 7
+    """The steps of polishing that a target may take were spent: other solutions may be missing."""
 
 
 @dataclass(frozen=True, eq=False)

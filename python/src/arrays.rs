@@ -174,7 +174,9 @@ pub fn shaped<'py, T: Element>(py: Python<'py>, list: Vec<T>, shape: &[usize]) -
 /// The first rows whose status says that they are no targets: their numbers, and how many there are.
 pub fn no_targets(status: &[u8]) -> (Vec<usize>, usize) {
     let wrong = |status: &u8| {
-        ![Status::Solved, Status::Unreachable, Status::BeyondLimits].map(|own| own as u8).contains(status)
+        ![Status::Solved, Status::Unreachable, Status::BeyondLimits, Status::Unsettled]
+            .map(|own| own as u8)
+            .contains(status)
     };
     let rows: Vec<usize> = (0..status.len()).filter(|row| wrong(&status[*row])).collect();
     let count = rows.len();

@@ -235,7 +235,7 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 /// The word for a status.
 pub fn reason(status: u8) -> &'static str {
-    const WORDS: [(Status, &str); 6] = [
+    const WORDS: [(Status, &str); 7] = [
         (Status::Unreachable, "is out of reach"),
         (Status::NotFinite, "has a number that is infinite or none; give finite numbers"),
         (
@@ -245,6 +245,7 @@ pub fn reason(status: u8) -> &'static str {
         (Status::NotUnit, "has a direction that is not of length one within 1e-9; give a unit vector"),
         (Status::Open, "lies on a stratum that could not be derived"),
         (Status::BeyondLimits, "has solutions beyond the limits only"),
+        (Status::Unsettled, "took more steps than a target may: not all work on it was done"),
     ];
     WORDS.iter().find(|(known, _)| *known as u8 == status).map_or("is solved", |(_, word)| word)
 }

@@ -39,7 +39,7 @@ impl Choice<'_> {
             let start = if near.len() == sink.joints { 0 } else { target * sink.joints };
             keep_nearest(&kernel.shape().turns, sink, begun, &near[start..start + sink.joints], self.limits);
         }
-        sink.end(begun, if found > 0 { Status::BeyondLimits } else { why });
+        sink.end(begun, if found > 0 && why != Status::Unsettled { Status::BeyondLimits } else { why });
     }
 }
 

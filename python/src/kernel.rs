@@ -59,28 +59,29 @@ pub struct Answer<'a> {
     /// Bit `j` is set where joint `j` is free.
     pub free: u32,
     pub chosen: bool,
+    pub settled: bool,
 }
 
 impl<'a> From<&'a Solution> for Answer<'a> {
     fn from(solution: &'a Solution) -> Self {
-        let Solution { q, residual, branch, free, chosen } = solution;
+        let Solution { q, residual, branch, free, chosen, settled } = solution;
         let free = free.iter().fold(0, |bits, joint| bits | 1 << joint);
-        Answer { q, residual: *residual, branch: *branch, free, chosen: *chosen }
+        Answer { q, residual: *residual, branch: *branch, free, chosen: *chosen, settled: *settled }
     }
 }
 
 impl<'a, M: Mechanism> From<&'a runtime::Solution<M>> for Answer<'a> {
     fn from(solution: &'a runtime::Solution<M>) -> Self {
-        let runtime::Solution { q, residual, branch, free, chosen, .. } = solution;
-        Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free, chosen: *chosen }
+        let &runtime::Solution { ref q, residual, branch, free, chosen, settled, .. } = solution;
+        Answer { q: q.as_ref(), residual, branch, free, chosen, settled }
     }
 }
 
 impl From<Answer<'_>> for Solution {
     fn from(answer: Answer<'_>) -> Self {
-        let Answer { q, residual, branch, free, chosen } = answer;
+        let Answer { q, residual, branch, free, chosen, settled } = answer;
         let free = (0..q.len()).filter(|joint| free >> joint & 1 == 1).collect();
-        Solution { q: q.to_vec(), residual, branch, free, chosen }
+        Solution { q: q.to_vec(), residual, branch, free, chosen, settled }
     }
 }
 
@@ -149,8 +150,8 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
                 let mut answers = room.iter();
                 for count in &counts[..solved] {
                     for answer in answers.by_ref().take(count.unwrap_or(0)) {
-                        let runtime::Solution { q, residual, branch, free, .. } = answer;
-                        take(Solved::Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free });
+                        let &runtime::Solution { ref q, residual, branch, free, settled, .. } = answer;
+                        take(Solved::Answer { q: q.as_ref(), residual, branch, free, settled });
                     }
                     take(Solved::Target { refused: count.err().map(refused) });
                 }
@@ -176,10 +177,13 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
                 let mut answers = room.iter();
                 for (row, count) in (done..).zip(&counts[..solved]) {
                     let (begun, found) = (sink.taken, count.unwrap_or(0));
+                    let of_target = answers.as_slice().get(..found).unwrap_or(&[]);
+                    let are_settled = of_target.iter().all(|answer| answer.settled);
                     if let Some(rows) = sink.more(found) {
                         write(rows, answers.by_ref().take(found));
                     }
-                    ended(sink, first + row, begun, why(whole[row], count.map(|_| ())));
+                    let solved = count.and(if are_settled { Ok(()) } else { Err(runtime::Error::Unsettled) });
+                    ended(sink, first + row, begun, why(whole[row], solved));
                 }
                 done += solved;
             }
@@ -202,21 +206,26 @@ fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'
     }
 }
 
-/// Why a target has no answers: what its form says, else what the solver does.
+/// Why a target has no answers, or not all: what its form says, else what the solver does.
 fn why(form: Status, solved: std::result::Result<(), runtime::Error>) -> Status {
     match (form, solved) {
         (Status::Solved, Ok(())) => Status::Unreachable,
         (Status::Solved, Err(runtime::Error::NotFinite)) => Status::NotFinite,
         (Status::Solved, Err(runtime::Error::NotRotation)) => Status::NotRotation,
         (Status::Solved, Err(runtime::Error::NotUnit)) => Status::NotUnit,
+        (Status::Solved, Err(runtime::Error::Unsettled)) => Status::Unsettled,
         (Status::Solved, Err(_)) => Status::Open,
         (form, _) => form,
     }
 }
 
 fn refused(error: runtime::Error) -> Error {
-    let is_open = matches!(error, runtime::Error::OpenStratum(_));
-    Error::new(if is_open { ErrorKind::Unsupported } else { ErrorKind::BadValue }, error.to_string())
+    let kind = match error {
+        runtime::Error::OpenStratum(_) => ErrorKind::Unsupported,
+        runtime::Error::Unsettled => ErrorKind::Budget,
+        _ => ErrorKind::BadValue,
+    };
+    Error::new(kind, error.to_string())
 }
 
 /// The program of a derived solver.
@@ -243,6 +252,7 @@ impl Interpreted {
     fn why(&self, target: &[f64], error: &Error) -> Status {
         match error.kind() {
             ErrorKind::Unsupported => Status::Open,
+            ErrorKind::Budget => Status::Unsettled,
             _ if !target.iter().all(|number| number.is_finite()) => Status::NotFinite,
             _ if self.has_rotation => Status::NotRotation,
             _ => Status::NotUnit,
@@ -281,9 +291,10 @@ impl Kernel for Interpreted {
             for (row, (target, status)) in numbers.chunks_mut(inputs).zip(&mut whole).take(size).enumerate() {
                 *status = targets.row(first + row, target);
             }
-            let (mut row, mut begun) = (0, sink.taken);
+            let (mut row, mut begun, mut are_settled) = (0, sink.taken, true);
             let each = |solved: Solved<'_>| match solved {
-                Solved::Answer { q, residual, branch, free } => {
+                Solved::Answer { q, residual, branch, free, settled } => {
+                    are_settled &= settled;
                     if let Some(rows) = sink.more(1) {
                         rows.q.copy_from_slice(q);
                         (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
@@ -292,12 +303,12 @@ impl Kernel for Interpreted {
                 Solved::Target { refused } => {
                     let told = |error: Error| self.why(&numbers[row * inputs..][..inputs], &error);
                     let why = if whole[row] == Status::Solved {
-                        refused.map_or(Status::Unreachable, told)
+                        refused.map_or(if are_settled { Status::Unreachable } else { Status::Unsettled }, told)
                     } else {
                         whole[row]
                     };
                     ended(sink, first + row, begun, why);
-                    (row, begun) = (row + 1, sink.taken);
+                    (row, begun, are_settled) = (row + 1, sink.taken, true);
                 }
             };
             if self.solver.solve_each(&numbers[..size * inputs], each).is_err() {

@@ -18,6 +18,8 @@ pub enum Status {
     Open = 5,
     /// All its solutions are beyond the limits.
     BeyondLimits = 6,
+    /// The steps that it may take were spent before all work was done: it may have other answers than those that are there.
+    Unsettled = 7,
 }
 
 /// Room for answers, one row an answer.
@@ -91,12 +93,13 @@ impl<'a> Sink<'a> {
         })
     }
 
-    /// Ends a target whose answers begin at `first`; where it has none, `why`.
+    /// Ends a target whose answers begin at `first`; where it has none, or not all, `why`.
     #[inline]
     pub fn end(&mut self, first: usize, why: Status) {
         let count = self.taken - first;
         self.counts[self.ended] = count as i64;
-        self.status[self.ended] = if count > 0 { Status::Solved as u8 } else { why as u8 };
+        let is_solved = count > 0 && why != Status::Unsettled;
+        self.status[self.ended] = if is_solved { Status::Solved as u8 } else { why as u8 };
         self.ended += 1;
     }
 

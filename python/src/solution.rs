@@ -15,12 +15,13 @@ pub struct Solution {
     branch: usize,
     free: u32,
     chosen: bool,
+    settled: bool,
 }
 
 impl From<Answer<'_>> for Solution {
     fn from(answer: Answer<'_>) -> Self {
-        let Answer { q, residual, branch, free, chosen } = answer;
-        Solution { q: SmallVec::from_slice(q), residual, branch, free, chosen }
+        let Answer { q, residual, branch, free, chosen, settled } = answer;
+        Solution { q: SmallVec::from_slice(q), residual, branch, free, chosen, settled }
     }
 }
 
@@ -54,6 +55,12 @@ impl Solution {
     #[getter]
     fn chosen(&self) -> bool {
         self.chosen
+    }
+
+    /// Whether all work on the target was done: else other solutions may be missing, and the residual tells how well this one holds.
+    #[getter]
+    fn settled(&self) -> bool {
+        self.settled
     }
 
     fn __repr__(&self) -> String {

@@ -11,6 +11,7 @@
 /* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
 #define GB_PIVOT GB_EITHER(1e-9, 1e-4)
 #define GB_NEGLIGIBLE GB_EITHER(1e-290, 1e-30)
+#define GB_TOLERATED GB_EITHER(1e-6, 1e-3)
 #define GB_POLISH_STEPS 32
 #define GB_FITTING_STEPS 16
 #define GB_OVERSHOT R(100.0)
@@ -25,6 +26,7 @@
 #define GB_DISTINCT GB_EITHER(1e-4, 1e-2)
 #define GB_NARROWS GB_EITHER_COUNT(5, 1)
 #define GB_DOUBLINGS 8
+#define GB_FIRST_STAGE R(128.0)
 #define GB_APART_BY R(0.7)
 #define GB_FARTHER R(16.0)
 #define GB_FARTHEST R(256.0)
@@ -37,7 +39,7 @@
 #define GB_BENT GB_EITHER(1e-4, 1e-2)
 #define GB_ARRIVED R(1e-3)
 #define GB_LEAPT R(0.1)
-#define GB_ASTRAY GB_EITHER(1e-4, 1e-3)
+#define GB_ASTRAY GB_EITHER(1e-5, 1e-3)
 #define GB_PACES 100
 #define GB_SLACK GB_EITHER(1e-9, 1e-5)
 #define GB_STRIDE R(0.1)
@@ -84,6 +86,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/freedom.c"
 #include "groebot/curve.c"
 #include "groebot/refine.c"
+#include "groebot/members.c"
 #include "groebot/limits.c"
 
 #endif

@@ -46,6 +46,14 @@ typedef double gb_real;
 #define GB_NOT_ROTATION (-3)
 /* The direction of the target is not of length one within 1e-9 (1e-4 in single precision). */
 #define GB_NOT_UNIT (-4)
+/* The steps of the target were spent before an answer was found: there may be some. */
+#define GB_UNSETTLED (-5)
+/* The most steps of polishing that a target may take, where it is not said otherwise (define it when you compile the robot's file and groebot.c). A step is a
+ * linear system of Newton's method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers
+ * are not settled. */
+#ifndef GB_MOST_STEPS
+#define GB_MOST_STEPS 20000
+#endif
 /* The most turns that are counted. */
 #define GB_MOST_TURNS 1000000
 
@@ -58,11 +66,14 @@ typedef double gb_real;
  *     relative    the largest share of an equation's value in its size
  *     branch      which cases and which roots gave it; it keeps its number from target to target
  *     chosen      whether the source of the mechanism would choose this one
+ *     settled     false where the steps of the target (GB_MOST_STEPS) were spent before all work was done. All of its answers say so: others may be missing,
+ *                 and `relative` tells how well each holds, at most 1e-6 (1e-3 in single precision)
  *     free        bit j is set where joint j may take any value here: this is one member of a self-motion
  * NAME_pairs: an answer by joint's cosine and sine; a length's value and zero.
  *
  * NAME_solve: writes all solutions to the front of out, which has room for NAME_CAPACITY, by branch; their number, 0 out of reach, or a code below 0.
- * NAME_solve_or_nearest: the same; where there is none, nearest is what missed the equations by the least share, or its residual is infinite.
+ * NAME_solve_bounded: the same with so many steps at most; GB_UNSETTLED where no answer was found before they were spent.
+ * NAME_solve_or_nearest: as NAME_solve; where there is none, nearest is what missed the equations by the least share, or its residual is infinite.
  * NAME_solve_pairs: the same by cosines and sines; at ordinary targets no arc tangent is taken.
  * NAME_solve_batch: many targets, several at once in the lanes of registers. The solutions of a target stand in out behind those of the one before,
  *     counts says how many they are or why there are none. How many targets were solved: all, unless out has no room for those of the next one.
@@ -84,6 +95,7 @@ typedef double gb_real;
         gb_real relative;                                                                                                          \
         size_t branch;                                                                                                             \
         bool chosen;                                                                                                               \
+        bool settled;                                                                                                              \
         uint32_t free;                                                                                                             \
     } name##_solution;                                                                                                             \
     typedef struct {                                                                                                               \
@@ -91,11 +103,13 @@ typedef double gb_real;
         gb_real residual;                                                                                                          \
         size_t branch;                                                                                                             \
         uint32_t free;                                                                                                             \
+        bool settled;                                                                                                              \
     } name##_pairs;                                                                                                                \
     GB_API const char *const name##_input_names[inputs];                                                                           \
     GB_API const char *const name##_joint_names[joints_];                                                                          \
     GB_API const gb_real name##_limits[2 * (joints_)];                                                                             \
     GB_API int name##_solve(const gb_real *target, name##_solution *out);                                                          \
+    GB_API int name##_solve_bounded(const gb_real *target, size_t most, name##_solution *out);                                     \
     GB_API int name##_solve_or_nearest(const gb_real *target, name##_solution *out, name##_solution *nearest);                     \
     GB_API int name##_solve_pairs(const gb_real *target, name##_pairs *out);                                                       \
     GB_API size_t name##_solve_batch(const gb_real *targets, size_t count, name##_solution *out, size_t room, int *counts);        \

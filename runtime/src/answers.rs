@@ -9,8 +9,9 @@ use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechani
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
+use crate::steps::settle;
 use crate::storage::Array;
-use crate::strays::{Merged, Strays};
+use crate::strays::{Loners, Merged, Strays, Trails};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
 /// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
@@ -35,8 +36,10 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     pub suffices: bool,
     /// Candidates for members of self-motions that were dropped for this.
     pub strays: Strays,
-    /// The last member of a self-motion that has been found to be on one of its branch in the list, with its branch and free joints.
-    pub joined: Option<(usize, u32, Joints<M>)>,
+    /// Answers that are no members of self-motions.
+    pub loners: Loners<M>,
+    /// Members of self-motions of the list.
+    pub trails: Trails<M>,
     /// Whether the member that is kept is on none of these.
     pub is_another: bool,
     /// Members with several free joints that were found to be on a self-motion of the list.
@@ -129,7 +132,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             doubted: 0,
             suffices: nearby.is_none(),
             strays: Strays::NONE,
-            joined: None,
+            loners: Loners::NONE,
+            trails: Trails::NONE,
             is_another: false,
             merged: Merged::NONE,
             starts: None,
@@ -155,7 +159,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         walk(mechanism, parameters, self);
         self.flush();
         self.walk_curves();
-        if self.strays.are_doubtful() {
+        if self.strays.are_doubtful() && !self.problem.steps.are_spent() {
             self.suffices = false;
             walk(mechanism, parameters, self);
             self.flush();
@@ -163,12 +167,13 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
 
-    /// Brings all answers into the form that callers see.
+    /// Brings all answers into the form that callers see; their number.
     #[inline(always)]
-    pub fn conclude(&mut self) {
+    pub fn conclude(&mut self) -> Result<usize, Error> {
         self.unite();
         self.sort();
         self.mark_choice();
+        settle(self.problem.steps, &mut self.out[..self.count])
     }
 
     /// Whether all candidates could be written as pairs.
@@ -259,7 +264,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let approached = if is_short {
                 Some(ways.approach(&self.problem, k, &q))
             } else if found.free == 0 {
-                self.problem.approached(&self.places_of(k), &q)
+                let at = self.places_of(k);
+                self.problem.approached(&at, &q)
             } else {
                 None
             };
@@ -299,7 +305,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     pub fn write(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
         let Found { branch, free, .. } = *found;
         let Fit { residual, relative, .. } = *fit;
-        self.out[self.count] = Solution { q, residual, relative, branch, chosen: false, free };
+        self.out[self.count] = Solution { q, residual, relative, branch, chosen: false, free, settled: true };
         self.count += 1;
     }
 
@@ -353,7 +359,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             if !self.usual {
                 return;
             }
-            pairs[self.count] = Pairs { joints, residual, branch, free };
+            pairs[self.count] = Pairs { joints, residual, branch, free, settled: true };
             self.count += 1;
         }
     }

@@ -24,7 +24,7 @@ pub(crate) struct Approach<M: Mechanism> {
 impl<M: Mechanism> Problem<'_, M> {
     /// Where plain Newton steps by the normal equations lead from `q`, of which the equations read `at`, if these hold there within rounding and are
     /// regular on the way.
-    pub fn approached(&self, at: &Places<M>, q: &Joints<M>) -> Option<Approach<M>> {
+    pub fn approached(&mut self, at: &Places<M>, q: &Joints<M>) -> Option<Approach<M>> {
         let (mut at, mut end) = (at.clone(), q.clone());
         self.step_back(&Array::by(self.joints(), |_| 0.0), &mut at, &mut end)?;
         let mut first = None;

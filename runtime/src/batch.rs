@@ -12,8 +12,9 @@ use crate::problem::fit;
 use crate::registers::{in_avx2, in_avx512, in_widest};
 use crate::singly::{solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
+use crate::steps::Steps;
 use crate::storage::Array;
-use crate::tolerances::ROUNDING;
+use crate::tolerances::{MOST_STEPS, ROUNDING};
 
 /// What is written of a solution.
 pub(crate) trait Answer<M: Mechanism>: Clone {
@@ -45,11 +46,12 @@ impl<M: Mechanism> Answer<M> for Solution<M> {
             branch: bundle.branch.as_ref()[candidate],
             chosen: false,
             free: 0,
+            settled: true,
         }
     }
 
     fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error> {
-        solve_one(mechanism, target, list)
+        solve_one(mechanism, target, list, &mut Steps::at_most(MOST_STEPS))
     }
 }
 
@@ -71,6 +73,7 @@ impl<M: Mechanism> Answer<M> for Pairs<M> {
             residual: bundle.residual.as_ref()[candidate].0[lane],
             branch: bundle.branch.as_ref()[candidate],
             free: 0,
+            settled: true,
         }
     }
 

@@ -167,7 +167,7 @@ impl<M: Mechanism> Answers<'_, M> {
             }
         }
         if walk.most <= WHOLE {
-            self.keep_whole_curve(found, walk.best.q);
+            self.keep_whole_curve(found, held, walk.best.q);
         }
     }
 
@@ -271,30 +271,38 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep(&Found { free, ..*found }, end);
     }
 
-    /// Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves.
-    fn keep_whole_curve(&mut self, found: &Found, q: Joints<M>) {
-        let end = self.problem.polished(q, found.free);
-        let moving = || self.problem.joint_on_self_motion(&end.0, end.1.relative);
-        let free = if found.free == 0 { moving() } else { Some(found.free) };
-        if let Some(free) = free {
-            self.keep(&Found { free, ..*found }, end);
-        }
+    /// Keeps a member of a self-motion, of the joints that the candidate freed, or of the one that was held first.
+    fn keep_whole_curve(&mut self, found: &Found, held: usize, q: Joints<M>) {
+        let free = if found.free == 0 { 1 << held } else { found.free };
+        let end = self.problem.polished(q, free);
+        self.keep(&Found { free, ..*found }, end);
     }
 }
 
 impl<M: Mechanism> Problem<'_, M> {
     /// The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is or others move without it, the one that
     /// moves farthest where the equations hardly change.
-    fn start(&self, q: &Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
-        let is_curve = |(place, held): &(Place<M>, usize)| self.regularity_of(&place.q, 1 << held) > RANK;
-        let place_of = |held: usize| self.settled(q.clone(), held).map(|place| (place, held)).filter(is_curve);
-        let of_free = if free == 0 { None } else { place_of(free.trailing_zeros() as usize) };
-        of_free.or_else(|| place_of(farthest(self.stillest(q)?.0.as_ref())))
+    fn start(&mut self, q: &Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
+        let of_free = if free == 0 { None } else { self.start_with(q, free.trailing_zeros() as usize) };
+        if of_free.is_some() {
+            return of_free;
+        }
+        let held = farthest(self.stillest(q)?.0.as_ref());
+        self.start_with(q, held)
+    }
+
+    /// The place next to joints that is come to with one joint held, if it is on a curve, along which all others follow.
+    fn start_with(&mut self, q: &Joints<M>, held: usize) -> Option<(Place<M>, usize)> {
+        let place = self.settled(q.clone(), held)?;
+        (self.regularity_of(&place.q, 1 << held) > RANK).then_some((place, held))
     }
 
     /// Least-squares steps with one joint held, until they are short.
-    fn settled(&self, mut q: Joints<M>, held: usize) -> Option<Place<M>> {
+    fn settled(&mut self, mut q: Joints<M>, held: usize) -> Option<Place<M>> {
         for _ in 0..ROUNDS {
+            if self.steps.are_spent() {
+                return None;
+            }
             let (derivatives, mut miss) = self.shared(&q);
             let step = self.triangle_of(&derivatives, &miss, 0.0, 1 << held).substituted()?;
             let longest = self.facts().longest(step.as_ref());
@@ -315,14 +323,14 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The place on the curve at a share of the way from `a` to `b`.
-    fn between(&self, a: &Place<M>, b: &Place<M>, share: f64) -> Option<Place<M>> {
+    fn between(&mut self, a: &Place<M>, b: &Place<M>, share: f64) -> Option<Place<M>> {
         let facts = self.facts();
         let held = farthest(differences::<M>(&facts, &b.q, &a.q).as_ref());
         self.settled(beyond::<M>(&facts, &b.q, &a.q, -share), held)
     }
 
     /// A step along the curve from `at`, shorter where it bends, and its length; none where the curve ends.
-    fn pace(&self, before: &Place<M>, at: &Place<M>, last: f64, pace: &mut f64) -> Option<(Place<M>, f64)> {
+    fn pace(&mut self, before: &Place<M>, at: &Place<M>, last: f64, pace: &mut f64) -> Option<(Place<M>, f64)> {
         let facts = self.facts();
         let held = farthest(differences::<M>(&facts, &at.q, &before.q).as_ref());
         while *pace >= PACE[0] {
@@ -342,7 +350,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Where a parabola through what three places miss of a direction is least, the one between missing less than the others, and towards which of these that is.
-    fn vertex(&self, unit: &Place<M>, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
+    fn vertex(&mut self, unit: &Place<M>, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
         let (fall, rise) = ((middle - low) / lengths[0], (high - middle) / lengths[1]);

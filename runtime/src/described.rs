@@ -15,8 +15,9 @@ use crate::mechanism::{
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
+use crate::steps::{Steps, settle};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, POLISHED, ROUNDING};
+use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, MOST_STEPS, POLISHED, ROUNDING};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -141,8 +142,8 @@ fn propose<M: Mechanism>(
 }
 
 /// The joints with which the ideal mechanism is nearest to a target, if there are any candidates, and the joints that some of these free.
-fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<(Option<End<M>>, u32), Error> {
-    let (problem, mut best) = (Problem::new(mechanism, p), None::<End<M>>);
+fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>, steps: &mut Steps) -> Result<(Option<End<M>>, u32), Error> {
+    let (mut problem, mut best) = (Problem::new(mechanism, p, steps), None::<End<M>>);
     let free = propose(mechanism, p, |_, q| {
         // On a stratum joints only seem to be free where the other equations tell them.
         let end = problem.fitted(q, 0, LEAPS[0]);
@@ -156,11 +157,16 @@ fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>) -> Result<(Option<End
 }
 
 /// A member of a self-motion of the ideal mechanism that comes within the tolerance of a target, where a candidate leads to one.
-fn find_member<M: Mechanism>(mechanism: &M, p: &Parameters<M>, within: f64) -> Result<Option<Joints<M>>, Error> {
-    let (problem, mut member) = (Problem::new(mechanism, p), None);
+fn find_member<M: Mechanism>(
+    mechanism: &M,
+    p: &Parameters<M>,
+    within: f64,
+    steps: &mut Steps,
+) -> Result<Option<Joints<M>>, Error> {
+    let (mut problem, mut member) = (Problem::new(mechanism, p, steps), None);
     propose(mechanism, p, |found, q| {
         if found.free != 0 {
-            member = onto_self_motion(&problem, q, found.free, within);
+            member = onto_self_motion(&mut problem, q, found.free, within);
         }
         member.is_some()
     })?;
@@ -168,13 +174,19 @@ fn find_member<M: Mechanism>(mechanism: &M, p: &Parameters<M>, within: f64) -> R
 }
 
 /// The joints next to `q` at which the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target.
-fn onto_self_motion<M: Mechanism>(problem: &Problem<'_, M>, q: Joints<M>, free: u32, within: f64) -> Option<Joints<M>> {
+fn onto_self_motion<M: Mechanism>(
+    problem: &mut Problem<'_, M>,
+    q: Joints<M>,
+    free: u32,
+    within: f64,
+) -> Option<Joints<M>> {
     let is_within = |fit: Fit| fit.relative <= within;
     let (q, fit) = problem.fitted(q, free, LEAPS[0]);
     let q = if is_within(fit) { problem.freed(q, free) } else { None }?;
     let p = ideal_parameters(problem.mechanism, &q)?;
-    let ideal = Problem::new(problem.mechanism, &p);
-    (is_within(problem.measure(&q)) && ideal.lies_on_self_motion(&q, free, ROUNDING)).then_some(q)
+    let is_near = is_within(problem.measure(&q));
+    let mut ideal = Problem::new(problem.mechanism, &p, problem.steps);
+    (is_near && ideal.lies_on_self_motion(&q, free, ROUNDING)).then_some(q)
 }
 
 /// Adds joints with which the ideal mechanism comes within the tolerance of the target, too, and that are far from all answers to the target next to it: where it
@@ -185,11 +197,14 @@ fn add_others<M: Mechanism>(
     (p, within): (&Parameters<M>, f64),
     q: &Joints<M>,
     (out, count): (&mut [Solution<M>], usize),
+    steps: &mut Steps,
 ) -> Result<usize, Error> {
-    let (facts, problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p), count);
+    let (facts, mut problem, mut count) = (mechanism.facts(), Problem::new(mechanism, p, steps), count);
     let free = out[..count].iter().fold(0, |free, answer| free | answer.free);
     let ideal = if free == 0 { None } else { ideal_parameters(mechanism, q) };
-    let is_member = |q: &Joints<M>| ideal.as_ref().is_some_and(|p| Problem::new(mechanism, p).has_member(q, free));
+    let is_member = |q: &Joints<M>, steps: &mut Steps| {
+        ideal.as_ref().is_some_and(|p| Problem::new(mechanism, p, steps).has_member(q, free))
+    };
     propose(mechanism, p, |found, q| {
         let is_far = |q: &Joints<M>| {
             let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
@@ -200,10 +215,10 @@ fn add_others<M: Mechanism>(
         }
         let (q, fit) = problem.fitted(q, 0, LEAPS[0]);
         // On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these.
-        let is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
-        if fit.relative <= within && is_far(&q) && !is_member(&q) && is_alone() {
+        let mut is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
+        if fit.relative <= within && is_far(&q) && is_alone() && !is_member(&q, problem.steps) {
             let Fit { residual, relative, .. } = fit;
-            out[count] = Solution { q, residual, relative, branch: found.branch, chosen: false, free: 0 };
+            out[count] = Solution { q, residual, relative, branch: found.branch, ..Solution::empty(mechanism) };
             count += 1;
         }
         false
@@ -226,24 +241,25 @@ pub(crate) fn solve_described<M: Mechanism>(
     target: &Inputs<M>,
     within: f64,
     out: &mut [Solution<M>],
+    steps: &mut Steps,
 ) -> Result<(usize, Option<Solution<M>>), Error> {
     let p = mechanism.parameters(target);
     let described = Described(mechanism);
-    let problem = Problem::new(&described, &p);
-    let (Some((q, fit)), free) = closest(mechanism, &p)? else { return Ok((0, None)) };
+    let (Some((q, fit)), free) = closest(mechanism, &p, steps)? else { return Ok((0, None)) };
     let within = f64::max(within, ACCEPT);
     let is_reached = fit.relative <= within;
     if !is_reached {
         let mut nearest = Solution::empty(mechanism);
         nearest.q = q;
-        fit_to(&problem, &mut nearest);
-        return Ok((0, Some(nearest)));
+        fit_to(&mut Problem::new(&described, &p, steps), &mut nearest);
+        return Ok((settle::<M>(steps, &mut [])?, Some(nearest)));
     }
-    let member = if free == 0 { None } else { find_member(mechanism, &p, within)? };
+    let member = if free == 0 { None } else { find_member(mechanism, &p, within, steps)? };
     let q = member.unwrap_or(q);
-    let count = solve_ideal(mechanism, &ideal_target(mechanism, &q), out)?;
-    let count = add_others(mechanism, (&p, within), &q, (&mut *out, count))?;
-    Ok((fit_all(&problem, &mut out[..count]), None))
+    let count = solve_ideal(mechanism, &ideal_target(mechanism, &q), out, steps)?;
+    let count = add_others(mechanism, (&p, within), &q, (&mut *out, count), steps)?;
+    let count = fit_all(&mut Problem::new(&described, &p, steps), &mut out[..count]);
+    Ok((settle(steps, &mut out[..count])?, None))
 }
 
 /// The target that the ideal mechanism reaches.
@@ -260,13 +276,13 @@ fn ideal_parameters<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Option<Parame
 }
 
 /// Brings an answer of the ideal mechanism to where the described one is nearest to the target.
-fn fit_to<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
+fn fit_to<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
     let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 
 /// Brings all answers there, and keeps those that are new; their number. Where one would become another one it stays: the ideal mechanism tells them apart.
-fn fit_all<M: Mechanism>(problem: &Problem<'_, Described<'_, M>>, out: &mut [Solution<M>]) -> usize {
+fn fit_all<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, out: &mut [Solution<M>]) -> usize {
     let facts = problem.facts();
     let mut kept = 0;
     for k in 0..out.len() {
@@ -297,17 +313,19 @@ pub(crate) fn within_limits<M: Mechanism>(
     answer: &Solution<M>,
     limits: &Joints<M, [f64; 2]>,
 ) -> Option<(Joints<M>, f64)> {
-    let strides = || {
+    let mut steps = Steps::at_most(MOST_STEPS);
+    let strides = |steps: &mut Steps| {
         let within = f64::max(mechanism.facts().within?, ACCEPT);
-        let own = Problem::new(mechanism, p);
-        let q = if answer.free == 0 { None } else { onto_self_motion(&own, answer.q.clone(), answer.free, within) }?;
+        let mut own = Problem::new(mechanism, p, steps);
+        let q =
+            if answer.free == 0 { None } else { onto_self_motion(&mut own, answer.q.clone(), answer.free, within) }?;
         let ideal = ideal_parameters(mechanism, &q)?;
         let member = Solution { q, ..answer.clone() };
         let turned = turned_within::<M>(&mechanism.facts(), &member.q, limits);
-        turned.or_else(|| Some(strides_within(&Problem::new(mechanism, &ideal), &member, limits)?.0))
+        turned.or_else(|| Some(strides_within(&mut Problem::new(mechanism, &ideal, own.steps), &member, limits)?.0))
     };
-    let q = turned_within::<M>(&mechanism.facts(), &answer.q, limits).or_else(strides)?;
+    let q = turned_within::<M>(&mechanism.facts(), &answer.q, limits).or_else(|| strides(&mut steps))?;
     let described = Described(mechanism);
-    let residual = Problem::new(&described, p).measure(&q).residual;
+    let residual = Problem::new(&described, p, &mut steps).measure(&q).residual;
     Some((q, residual))
 }

@@ -5,6 +5,7 @@ use crate::conditions::conform;
 use crate::mechanism::{Inputs, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Solution};
+use crate::steps::Steps;
 
 /// All joint values with which the equations hold.
 #[inline]
@@ -12,12 +13,12 @@ pub(crate) fn solve_ideal<M: Mechanism>(
     mechanism: &M,
     target: &Inputs<M>,
     out: &mut [Solution<M>],
+    steps: &mut Steps,
 ) -> Result<usize, Error> {
     let mut target = target.clone();
     conform(mechanism.facts().conditions, target.as_mut())?;
     let p = mechanism.parameters(&target);
-    let mut answers = Answers::new(Problem::new(mechanism, &p), out, None);
+    let mut answers = Answers::new(Problem::new(mechanism, &p, steps), out, None);
     answers.find()?;
-    answers.conclude();
-    Ok(answers.count)
+    answers.conclude()
 }

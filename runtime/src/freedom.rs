@@ -13,7 +13,7 @@ impl<M: Mechanism> Problem<'_, M> {
     ///
     /// What the derivative by the free joint has across the derivatives by the others must vanish. Gauss-Newton steps bring that about (variable projection: G.
     /// Golub, V. Pereyra 1973); the share that the equations themselves have in a step falls to nothing.
-    pub fn freed(&self, mut q: Joints<M>, free: u32) -> Option<Joints<M>> {
+    pub fn freed(&mut self, mut q: Joints<M>, free: u32) -> Option<Joints<M>> {
         for share in FREEING {
             let step = self.freeing_step(&q, free, share)?;
             let is_near = self.facts().longest(step.as_ref()) <= LEAPS[0];
@@ -25,7 +25,7 @@ impl<M: Mechanism> Problem<'_, M> {
         Some(q)
     }
 
-    fn freeing_step(&self, q: &Joints<M>, free: u32, share: f64) -> Option<Joints<M>> {
+    fn freeing_step(&mut self, q: &Joints<M>, free: u32, share: f64) -> Option<Joints<M>> {
         let (rows, joints) = (self.shared(q).0, self.joints());
         let (missed, way) = self.across(&rows, &rows, free.trailing_zeros() as usize, free)?;
         let bends = self.bends(q, &way);
@@ -47,7 +47,7 @@ impl<M: Mechanism> Problem<'_, M> {
     /// What a column has across the derivatives by the joints that are not `free`, and how the joints move for it to be no more than that: the one with the
     /// column's number by one.
     fn across(
-        &self,
+        &mut self,
         rows: &Equations<M, Joints<M>>,
         columns: &Equations<M, Joints<M>>,
         column: usize,

@@ -42,6 +42,8 @@ mod solution;
 pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
+
+mod steps;
 pub mod storage;
 mod strays;
 pub mod tolerances;

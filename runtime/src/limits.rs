@@ -7,7 +7,8 @@ use crate::joints::{is_in, moved};
 use crate::mechanism::{Facts, Joint, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::solution::Solution;
-use crate::tolerances::{SLACK, STRIDE, STRIDES};
+use crate::steps::Steps;
+use crate::tolerances::{MOST_STEPS, SLACK, STRIDE, STRIDES};
 
 /// The most turns that are counted.
 pub const MOST_TURNS: usize = 1_000_000;
@@ -89,15 +90,19 @@ pub(crate) fn turned_within<M: Mechanism>(
 /// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
 /// when it meets no such place.
 pub(crate) fn strides_within<M: Mechanism>(
-    problem: &Problem<'_, M>,
+    problem: &mut Problem<'_, M>,
     answer: &Solution<M>,
     limits: &Joints<M, [f64; 2]>,
 ) -> Option<(Joints<M>, f64)> {
+    *problem.steps = Steps::at_most(MOST_STEPS);
     for i in (0..2 * problem.joints()).filter(|i| is_in(answer.free, i / 2)) {
         let mut q = answer.q.clone();
         for _ in 0..STRIDES {
             let way = if i % 2 == 0 { STRIDE } else { -STRIDE };
-            let (next, fit) = problem.polished(moved::<M>(&problem.facts(), &q, i / 2, way), answer.free);
+            let (next, fit) = {
+                let start = moved::<M>(&problem.facts(), &q, i / 2, way);
+                problem.polished(start, answer.free)
+            };
             if !fit.accepted {
                 break;
             }

@@ -5,7 +5,7 @@ use crate::counters::Phase;
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::End;
 use crate::solution::Solution;
-use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, ROUNDING};
+use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, REGULAR, ROUNDING};
 
 impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
@@ -13,13 +13,19 @@ impl<M: Mechanism> Answers<'_, M> {
     pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
-        if is_known && !found.free.is_power_of_two() {
+        if is_known && (!found.free.is_power_of_two() || self.problem.steps.are_spent()) {
+            return;
+        }
+        if self.trails.contains(&self.problem.facts(), &q, found.free, MERGE) {
             return;
         }
         let mut end = self.problem.measured(q);
         let missed = end.1.relative;
         if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
             return self.miss(end);
+        }
+        if self.problem.steps.are_spent() {
+            return self.keep(found, end);
         }
         let may_miss = self.problem.facts().nearby.is_some() && found.free.is_power_of_two() && !is_known;
         if may_miss && missed > ROUNDING && self.begin_curve(found, &end.0) {
@@ -29,7 +35,7 @@ impl<M: Mechanism> Answers<'_, M> {
             end = self.problem.polish(end, found.free);
         }
         if is_known && !self.is_another(found, &end) {
-            return;
+            return self.trails.remember(found, &end.0);
         }
         self.is_another = is_known;
         let is_done =
@@ -47,7 +53,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it; all is done then.
     fn keep_long_member(&mut self, found: &Found, end: &End<M>, is_known: bool) -> bool {
         if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
-            self.keep(found, end.clone());
+            self.keep_on_trail(found, end.clone());
             return true;
         }
         if !is_known {
@@ -71,14 +77,11 @@ impl<M: Mechanism> Answers<'_, M> {
         if !(fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free)) {
             return false;
         }
-        let leads = |a: &Joints<M>| self.problem.leads_to(a, q, found.free);
-        // Most often the last one is the nearest.
-        let last = self.joined.as_ref().filter(|(branch, free, _)| (*branch, *free) == (found.branch, found.free));
+        let Answers { problem, out, count, trails, .. } = self;
+        let mut leads = |a: &Joints<M>| problem.leads_to(a, q, found.free);
+        let last = trails.last(found.branch, |free| free == found.free);
         let joins = last.is_some_and(|(_, _, last)| leads(last))
-            || self.out[..self.count].iter().any(|a| is_told(a, found) && leads(&a.q));
-        if joins {
-            self.joined = Some((found.branch, found.free, q.clone()));
-        }
+            || out[..*count].iter().rev().any(|a| is_told(a, found) && leads(&a.q));
         !joins
     }
 
@@ -90,10 +93,13 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
         let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
+        if !is_listed && self.is_on_trail(found, &end.0) {
+            return;
+        }
         let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
         let alone = Found { free: joint.unwrap_or(0), ..*found };
         let known = self.count;
-        self.keep(&alone, end.clone());
+        self.keep_on_trail(&alone, end.clone());
         if joint.is_none() && self.count > known && (ROUNDING..=NEAR).contains(&missed) {
             self.around(&alone, &end, missed);
         }
@@ -103,9 +109,29 @@ impl<M: Mechanism> Answers<'_, M> {
     fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
         let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
         if is_member {
-            self.keep(found, end.clone());
+            self.keep_on_trail(found, end.clone());
         }
         is_member
+    }
+
+    /// Keeps an answer, and remembers a member.
+    fn keep_on_trail(&mut self, found: &Found, end: End<M>) {
+        if found.free != 0 {
+            self.trails.remember(found, &end.0);
+        }
+        self.keep(found, end);
+    }
+
+    /// Whether joints are on a self-motion of one joint that the last candidates of this branch have led to.
+    fn is_on_trail(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        let Answers { problem, trails, .. } = self;
+        let Some((_, free, last)) = trails.last(found.branch, u32::is_power_of_two) else { return false };
+        let free = *free;
+        let is_on = problem.regularity(q) <= REGULAR && problem.leads_to(last, q, free);
+        if is_on {
+            trails.remember(&Found { free, ..*found }, q);
+        }
+        is_on
     }
 }
 

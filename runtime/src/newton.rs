@@ -22,10 +22,10 @@ pub(crate) struct Triangle<M: Mechanism> {
 impl<M: Mechanism> Problem<'_, M> {
     /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
     /// after a leap. Joints that are `held` stay.
-    pub fn polish(&self, start: End<M>, held: u32) -> End<M> {
+    pub fn polish(&mut self, start: End<M>, held: u32) -> End<M> {
         let (mut end, mut slow) = (start, 0);
         for _ in 0..POLISH_STEPS {
-            if end.1.relative <= POLISHED || slow == PATIENCE {
+            if end.1.relative <= POLISHED || slow == PATIENCE || self.steps.are_spent() {
                 return end;
             }
             let Some(next) = self.improved(&end, held) else { return end };
@@ -40,13 +40,14 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The same from joints that are not measured yet.
-    pub fn polished(&self, q: Joints<M>, held: u32) -> End<M> {
-        self.polish(self.measured(q), held)
+    pub fn polished(&mut self, q: Joints<M>, held: u32) -> End<M> {
+        let start = self.measured(q);
+        self.polish(start, held)
     }
 
     /// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
     /// it is rounding and a plain step is short, that is the last.
-    fn improved(&self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
+    fn improved(&mut self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
         let (derivatives, values) = self.slopes(q);
@@ -80,7 +81,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
     /// beyond one of them, and from there on each quarters the miss.
-    fn returned(&self, mut q: Joints<M>, relative: f64, held: u32) -> Option<End<M>> {
+    fn returned(&mut self, mut q: Joints<M>, relative: f64, held: u32) -> Option<End<M>> {
         for _ in 0..RETURNS {
             let step = self.newton_step(&q, 0.0, held)?;
             q = stepped::<M>(&self.facts(), &q, &step);
@@ -94,7 +95,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
     /// hardly changes along a bent way, and rises on each straight one.
-    fn leap(&self, q: &Joints<M>, enough: f64, held: u32) -> Option<End<M>> {
+    fn leap(&mut self, q: &Joints<M>, enough: f64, held: u32) -> Option<End<M>> {
         let step = self.newton_step(q, 0.0, held)?;
         let longest = self.facts().longest(step.as_ref());
         if !longest.is_finite() {
@@ -117,7 +118,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
-    pub fn are_joined(&self, a: &Joints<M>, b: &Joints<M>, bound: f64, held: u32) -> bool {
+    pub fn are_joined(&mut self, a: &Joints<M>, b: &Joints<M>, bound: f64, held: u32) -> bool {
         if self.facts().farthest(a.as_ref(), b.as_ref()) > BLUR {
             return false;
         }
@@ -134,17 +135,20 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.relative <= bound
     }
 
-    /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular. The rows are turned into a triangle by reflections.
-    pub fn newton_step(&self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
+    /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular, or no steps are left. The rows are turned into a triangle by reflections.
+    pub fn newton_step(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
+        if self.steps.are_spent() {
+            return None;
+        }
         self.triangle(q, damping, held).substituted()
     }
 
     /// Damped Gauss-Newton steps from `q` to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is
     /// taken only if it falls, and no joint goes farther in it than `most` (rad, or relative to the length scale). Joints that are `held` stay.
-    pub fn fitted(&self, q: Joints<M>, held: u32, most: f64) -> End<M> {
+    pub fn fitted(&mut self, q: Joints<M>, held: u32, most: f64) -> End<M> {
         let (mut q, mut squares) = (q.clone(), self.squares(&q));
         for _ in 0..FITTING_STEPS {
-            if squares <= POLISHED * POLISHED {
+            if squares <= POLISHED * POLISHED || self.steps.are_spent() {
                 break;
             }
             let Some((next, fallen, longest)) = self.fallen(&q, squares, held, most) else { break };
@@ -157,7 +161,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.
-    fn fallen(&self, q: &Joints<M>, squares: f64, held: u32, most: f64) -> Option<(Joints<M>, f64, f64)> {
+    fn fallen(&mut self, q: &Joints<M>, squares: f64, held: u32, most: f64) -> Option<(Joints<M>, f64, f64)> {
         for damping in DAMPINGS {
             let Some(step) = self.shares(q, damping, held).substituted() else { continue };
             let longest = self.facts().longest(step.as_ref());
@@ -173,8 +177,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The sum of the squares of what the equations are missed by, as shares of their sizes.
-    fn squares(&self, q: &Joints<M>) -> f64 {
-        Event::Evaluation.count();
+    fn squares(&mut self, q: &Joints<M>) -> f64 {
+        self.steps.take(Event::Evaluation);
         let (values, sizes) = self.equations(&self.place(q));
         let mut sum = 0.0;
         for (value, &size) in values.as_ref().iter().zip(self.facts().size_of) {
@@ -186,12 +190,12 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
     /// hold, or a root is double.
-    pub fn regularity(&self, q: &Joints<M>) -> f64 {
+    pub fn regularity(&mut self, q: &Joints<M>) -> f64 {
         self.regularity_of(q, 0)
     }
 
     /// The same where joints are `held`.
-    pub fn regularity_of(&self, q: &Joints<M>, held: u32) -> f64 {
+    pub fn regularity_of(&mut self, q: &Joints<M>, held: u32) -> f64 {
         let triangle = self.triangle(q, 0.0, held);
         let pivots = (0..self.joints()).map(|i| triangle.entry(i, i).abs());
         let (least, most) =
@@ -200,8 +204,11 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
-    /// inverse iteration; none where a pivot is zero.
-    pub fn stillest(&self, q: &Joints<M>) -> Option<(Joints<M>, f64)> {
+    /// inverse iteration; none where a pivot is zero, or no steps are left.
+    pub fn stillest(&mut self, q: &Joints<M>) -> Option<(Joints<M>, f64)> {
+        if self.steps.are_spent() {
+            return None;
+        }
         let mut triangle = self.triangle(q, 0.0, 0);
         let joints = self.joints();
         let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));
@@ -224,7 +231,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The triangle of a step's equations.
-    fn triangle(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+    fn triangle(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (derivatives, right) = self.slopes(q);
         self.triangle_of(&derivatives, &right, damping, held)
     }
@@ -236,7 +243,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The same with the equations as shares of their sizes.
-    pub(crate) fn shares(&self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+    pub(crate) fn shares(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (derivatives, right) = self.shared(q);
         self.triangle_of(&derivatives, &right, damping, held)
     }
@@ -262,13 +269,13 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The triangle of equations with these derivatives and values.
     pub(crate) fn triangle_of(
-        &self,
+        &mut self,
         derivatives: &Equations<M, Joints<M>>,
         right: &Equations<M>,
         damping: f64,
         held: u32,
     ) -> Triangle<M> {
-        Event::Step.count();
+        self.steps.take(Event::Step);
         let (joints, equations) = (self.joints(), self.facts().size_of.len());
         let mut triangle = self.no_triangle();
         let mut size = 0.0;

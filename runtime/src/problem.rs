@@ -6,6 +6,7 @@ use crate::joints::place;
 use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Facts, Joints, Mechanism, Parameters, Places, Sizes};
 use crate::number::Number;
+use crate::steps::Steps;
 use crate::storage::Array;
 use crate::tolerances::ACCEPT;
 
@@ -15,6 +16,8 @@ pub(crate) struct Problem<'a, M: Mechanism> {
     pub parameters: &'a Parameters<M>,
     /// The numbers of the candidate that follow from no joint, among others.
     pub extras: Option<Places<M>>,
+    /// What is left of the target's steps.
+    pub steps: &'a mut Steps,
 }
 
 /// How well joint values solve the equations.
@@ -33,8 +36,8 @@ pub(crate) type End<M> = (Joints<M>, Fit);
 
 impl<'a, M: Mechanism> Problem<'a, M> {
     #[inline(always)]
-    pub fn new(mechanism: &'a M, parameters: &'a Parameters<M>) -> Self {
-        Problem { mechanism, parameters, extras: None }
+    pub fn new(mechanism: &'a M, parameters: &'a Parameters<M>, steps: &'a mut Steps) -> Self {
+        Problem { mechanism, parameters, extras: None, steps }
     }
 
     /// What holds for all targets.
@@ -60,19 +63,19 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     }
 
     /// How well joint values solve the equations.
-    pub fn measure(&self, q: &Joints<M>) -> Fit {
+    pub fn measure(&mut self, q: &Joints<M>) -> Fit {
         self.measure_at(&self.place(q), q)
     }
 
     /// The joint values with how well they solve the equations.
-    pub fn measured(&self, q: Joints<M>) -> End<M> {
+    pub fn measured(&mut self, q: Joints<M>) -> End<M> {
         let fit = self.measure(&q);
         (q, fit)
     }
 
     /// As [`Problem::measure`], where the cosines and sines of `q` are known.
-    pub fn measure_at(&self, at: &Places<M>, q: &Joints<M>) -> Fit {
-        Event::Evaluation.count();
+    pub fn measure_at(&mut self, at: &Places<M>, q: &Joints<M>) -> Fit {
+        self.steps.take(Event::Evaluation);
         let (values, sizes) = self.equations(at);
         let (size_of, sizes) = (self.facts().size_of, sizes.as_ref());
         let are_finite = q.as_ref().iter().all(|value| value.is_finite());

@@ -6,12 +6,13 @@ use crate::arithmetic::Arithmetic;
 use crate::counters::Phase;
 use crate::joints::{differences, moved, shifted, stepped};
 use crate::mechanism::{Found, Joints, Mechanism};
-use crate::problem::{End, Fit};
+use crate::problem::{End, Fit, Problem};
 use crate::solution::Solution;
 use crate::storage::Array;
+use crate::strays::Loners;
 use crate::tolerances::{
-    ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP, TWIN,
-    TWINS_AT,
+    ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP,
+    TWIN, TWINS_AT, UNSETTLED,
 };
 
 /// The most answers of a target.
@@ -51,7 +52,8 @@ impl<M: Mechanism> Answers<'_, M> {
             self.around(found, &end, missed);
             // Such a candidate stands between two answers: starts from the other side too.
             let way = differences::<M>(&self.problem.facts(), &q, &end.0);
-            let start = self.problem.polished(shifted::<M>(&self.problem.facts(), &q, &way), 0);
+            let start = shifted::<M>(&self.problem.facts(), &q, &way);
+            let start = self.problem.polished(start, 0);
             self.keep(found, start);
         }
         if is_nearby && is_beside {
@@ -105,7 +107,8 @@ impl<M: Mechanism> Answers<'_, M> {
             let factor = times * Arithmetic::sqrt(missed);
             let step: Joints<M> = Array::by(self.problem.joints(), |i| factor * way.as_ref()[i]);
             let start = stepped::<M>(&self.problem.facts(), end, &step);
-            let end = match self.problem.approached(&self.problem.place(&start), &start) {
+            let at = self.problem.place(&start);
+            let end = match self.problem.approached(&at, &start) {
                 Some(Approach { end, fit, .. }) => (end, fit),
                 None => self.problem.polished(start, 0),
             };
@@ -120,7 +123,7 @@ impl<M: Mechanism> Answers<'_, M> {
         let weights = self.problem.weights(&end.0);
         let mut is_found = end.1.accepted;
         let mut farther = 1.0;
-        while farther <= FARTHEST {
+        while farther <= FARTHEST && !self.problem.steps.are_spent() {
             for i in 0..self.problem.joints() {
                 for sign in [-1.0, 1.0] {
                     let weight = if end.1.accepted { 1.0 } else { weights.as_ref()[i] };
@@ -149,7 +152,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
     /// a second root of a double one takes the next free number below `last`.
     pub fn keep(&mut self, found: &Found, (q, fit): End<M>) {
-        if !fit.accepted {
+        if !(fit.accepted || self.may_stay(&q, &fit)) {
             return self.miss((q, fit));
         }
         let is_apart = |other: &Solution<M>| {
@@ -163,6 +166,13 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep_one(found, q, &fit);
     }
 
+    /// Whether what no steps are left to polish is near enough to an answer.
+    fn may_stay(&self, q: &Joints<M>, fit: &Fit) -> bool {
+        let are_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        let is_whole = are_finite(q.as_ref()) && self.problem.extras.as_ref().is_none_or(|at| are_finite(at.as_ref()));
+        self.problem.steps.are_spent() && fit.relative <= UNSETTLED && is_whole
+    }
+
     /// As [`Answers::keep`], where others are near.
     #[cold]
     #[inline(never)]
@@ -173,12 +183,12 @@ impl<M: Mechanism> Answers<'_, M> {
         let is_taken = |branch: usize| self.out[..self.count].iter().any(|answer| answer.branch == branch);
         let branch = (branch..next).find(|branch| !is_taken(*branch)).unwrap_or(branch);
         let Fit { residual, relative, .. } = *fit;
-        let mut answer = Solution { q, residual, relative, branch, chosen: false, free };
+        let mut answer = Solution { q, residual, relative, branch, chosen: false, free, settled: true };
         let mut doubles = [0_u64; MOST / WORD];
         let mut first = None;
         for i in 0..self.count.min(MOST) {
-            let other = &self.out[i];
-            if self.is_one(other, &answer) {
+            if self.is_one(i, &answer) {
+                let other = &self.out[i];
                 if holds_against(other, &answer) {
                     self.remember_merged(i, answer.relative, found);
                     return;
@@ -269,45 +279,73 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Whether two answers are one: members of one self-motion, or within [`MERGE`] with joints left out that are free in either, or one singular
     /// configuration.
-    fn is_one(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
-        let (problem, free) = (&self.problem, a.free | b.free);
-        if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), free, MERGE) {
+    fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
+        let Answers { problem, out, is_another, suffices, loners, .. } = self;
+        let a = &out[index];
+        if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), a.free | b.free, MERGE) {
             return true;
         }
+        if problem.steps.are_spent() {
+            return are_alike(problem, a, b);
+        }
         match (a.is_isolated(), b.is_isolated()) {
-            (true, true) => self.are_blurred(a, b),
+            (true, true) => are_blurred(problem, a, b),
             (false, false) => {
-                let are_apart = self.is_another && a.relative <= ROUNDING && a.branch == b.branch;
+                let are_apart = *is_another && a.relative <= ROUNDING && a.branch == b.branch;
                 let is_alike = a.free == b.free && !are_apart;
-                is_alike && (self.are_by_branch(a, b) || problem.leads_to(&a.q, &b.q, a.free))
+                is_alike && (are_by_branch(problem, a, b) || problem.leads_to(&a.q, &b.q, a.free))
             }
-            (true, false) => b.relative <= ROUNDING && self.is_on(&b.q, b.free, &a.q),
-            (false, true) => a.relative <= ROUNDING && self.is_on(&a.q, a.free, &b.q),
+            (true, false) => is_on(problem, loners, b, a, *suffices),
+            (false, true) => is_on(problem, loners, a, b, *suffices),
         }
     }
+}
 
-    /// Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds
-    /// only almost.
-    fn is_on(&self, member: &Joints<M>, free: u32, isolated: &Joints<M>) -> bool {
-        self.problem.lies_on_self_motion(isolated, free, ROUNDING)
-            && (!self.suffices || self.problem.leads_to(member, isolated, free))
+/// Whether an isolated answer is but a member of the self-motion of a member that holds within rounding. Where the cases before have lost no answer, it may be
+/// of one that holds only almost.
+fn is_on<M: Mechanism>(
+    problem: &mut Problem<'_, M>,
+    loners: &mut Loners<M>,
+    member: &Solution<M>,
+    isolated: &Solution<M>,
+    suffices: bool,
+) -> bool {
+    let free = member.free;
+    if member.relative > ROUNDING || loners.contains(&isolated.q, free) {
+        return false;
     }
-
-    /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
-    fn are_by_branch(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
-        let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
-        a.branch == b.branch && !(are_sharp && self.problem.is_on_curve(&b.q, b.free))
+    if !problem.lies_on_self_motion(&isolated.q, free, ROUNDING) {
+        loners.remember(&isolated.q, free);
+        return false;
     }
+    !suffices || problem.leads_to(&member.q, &isolated.q, free)
+}
 
-    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]:
-    /// they hold half-way too, as well as at the worse of the two.
-    fn are_blurred(&self, a: &Solution<M>, b: &Solution<M>) -> bool {
-        let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-        let is_near = self.problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR;
-        if bound <= ROUNDING && is_near && self.problem.regularity(&b.q) > DISTINCT {
-            return false;
+/// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
+fn are_by_branch<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
+    let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
+    a.branch == b.branch && !(are_sharp && problem.is_on_curve(&b.q, b.free))
+}
+
+/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]: they hold half-way
+/// too, as well as at the worse of the two.
+fn are_blurred<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
+    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
+    let is_near = problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR;
+    if bound <= ROUNDING && is_near && problem.regularity(&b.q) > DISTINCT {
+        return false;
+    }
+    problem.are_joined(&a.q, &b.q, bound, 0)
+}
+
+/// Whether two answers that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to the other.
+fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
+    match (a.is_isolated(), b.is_isolated()) {
+        (true, true) => {
+            let is_loose = f64::max(a.relative, b.relative) > ACCEPT;
+            is_loose && problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR
         }
-        self.problem.are_joined(&a.q, &b.q, bound, 0)
+        _ => (a.branch, a.free) == (b.branch, b.free),
     }
 }
 

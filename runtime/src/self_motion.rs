@@ -4,86 +4,98 @@ use core::f64::consts::TAU;
 
 use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Joints, Mechanism};
-use crate::problem::Problem;
+use crate::problem::{End, Problem};
 use crate::storage::Array;
 use crate::tolerances::{
-    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
+    ALONG, ARRIVED, ASIDE, ASTRAY, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR, STIFF,
 };
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
     /// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
     /// circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
-    pub fn lies_on_self_motion(&self, q: &Joints<M>, free: u32, bound: f64) -> bool {
-        self.leads_to_self_motion(q, free, bound, self.regularity(q))
+    pub fn lies_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
+        let regularity = self.regularity(q);
+        self.leads_to_self_motion(q, free, bound, regularity)
     }
 
     /// The same within rounding, but for self-motions that go round a small part of the circle only.
-    pub fn lies_on_long_self_motion(&self, q: &Joints<M>, free: u32) -> bool {
+    pub fn lies_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
         self.regularity(q) <= REGULAR && self.leads_far_aside(q, free)
     }
 
-    fn leads_far_aside(&self, q: &Joints<M>, free: u32) -> bool {
-        self.leads_aside(q, free, ASIDE, ROUNDING) || self.leads_aside(q, free, -ASIDE, ROUNDING)
+    fn leads_far_aside(&mut self, q: &Joints<M>, free: u32) -> bool {
+        !self.steps.are_spent() && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ROUNDING))
     }
 
     /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
     /// a nearby mechanism and free none, any joint.
-    pub fn joint_on_self_motion(&self, q: &Joints<M>, bound: f64) -> Option<u32> {
+    pub fn joint_on_self_motion(&mut self, q: &Joints<M>, bound: f64) -> Option<u32> {
+        if self.facts().freed.is_empty() && self.facts().nearby.is_none() {
+            return None;
+        }
         let regularity = self.regularity(q);
-        self.joint_that(|free| self.leads_to_self_motion(q, free, bound, regularity))
+        self.joint_that(|problem, free| problem.leads_to_self_motion(q, free, bound, regularity))
     }
 
     /// The same of long self-motions within rounding.
-    pub fn joint_on_long_self_motion(&self, q: &Joints<M>) -> Option<u32> {
+    pub fn joint_on_long_self_motion(&mut self, q: &Joints<M>) -> Option<u32> {
         let is_singular = self.regularity(q) <= REGULAR;
-        self.joint_that(|free| is_singular && self.leads_far_aside(q, free))
+        self.joint_that(|problem, free| is_singular && problem.leads_far_aside(q, free))
     }
 
-    fn joint_that(&self, moves: impl Fn(u32) -> bool) -> Option<u32> {
+    fn joint_that(&mut self, moves: impl Fn(&mut Self, u32) -> bool) -> Option<u32> {
         let facts = self.facts();
         let is_any = facts.freed.is_empty() && facts.nearby.is_some();
         let may = |joint: &&usize| is_any || facts.freed.contains(joint);
-        facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint).find(|free| moves(*free))
+        facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint).find(|free| moves(self, *free))
     }
 
     /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.
-    pub fn has_member(&self, q: &Joints<M>, free: u32) -> bool {
+    pub fn has_member(&mut self, q: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polished(q.clone(), 0);
         fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
     }
 
-    fn leads_to_self_motion(&self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
-        let (mut way, bound) = (ASIDE, f64::max(bound, ROUNDING));
-        if regularity > REGULAR {
+    fn leads_to_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
+        let bound = f64::max(bound, ROUNDING);
+        if regularity > REGULAR || self.steps.are_spent() {
             return false;
         }
-        for narrow in 0..NARROWS {
-            if narrow == 1 && (bound > ROUNDING || regularity > SINGULAR) {
-                return false;
-            }
-            if self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound) {
-                return true;
-            }
-            way /= 8.0;
+        let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
+        // What leads nowhere along the last way but one leads nowhere along longer ones.
+        let may =
+            narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
+        may && (0..narrows).any(|narrow| {
+            let way = narrowed(narrow);
+            self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound)
+        })
+    }
+
+    /// Whether the others follow where the joints `free` are moved by the first stage of a way.
+    fn sets_out(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
+        let start = self.moved_all(q, q, free, way / FIRST_STAGE);
+        self.polished(start, free).1.relative <= bound
+    }
+
+    /// Joints of which those that are `free` are as far from `q` as a way.
+    fn moved_all(&self, others: &Joints<M>, q: &Joints<M>, free: u32, way: f64) -> Joints<M> {
+        let mut next = others.clone();
+        for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
+            next.as_mut()[i] = moved::<M>(&self.facts(), q, i, way).as_ref()[i];
         }
-        false
+        next
     }
 
     /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
     /// may be led to a self-motion next to it, but not back.
-    fn leads_aside(&self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
+    fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
-        let mut share = 1.0;
-        for _ in 1..DOUBLINGS {
-            share *= 0.5;
-        }
+        let mut share = 1.0 / FIRST_STAGE;
         for stage in 0..DOUBLINGS {
-            let mut next = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
-            for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
-                next.as_mut()[i] = moved::<M>(&self.facts(), q, i, share * way).as_ref()[i];
-            }
-            let (next, fit) = self.polished(next, free);
+            let ahead = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
+            let start = self.moved_all(&ahead, q, free, share * way);
+            let (next, fit) = self.polished(start, free);
             if fit.relative > bound || (stage == 1 && !self.leads_back(q, free, &at, &next, bound)) {
                 return false;
             }
@@ -94,7 +106,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the joints come back to `q` on along the line from `far` through `near`.
-    fn leads_back(&self, q: &Joints<M>, free: u32, near: &Joints<M>, far: &Joints<M>, bound: f64) -> bool {
+    fn leads_back(&mut self, q: &Joints<M>, free: u32, near: &Joints<M>, far: &Joints<M>, bound: f64) -> bool {
         let mut back = beyond::<M>(&self.facts(), far, near, 1.0);
         for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
             back.as_mut()[i] = q.as_ref()[i];
@@ -104,13 +116,13 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the self-motion that `q` is a member of is a curve there, along which one free joint tells all others.
-    pub fn is_on_curve(&self, q: &Joints<M>, free: u32) -> bool {
+    pub fn is_on_curve(&mut self, q: &Joints<M>, free: u32) -> bool {
         free.is_power_of_two() && self.regularity_of(q, free) > REGULAR
     }
 
     /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
     /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
-    pub fn leads_to(&self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+    pub fn leads_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b, a);
         let long = self.other_way(&short, free);
         if self.is_straight(a, &short) || long.as_ref().is_some_and(|long| self.is_straight(a, long)) {
@@ -132,20 +144,25 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the equations hold on the straight line along `way`, as they do where axes coincide.
-    fn is_straight(&self, a: &Joints<M>, way: &Joints<M>) -> bool {
-        let at = |share: f64| Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
-        [0.5, 0.25, 0.75].iter().all(|share| self.measure(&at(*share)).relative <= ROUNDING)
+    fn is_straight(&mut self, a: &Joints<M>, way: &Joints<M>) -> bool {
+        [0.5, 0.25, 0.75].iter().all(|share| {
+            let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
+            self.measure(&at).relative <= ROUNDING
+        })
     }
 
     /// Whether the joints come to `b` as the free ones go `way` from `a` and the others follow, in steps with which they keep up; none where they
     /// do not.
-    fn leads_along(&self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
+    fn leads_along(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
         let facts = self.facts();
         let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { way.as_ref()[i] } else { 0.0 });
         let (length, [shortest, first, longest]) = (facts.longest(freed.as_ref()), ALONG);
         let (mut before, mut at) = (a.clone(), a.clone());
         let (mut gone, mut last, mut pace) = (0.0, 1.0, first);
         for _ in 0..PACES {
+            if self.steps.are_spent() {
+                return None;
+            }
             let is_last = pace >= length - gone;
             let (step, share) = if is_last { (length - gone, 1.0) } else { (pace, (gone + pace) / length) };
             let mut ahead = beyond::<M>(&facts, &before, &at, step / last);
@@ -155,9 +172,9 @@ impl<M: Mechanism> Problem<'_, M> {
             let next = self.followed(ahead, free);
             if let Some(next) = next {
                 if is_last {
-                    return Some(self.is_there(&next, b, free));
+                    return Some(self.is_there(next, b, free));
                 }
-                (before, at) = (at, next);
+                (before, at) = (at, next.0);
                 (gone, last, pace) = (gone + step, step, f64::min(2.0 * pace, longest));
             } else if pace > shortest {
                 pace *= 0.25;
@@ -168,25 +185,32 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps, and with more care where these come next to it.
-    fn followed(&self, ahead: Joints<M>, free: u32) -> Option<Joints<M>> {
+    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps.
+    fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead.clone());
         for _ in 0..RETURNS {
-            if end.1.accepted {
+            if end.1.relative <= ASTRAY {
                 break;
             }
-            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            let step = self.newton_step(&end.0, STIFF, free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
-        if !end.1.accepted && end.1.relative <= ASTRAY {
-            end = self.polish(end, free);
-        }
         let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;
-        (end.1.accepted && is_near).then_some(end.0)
+        (end.1.relative <= ASTRAY && is_near).then_some(end)
     }
 
     /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
-    fn is_there(&self, q: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
-        self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED) && self.are_joined(q, b, ROUNDING, free)
+    fn is_there(&mut self, end: End<M>, b: &Joints<M>, free: u32) -> bool {
+        let (q, fit) = self.polish(end, free);
+        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
+        is_close && self.are_joined(&q, b, ROUNDING, free)
     }
+}
+
+/// The first stage of a way is this share's inverse of it.
+const FIRST_STAGE: f64 = (1 << (DOUBLINGS - 1)) as f64;
+
+/// One of the ways aside, each an eighth of the one before.
+fn narrowed(narrow: usize) -> f64 {
+    (0..narrow).fold(ASIDE, |way, _| way / 8.0)
 }

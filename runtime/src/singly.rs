@@ -7,7 +7,9 @@ use crate::exactly::solve_ideal;
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
+use crate::steps::Steps;
 use crate::storage::Array;
+use crate::tolerances::MOST_STEPS;
 use crate::trigonometry::{cosine, sine};
 
 /// As [`crate::Solve::solve`].
@@ -16,13 +18,14 @@ pub(crate) fn solve_one<M: Mechanism>(
     mechanism: &M,
     target: &Inputs<M>,
     out: &mut [Solution<M>],
+    steps: &mut Steps,
 ) -> Result<usize, Error> {
     match mechanism.facts().within {
-        None => solve_ideal(mechanism, target, out),
+        None => solve_ideal(mechanism, target, out, steps),
         Some(within) => {
             let mut target = target.clone();
             conform(mechanism.facts().conditions, target.as_mut())?;
-            Ok(solve_described(mechanism, &target, within, out)?.0)
+            Ok(solve_described(mechanism, &target, within, out, steps)?.0)
         }
     }
 }
@@ -37,7 +40,8 @@ pub(crate) fn solve_one_by_pairs<M: Mechanism>(
         let mut conforming = target.clone();
         conform(mechanism.facts().conditions, conforming.as_mut())?;
         let p = mechanism.parameters(&conforming);
-        let mut answers = Answers::new(Problem::new(mechanism, &p), &mut [], Some(&mut *out));
+        let mut steps = Steps::at_most(MOST_STEPS);
+        let mut answers = Answers::new(Problem::new(mechanism, &p, &mut steps), &mut [], Some(&mut *out));
         answers.find()?;
         let (count, are_all) = (answers.count, answers.are_all_pairs());
         if are_all {
@@ -46,7 +50,7 @@ pub(crate) fn solve_one_by_pairs<M: Mechanism>(
         }
     }
     let mut list: Answered<M, Solution<M>> = Array::by(mechanism.facts().capacity, |_| Solution::empty(mechanism));
-    let count = solve_one(mechanism, target, list.as_mut())?.min(out.len());
+    let count = solve_one(mechanism, target, list.as_mut(), &mut Steps::at_most(MOST_STEPS))?.min(out.len());
     for (pairs, solution) in out.iter_mut().zip(list.as_ref()).take(count) {
         *pairs = pairs_of(mechanism, solution);
     }
@@ -60,5 +64,11 @@ pub(crate) fn pairs_of<M: Mechanism>(mechanism: &M, solution: &Solution<M>) -> P
         let value = solution.q.as_ref()[i];
         if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
     });
-    Pairs { joints, residual: solution.residual, branch: solution.branch, free: solution.free }
+    Pairs {
+        joints,
+        residual: solution.residual,
+        branch: solution.branch,
+        free: solution.free,
+        settled: solution.settled,
+    }
 }

@@ -19,6 +19,9 @@ pub struct Solution<M: Mechanism> {
     pub chosen: bool,
     /// Bit `j` is set where joint `j` may take any value here: this is one member of a self-motion.
     pub free: u32,
+    /// False where the [steps](crate::tolerances::MOST_STEPS) of the target were spent before all work was done. All of its answers say so: others may be
+    /// missing, and [`Solution::relative`] tells how well each holds, at most [`crate::tolerances::UNSETTLED`].
+    pub settled: bool,
 }
 
 /// One answer by cosines and sines.
@@ -31,13 +34,15 @@ pub struct Pairs<M: Mechanism> {
     pub branch: usize,
     /// As in [`Solution`].
     pub free: u32,
+    /// As in [`Solution`].
+    pub settled: bool,
 }
 
 impl<M: Mechanism> Solution<M> {
     /// No answer yet: what a buffer is filled with.
     pub fn empty(mechanism: &M) -> Self {
         let q = Array::by(mechanism.facts().joints.len(), |_| 0.0);
-        Solution { q, residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0 }
+        Solution { q, residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true }
     }
 
     /// Whether a joint may take any value here.
@@ -56,7 +61,7 @@ impl<M: Mechanism> Pairs<M> {
     /// No answer yet: what a buffer is filled with.
     pub fn empty(mechanism: &M) -> Self {
         let joints = Array::by(mechanism.facts().joints.len(), |_| [0.0; 2]);
-        Pairs { joints, residual: 0.0, branch: 0, free: 0 }
+        Pairs { joints, residual: 0.0, branch: 0, free: 0, settled: true }
     }
 }
 
@@ -78,13 +83,14 @@ impl<M: Mechanism> fmt::Debug for Solution<M> {
             .field("branch", &self.branch)
             .field("chosen", &self.chosen)
             .field("free", &self.free)
+            .field("settled", &self.settled)
             .finish()
     }
 }
 
 impl<M: Mechanism> PartialEq for Solution<M> {
     fn eq(&self, other: &Self) -> bool {
-        let rest = |s: &Self| (s.branch, s.chosen, s.free);
+        let rest = |s: &Self| (s.branch, s.chosen, s.free, s.settled);
         self.q.as_ref() == other.q.as_ref()
             && [self.residual, self.relative] == [other.residual, other.relative]
             && rest(self) == rest(other)
@@ -107,6 +113,7 @@ impl<M: Mechanism> fmt::Debug for Pairs<M> {
             .field("residual", &self.residual)
             .field("branch", &self.branch)
             .field("free", &self.free)
+            .field("settled", &self.settled)
             .finish()
     }
 }
@@ -114,7 +121,8 @@ impl<M: Mechanism> fmt::Debug for Pairs<M> {
 impl<M: Mechanism> PartialEq for Pairs<M> {
     fn eq(&self, other: &Self) -> bool {
         self.joints.as_ref() == other.joints.as_ref()
-            && (self.residual, self.branch, self.free) == (other.residual, other.branch, other.free)
+            && (self.residual, self.branch, self.free, self.settled)
+                == (other.residual, other.branch, other.free, other.settled)
     }
 }
 
@@ -130,6 +138,8 @@ pub enum Error {
     NotUnit,
     /// The target lies on the stratum with this number, which could not be derived.
     OpenStratum(usize),
+    /// The [steps](crate::tolerances::MOST_STEPS) of the target were spent before an answer was found: there may be some.
+    Unsettled,
 }
 
 impl fmt::Display for Error {
@@ -141,6 +151,9 @@ impl fmt::Display for Error {
             }
             Error::NotUnit => {
                 f.write_str("the direction of the target is not of length one within 1e-9; give a unit vector")
+            }
+            Error::Unsettled => {
+                f.write_str("the steps of the target were spent before an answer was found; allow more of them")
             }
             Error::OpenStratum(number) => write!(f, "the target lies on stratum {number}, which could not be derived"),
         }

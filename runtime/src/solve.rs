@@ -10,6 +10,8 @@ use crate::mechanism::{Inputs, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
+use crate::steps::Steps;
+use crate::tolerances::MOST_STEPS;
 
 /// Inverse kinematics of a mechanism.
 ///
@@ -22,7 +24,16 @@ pub trait Solve: Mechanism {
     /// # Errors
     /// As [`Error`] says; the content of `out` has no meaning then.
     fn solve(&self, target: &Inputs<Self>, out: &mut [Solution<Self>]) -> Result<usize, Error> {
-        solve_one(self, target, out)
+        self.solve_bounded(target, MOST_STEPS, out)
+    }
+
+    /// As [`Solve::solve`], with so many [steps](MOST_STEPS) of polishing at most, for who must bound the time of a target. When they are spent, its answers
+    /// are not [settled](Solution::settled).
+    ///
+    /// # Errors
+    /// As [`Solve::solve`]; [`Error::Unsettled`] where no answer was found before.
+    fn solve_bounded(&self, target: &Inputs<Self>, steps: usize, out: &mut [Solution<Self>]) -> Result<usize, Error> {
+        solve_one(self, target, out, &mut Steps::at_most(steps))
     }
 
     /// As [`Solve::solve`]; where there is no solution, the joint values that missed the equations by the least share of their size, if polishing led to
@@ -37,14 +48,15 @@ pub trait Solve: Mechanism {
     ) -> Result<(usize, Option<Solution<Self>>), Error> {
         let mut target = target.clone();
         conform(self.facts().conditions, target.as_mut())?;
+        let mut steps = Steps::at_most(MOST_STEPS);
         if let Some(within) = self.facts().within {
-            return solve_described(self, &target, within, out);
+            return solve_described(self, &target, within, out, &mut steps);
         }
         let p = self.parameters(&target);
-        let mut answers = Answers::new(Problem::new(self, &p), out, None);
+        let mut answers = Answers::new(Problem::new(self, &p, &mut steps), out, None);
         answers.find()?;
-        answers.conclude();
-        let nearest = answers.nearest.take().filter(|_| answers.count == 0);
+        let count = answers.conclude()?;
+        let nearest = answers.nearest.take().filter(|_| count == 0);
         let solution = |(q, fit): (Joints<Self>, crate::problem::Fit)| Solution {
             q,
             residual: fit.residual,
@@ -52,8 +64,9 @@ pub trait Solve: Mechanism {
             branch: 0,
             chosen: false,
             free: 0,
+            settled: true,
         };
-        Ok((answers.count, nearest.map(solution)))
+        Ok((count, nearest.map(solution)))
     }
 
     /// As [`Solve::solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
@@ -132,15 +145,18 @@ pub trait Solve: Mechanism {
         let (mut target, facts) = (target.clone(), self.facts());
         conform(facts.conditions, target.as_mut())?;
         let p = self.parameters(&target);
-        let problem = Problem::new(self, &p);
         let mut kept = 0;
         for k in 0..count {
+            let mut steps = Steps::at_most(MOST_STEPS);
             if facts.within.is_some() {
                 let Some((q, residual)) = within_limits(self, &p, &out[k], limits) else { continue };
                 (out[k].q, out[k].residual) = (q, residual);
             } else if let Some(q) = turned_within::<Self>(&facts, &out[k].q, limits) {
                 out[k].q = q;
-            } else if let (false, Some((q, residual))) = (facts.has_extras, strides_within(&problem, &out[k], limits)) {
+            } else if facts.has_extras {
+                continue;
+            } else if let Some((q, residual)) = strides_within(&mut Problem::new(self, &p, &mut steps), &out[k], limits)
+            {
                 (out[k].q, out[k].residual) = (q, residual);
             } else {
                 continue;

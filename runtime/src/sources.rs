@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 34] = [
+pub const RUST: [(&str, &str); 35] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -32,6 +32,7 @@ pub const RUST: [(&str, &str); 34] = [
     ("singly", include_str!("singly.rs")),
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
+    ("steps", include_str!("steps.rs")),
     ("storage", include_str!("storage.rs")),
     ("strays", include_str!("strays.rs")),
     ("tolerances", include_str!("tolerances.rs")),
@@ -75,7 +76,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 46] = [
+pub const C_PARTS: [(&str, &str); 47] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -89,6 +90,7 @@ pub const C_PARTS: [(&str, &str); 46] = [
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
     ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
+    ("groebot/members.c", include_str!("../c/groebot/members.c")),
     ("groebot/newton.c", include_str!("../c/groebot/newton.c")),
     ("groebot/number.h", include_str!("../c/groebot/number.h")),
     ("groebot/problem.c", include_str!("../c/groebot/problem.c")),

@@ -1,6 +1,6 @@
-//! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`].
+//! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`]; and answers that are no members: [`Loners`].
 
-use crate::mechanism::Found;
+use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::DOUBTED;
 
 /// How many kinds are told apart.
@@ -88,5 +88,61 @@ impl Merged {
 
     pub fn contains(&self, found: &Found) -> bool {
         self.kinds[..self.count].contains(&(found.branch, found.free))
+    }
+}
+
+/// How many members are remembered; of more, the first is forgotten.
+const MEMBERS: usize = 32;
+
+/// Candidates that have turned out to be members of self-motions of the list, with their branches and free joints: strata repeat each other, and the next
+/// candidate of a branch is near the last one most often.
+pub(crate) struct Trails<M: Mechanism> {
+    list: [Option<(usize, u32, Joints<M>)>; MEMBERS],
+    count: usize,
+}
+
+impl<M: Mechanism> Trails<M> {
+    pub const NONE: Self = Trails { list: [const { None }; MEMBERS], count: 0 };
+
+    pub fn remember(&mut self, found: &Found, q: &Joints<M>) {
+        self.list[self.count % MEMBERS] = Some((found.branch, found.free, q.clone()));
+        self.count += 1;
+    }
+
+    /// Whether the same joints have been found before, within a distance.
+    pub fn contains(&self, facts: &Facts<'_>, q: &Joints<M>, free: u32, distance: f64) -> bool {
+        self.latest_first().any(|(_, of, other)| *of == free && facts.is_within(other.as_ref(), q.as_ref(), distance))
+    }
+
+    /// The last one of a branch with one of these sets of free joints.
+    pub fn last(&self, branch: usize, is_free: impl Fn(u32) -> bool) -> Option<&(usize, u32, Joints<M>)> {
+        self.latest_first().find(|(of, free, _)| *of == branch && is_free(*free))
+    }
+
+    fn latest_first(&self) -> impl Iterator<Item = &(usize, u32, Joints<M>)> {
+        let latest = (1..=self.count.min(MEMBERS)).map(|k| (self.count - k) % MEMBERS);
+        latest.filter_map(|place| self.list[place].as_ref())
+    }
+}
+
+/// How many answers are known to be alone at most; then the first is forgotten.
+const LONERS: usize = 8;
+
+/// Isolated answers that have been found to lie on no self-motion of these joints.
+pub(crate) struct Loners<M: Mechanism> {
+    list: [Option<(Joints<M>, u32)>; LONERS],
+    next: usize,
+}
+
+impl<M: Mechanism> Loners<M> {
+    pub const NONE: Self = Loners { list: [const { None }; LONERS], next: 0 };
+
+    pub fn remember(&mut self, q: &Joints<M>, free: u32) {
+        self.list[self.next % LONERS] = Some((q.clone(), free));
+        self.next += 1;
+    }
+
+    pub fn contains(&self, q: &Joints<M>, free: u32) -> bool {
+        self.list.iter().flatten().any(|(other, of)| *of == free && other.as_ref() == q.as_ref())
     }
 }

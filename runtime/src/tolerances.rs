@@ -31,6 +31,11 @@ pub const TINY: f64 = 1e-30;
 pub const PIVOT: f64 = 1e-9;
 /// A leading coefficient below this share of the largest coefficient counts as zero.
 pub const NEGLIGIBLE: f64 = 1e-290;
+/// The most steps of polishing that a target may take, unless [other](crate::Solve::solve_bounded) is asked for. A step is a linear system of Newton's
+/// method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers are not settled.
+pub const MOST_STEPS: usize = 20_000;
+/// What solves the equations within this share of their sizes is an answer, not a settled one, where the steps of polishing are spent.
+pub const UNSETTLED: f64 = 1e-6;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.
 pub const POLISH_STEPS: usize = 32;
 /// Least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
@@ -121,8 +126,9 @@ pub const ARRIVED: f64 = 1e-3;
 pub const ALONG: [f64; 3] = [6e-3, 2.5e-2, 0.2];
 /// Where a step brings other joints farther than this from the line of the step before, it may lead to another self-motion: a shorter one is made.
 pub const LEAPT: f64 = 0.1;
-/// Where the equations are missed by more than this behind a few Newton steps, the joints do not follow.
-pub const ASTRAY: f64 = 1e-4;
+/// On the way along a self-motion the equations hold within this share; where they do not after a few Newton steps, the joints do not follow. As the square of
+/// the shortest step above, or less: by so little they are missed next to an end that is passed in such a step.
+pub const ASTRAY: f64 = 1e-5;
 /// The most steps from one member to another.
 pub const PACES: usize = 100;
 /// A target's rotation or unit vector may be this far from one.

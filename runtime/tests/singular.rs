@@ -4,7 +4,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use groebot_runtime::Solve;
+use groebot_runtime::tolerances::UNSETTLED;
+use groebot_runtime::{Error, Solve};
 
 use super::random;
 
@@ -53,5 +54,58 @@ fn a_singular_wrist_has_a_self_motion() {
     for q in beside_a_singular_wrist(0.0) {
         let found = solved(&q);
         assert_eq!(found.iter().filter(|answer| answer.free != 0).count(), 2, "{q:?}: {found:?}");
+    }
+}
+
+/// How far the tip of joint values is from a target: a position by the arm's length, or an entry of a rotation.
+fn missed(q: &[f64; 6], target: &[f64; 12]) -> f64 {
+    puma::Solver.forward(q).unwrap().iter().zip(target).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+}
+
+/// With too few steps all answers to a target say that they are not settled, and each holds within what that allows; none is no silent loss.
+#[test]
+fn too_few_steps_leave_answers_that_are_not_settled() {
+    let (mut unsettled, mut without) = (0, 0);
+    for q in beside_a_singular_wrist(0.0) {
+        let target = puma::Solver.forward(&q).unwrap();
+        let mut out = [puma::EMPTY; puma::CAPACITY];
+        for steps in [0, 1, 10, 30] {
+            match puma::Solver.solve_bounded(&target, steps, &mut out) {
+                Err(error) => without += usize::from(error == Error::Unsettled),
+                Ok(count) => {
+                    assert!(count > 0, "{q:?}: no answer with {steps} steps, and no word of it");
+                    let found = &out[..count];
+                    assert!(found.iter().all(|answer| !answer.settled), "{steps} {q:?}: {found:?}");
+                    assert!(found.iter().all(|answer| answer.relative <= UNSETTLED), "{steps} {q:?}: {found:?}");
+                    assert!(found.iter().all(|answer| missed(&answer.q, &target) < 1e-5), "{steps} {q:?}: {found:?}");
+                    unsettled += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(unsettled + without, 4 * 200, "a self-motion is followed in more than 30 steps");
+    assert!(unsettled > 700, "{unsettled}");
+}
+
+/// Where the steps are enough, more of them change nothing.
+#[test]
+fn enough_steps_leave_settled_answers() {
+    let mut out = [puma::EMPTY; puma::CAPACITY];
+    for q in [0.0, 1e-7].into_iter().flat_map(beside_a_singular_wrist) {
+        let target = puma::Solver.forward(&q).unwrap();
+        let count = puma::Solver.solve_bounded(&target, 1_000_000, &mut out).unwrap();
+        assert!(out[..count].iter().all(|answer| answer.settled), "{q:?}");
+        assert_eq!(out[..count], solved(&q)[..], "{q:?}");
+    }
+}
+
+/// Ordinary targets take no steps of polishing: next to a stretched elbow alone they do.
+#[test]
+fn ordinary_targets_are_settled_without_steps() {
+    let mut out = [puma::EMPTY; puma::CAPACITY];
+    for q in beside_a_singular_wrist(0.3).filter(|q| q[2].sin().abs() > 0.1) {
+        let target = puma::Solver.forward(&q).unwrap();
+        let count = puma::Solver.solve_bounded(&target, 0, &mut out).unwrap();
+        assert!(count == 8 && out.iter().all(|answer| answer.settled), "{q:?}");
     }
 }

@@ -54,6 +54,11 @@ pub struct Answer<'a> {
 }
 
 impl Answer<'_> {
+    /// Whether all work on the target was done.
+    fn are_settled(&self) -> bool {
+        self.solutions.iter().all(|solution| solution.settled)
+    }
+
     fn free_names(&self, solution: &Solution) -> Vec<&str> {
         solution.free.iter().map(|&joint| self.program.joints[joint].name.as_str()).collect()
     }
@@ -116,6 +121,9 @@ pub fn text(answer: &Answer<'_>) -> String {
     if answer.solutions.iter().any(|solution| !solution.free.is_empty()) {
         text += "  A free joint may take any value: the row is one member of a self-motion.\n";
     }
+    if !answer.are_settled() {
+        text += "  Not settled: the steps of this target were spent before all work was done. Other solutions may be missing.\n";
+    }
     text
 }
 
@@ -139,6 +147,9 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     notes.extend(answer.outside_names(solution).iter().map(|name| format!("{name} outside its limits")));
     if solution.chosen {
         notes.push("<- the source's choice".to_owned());
+    }
+    if !solution.settled {
+        notes.push("not settled".to_owned());
     }
     row.push(notes.join(", "));
     row
@@ -172,6 +183,8 @@ struct Page<'a> {
     /// By joint the one that it follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<Vec<Option<&'a str>>>,
+    /// Whether all work on the target was done: else solutions may be missing.
+    settled: bool,
     solutions: Vec<Entry<'a>>,
     /// Why there is no solution, where that is known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -195,6 +208,8 @@ struct Entry<'a> {
     /// Names of the joints that stand outside their limits, whole turns apart.
     outside_limits: Vec<&'a str>,
     chosen: bool,
+    /// Whether all work on the target was done.
+    settled: bool,
 }
 
 /// One JSON object: over several lines when `pretty`, else on one.
@@ -207,6 +222,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         free: answer.free_names(solution),
         outside_limits: answer.outside_names(solution),
         chosen: solution.chosen,
+        settled: solution.settled,
     };
     let page = Page {
         format: FORMAT,
@@ -218,6 +234,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         },
         joints: program.joints.iter().map(|joint| joint.name.as_str()).collect(),
         follows: leaders(program.follows().into_iter()),
+        settled: answer.are_settled(),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),
     };
@@ -232,7 +249,7 @@ pub fn csv_header(program: &Program, angles: Angles) -> String {
     cells.extend(program.inputs.iter().map(|input| named(&input.name, input.unit)));
     cells.extend(["solutions".to_owned(), "branch".to_owned()]);
     cells.extend(program.joints.iter().map(|joint| named(&joint.name, joint.unit)));
-    cells.extend(["residual", "chosen", "free", "outside_limits"].map(str::to_owned));
+    cells.extend(["residual", "chosen", "settled", "free", "outside_limits"].map(str::to_owned));
     csv_line(&cells)
 }
 
@@ -242,7 +259,7 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     start.extend(answer.target.iter().map(|value| exact(*value)));
     start.push(answer.solutions.len().to_string());
     if answer.solutions.is_empty() {
-        start.extend(vec![String::new(); answer.program.joints.len() + 5]);
+        start.extend(vec![String::new(); answer.program.joints.len() + 6]);
         return csv_line(&start);
     }
     let row = |solution: &Solution| {
@@ -251,6 +268,7 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
         cells.extend(answer.shown(solution).iter().map(|value| exact(*value)));
         cells.push(format!("{:e}", solution.residual));
         cells.push(solution.chosen.to_string());
+        cells.push(solution.settled.to_string());
         cells.push(answer.free_names(solution).join(" "));
         cells.push(answer.outside_names(solution).join(" "));
         csv_line(&cells)

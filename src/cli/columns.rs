@@ -13,7 +13,7 @@ use crate::{Error, ErrorKind, Result};
 /// Units that the name of a column may end in.
 const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];
 /// What the commands write beside targets and joints.
-const BESIDE: [&str; 10] = [
+const BESIDE: [&str; 11] = [
     "target",
     "solutions",
     "branch",
@@ -21,6 +21,7 @@ const BESIDE: [&str; 10] = [
     "position_residual",
     "rotation_residual",
     "chosen",
+    "settled",
     "free",
     "outside_limits",
     "time",

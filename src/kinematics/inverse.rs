@@ -8,7 +8,7 @@ use super::Target;
 use crate::Result;
 
 /// One answer: joint values that bring the tip to its target.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solution {
     /// The joint values, base to tip: radians in (-pi, pi], lengths in the solver's unit; zero for a free joint.
     pub q: Vec<f64>,
@@ -21,6 +21,15 @@ pub struct Solution {
     pub free: Vec<usize>,
     /// Whether the source of the mechanism would choose this one.
     pub chosen: bool,
+    /// False where the steps of polishing that the target may take were spent before all work was done
+    /// ([`MOST_STEPS`](groebot_runtime::tolerances::MOST_STEPS)). All its answers say so: others may be missing, and the residual tells how well each holds.
+    pub settled: bool,
+}
+
+impl Default for Solution {
+    fn default() -> Self {
+        Solution { q: Vec::new(), residual: 0.0, branch: 0, free: Vec::new(), chosen: false, settled: true }
+    }
 }
 
 /// A solver of inverse kinematics: derived, printed, by screw theory or by search.

@@ -40,7 +40,8 @@ macro_rules! printed {
                 for (out, answer) in out.iter_mut().zip(&answers) {
                     out.q.clear();
                     out.q.extend_from_slice(&answer.q);
-                    (out.residual, out.branch, out.chosen) = (answer.residual, answer.branch, answer.chosen);
+                    (out.residual, out.branch) = (answer.residual, answer.branch);
+                    (out.chosen, out.settled) = (answer.chosen, answer.settled);
                     out.free.clear();
                     out.free.extend((0..$solver::JOINTS).filter(|joint| answer.is_free(*joint)));
                 }

@@ -87,6 +87,6 @@ fn bent(branch: usize, answer: &Angles) -> Solution {
         residual: answer.residual,
         branch,
         free: (0..2).filter(|&joint| answer.q[joint].is_none()).collect(),
-        chosen: false,
+        ..Solution::default()
     }
 }

@@ -93,9 +93,7 @@ impl Solver for Search {
         let answer = |answer: &groebot::kinematics::oracle::Solution| Solution {
             q: answer.q.clone(),
             residual: answer.residual,
-            branch: 0,
-            free: Vec::new(),
-            chosen: false,
+            ..Solution::default()
         };
         Ok(found.iter().map(answer).collect())
     }

@@ -22,7 +22,9 @@ pub fn print<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usize)
     let mut time = |target: &Inputs<M>| {
         let start = Instant::now();
         let _ = black_box(mechanism.solve(black_box(target), &mut out));
-        start.elapsed().as_secs_f64() * 1e6
+        let time = start.elapsed().as_secs_f64() * 1e6;
+        phases::end_of_pose();
+        time
     };
     for set in sets_of(name, mechanism, joints, poses) {
         let row = |q: &Vec<f64>| mechanism.forward(&Chain(mechanism).row(q)).expect("a chain has forward kinematics");
@@ -49,6 +51,8 @@ mod phases {
 
     pub fn start() {}
 
+    pub fn end_of_pose() {}
+
     pub fn taken(_: usize) -> &'static str {
         ""
     }
@@ -56,20 +60,40 @@ mod phases {
 
 #[cfg(feature = "counters")]
 mod phases {
+    use std::cell::Cell;
+
     use groebot_runtime::counters::{Event, Phase, take};
 
-    /// By phase: calls, steps, short steps and evaluations a pose, and the share of the time in percent.
-    pub const HEAD: &str = ",phases";
+    /// The most steps of a pose; by phase: calls, steps, short steps and evaluations a pose, and the share of the time in percent.
+    pub const HEAD: &str = ",most_steps,phases";
+
+    type Counts = [[u64; Event::ALL.len()]; Phase::ALL.len()];
+
+    thread_local! {
+        static COUNTS: Cell<Counts> = const { Cell::new([[0; Event::ALL.len()]; Phase::ALL.len()]) };
+        static MOST: Cell<u64> = const { Cell::new(0) };
+    }
 
     pub fn start() {
         take();
+        COUNTS.set(Counts::default());
+        MOST.set(0);
+    }
+
+    /// Adds what a pose has taken.
+    pub fn end_of_pose() {
+        let (counts, mut all) = (take(), COUNTS.get());
+        all.iter_mut().flatten().zip(counts.iter().flatten()).for_each(|(sum, count)| *sum += count);
+        COUNTS.set(all);
+        let steps = |row: &[u64; Event::ALL.len()]| row[Event::Step as usize] + row[Event::Evaluation as usize];
+        MOST.set(MOST.get().max(counts.iter().map(steps).sum()));
     }
 
     pub fn taken(poses: usize) -> String {
-        let counts = take();
+        let counts = COUNTS.get();
         let time = |row: &[u64; Event::ALL.len()]| row[Event::Time as usize] as f64;
         let whole: f64 = counts.iter().map(time).sum();
-        let mut text = String::new();
+        let mut text = format!(",{}", MOST.get());
         for (phase, row) in Phase::ALL.iter().zip(&counts).filter(|(phase, row)| **phase == Phase::Walk || row[0] > 0) {
             let each = |event: Event| row[event as usize] as f64 / poses as f64;
             text += &format!(

@@ -343,6 +343,7 @@ static bool gb_write_pairs(gb_sink_1 *c, size_t k, gb_real residual)
     out->residual = residual;
     out->branch = c->found[k].branch;
     out->free = 0;
+    out->settled = true;
     for (size_t other = 0; other < c->all.count; other++) {
         if (c->pairs[other].branch == out->branch || !gb_tell_apart(out, &c->pairs[other])) {
             return false;
@@ -425,8 +426,8 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
     }
     const gb_fit fit = gb_fitted(&c->all.problem, q, 0, R(0.5));
     /* On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these. */
-    if (fit.relative <= within && gb_is_far(c, q) && !(c->ideal && gb_has_member(c->ideal, q, c->moving))
-        && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)) {
+    if (fit.relative <= within && gb_is_far(c, q) && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)
+        && !(c->ideal && gb_has_member(c->ideal, q, c->moving))) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
         out->residual = fit.residual;

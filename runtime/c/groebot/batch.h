@@ -118,6 +118,7 @@ GB_INLINE size_t GB_(write_solutions)(const GB_(sink) *c, size_t lane, gb_soluti
         out->branch = c->branch[k];
         out->chosen = false;
         out->free = 0;
+        out->settled = true;
         count += c->dead[k][lane] == 0;
     }
     return count;
@@ -138,6 +139,7 @@ GB_INLINE size_t GB_(write_pairs)(const GB_(sink) *c, size_t lane, gb_pairs *roo
         out->residual = c->residual[k][lane];
         out->branch = c->branch[k];
         out->free = 0;
+        out->settled = true;
         count += c->dead[k][lane] == 0;
     }
     return count;

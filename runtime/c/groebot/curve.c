@@ -82,10 +82,13 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
     for (int round = 0; round < GB_CURVE_ROUNDS; round++) {
         gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], step[GB_MAX_JOINTS];
         gb_triangle triangle;
+        if (gb_are_spent(problem)) {
+            return false;
+        }
         gb_share(problem, spot->q, rows, spot->miss);
         gb_clear_triangle(m, &triangle);
         gb_copy(gb_column(&triangle, m->joints), spot->miss, m->equations);
-        gb_fill_triangle(m, rows, R(0.0), (uint32_t)1 << held, &triangle);
+        gb_fill_triangle(problem, rows, R(0.0), (uint32_t)1 << held, &triangle);
         if (!gb_substitute(&triangle, step)) {
             return false;
         }
@@ -264,19 +267,15 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
     }
 }
 
-/* Keeps a member of a self-motion, of the joints that the candidate freed, or of one that moves. */
-static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+/* Keeps a member of a self-motion, of the joints that the candidate freed, or of the one that was held first. */
+static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t held, const gb_real *q)
 {
     gb_found_1 moving = *found;
     gb_end end;
+    moving.free = found->free == 0 ? (uint32_t)1 << held : found->free;
     gb_copy(end.q, q, all->problem.mechanism->joints);
-    gb_polish_from(&all->problem, &end, found->free);
-    if (found->free == 0) {
-        moving.free = gb_joint_on_self_motion(&all->problem, end.q, end.fit.relative);
-    }
-    if (moving.free != 0) {
-        gb_keep(all, &moving, end.q, &end.fit);
-    }
+    gb_polish_from(&all->problem, &end, moving.free);
+    gb_keep(all, &moving, end.q, &end.fit);
 }
 
 /* Takes in a place that a walk passes, and forgets the starts next to it. */
@@ -350,7 +349,7 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
         gb_leads_home(all, starts, &curve, &sides[1]);
     }
     if (curve.most <= GB_CURVE_WHOLE) {
-        gb_keep_whole_curve(all, found, curve.best.q);
+        gb_keep_whole_curve(all, found, held, curve.best.q);
     }
 }
 

@@ -3,8 +3,9 @@
 #ifdef GB_WITHIN
 
 static int gb_conform(const gb_real *target, gb_real *conforming);
-static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought);
-GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out);
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought, size_t *steps);
+GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out, size_t *steps);
+GB_INLINE int gb_settle(size_t steps, gb_solution *out, size_t count);
 
 /* The equations' values, as described. */
 static void gb_values_as_described(const gb_real *p, const gb_real *at, gb_real *values)
@@ -39,7 +40,7 @@ static void gb_read_off(const gb_real *tip, const gb_real *q, gb_real *target)
 /* The target that the ideal mechanism reaches. */
 static void gb_ideal_target(const gb_real *q, gb_real *target)
 {
-    const gb_problem problem = {&gb_this, NULL, NULL};
+    const gb_problem problem = {&gb_this, NULL, NULL, NULL};
     gb_real at[GB_PLACES], tip[GB_EQUATIONS];
     gb_place(&problem, q, at);
     gb_tip_1(at, tip);
@@ -71,7 +72,7 @@ static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t 
 {
     const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
     gb_real p[GB_PARAMETERS];
-    const gb_problem ideal = {&gb_this, p, NULL};
+    const gb_problem ideal = {&gb_this, p, NULL, problem->steps};
     if (!(gb_fitted(problem, q, free, R(0.5)).relative <= within) || !gb_free_joints(problem, q, free) || !gb_ideal_parameters(q, p)) {
         return false;
     }
@@ -88,18 +89,18 @@ static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
 
 /* Adds those beside answers to the target that q reaches that come within the tolerance of the target, too, and puts all in order; their number, or a code
  * below zero. */
-static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *out, size_t count)
+static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *out, size_t count, size_t *steps)
 {
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS], reached[GB_PARAMETERS];
-    const gb_problem ideal = {&gb_this, reached, NULL};
+    const gb_problem ideal = {&gb_this, reached, NULL, steps};
     c.known = count;
     c.moving = 0;
     for (size_t i = 0; i < count; i++) {
         c.moving |= out[i].free;
     }
     c.ideal = c.moving != 0 && gb_ideal_parameters(q, reached) ? &ideal : NULL;
-    const int code = gb_walk_through(&c, target, p, out, NULL, GB_OTHERS);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_OTHERS, steps);
     if (code < 0) {
         return code;
     }
@@ -146,13 +147,13 @@ static size_t gb_fit_all(const gb_problem *problem, gb_solution *out, size_t cou
 }
 
 /* All answers to a target, or a code below zero; where there is none, where the mechanism comes nearest to it. */
-static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, gb_solution *nearest)
+static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, gb_solution *nearest, size_t *steps)
 {
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS], same[GB_PARAMETERS], q[GB_JOINTS], ideal[GB_INPUTS];
     const gb_mechanism mechanism = gb_as_described();
-    const gb_problem problem = {&mechanism, p, NULL};
-    int code = gb_walk_through(&c, target, p, NULL, NULL, GB_CLOSEST);
+    const gb_problem problem = {&mechanism, p, NULL, steps};
+    int code = gb_walk_through(&c, target, p, NULL, NULL, GB_CLOSEST, steps);
     if (code < 0 || !c.all.has_nearest) {
         return code;
     }
@@ -162,10 +163,10 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
             memcpy(nearest->q, q, sizeof q);
             gb_fit_to(&problem, nearest);
         }
-        return 0;
+        return gb_settle(*steps, out, 0);
     }
     if (c.free != 0) {
-        code = gb_walk_through(&c, target, same, NULL, NULL, GB_MEMBER);
+        code = gb_walk_through(&c, target, same, NULL, NULL, GB_MEMBER, steps);
         if (code < 0) {
             return code;
         }
@@ -174,17 +175,18 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
         }
     }
     gb_ideal_target(q, ideal);
-    const int found = gb_solve_ideal(ideal, out), count = found < 0 ? found : gb_add_others(target, q, out, (size_t)found);
-    return count < 0 ? count : (int)gb_fit_all(&problem, out, (size_t)count);
+    const int found = gb_solve_ideal(ideal, out, steps), count = found < 0 ? found : gb_add_others(target, q, out, (size_t)found, steps);
+    return count < 0 ? count : gb_settle(*steps, out, gb_fit_all(&problem, out, (size_t)count));
 }
 
 /* Moves an answer to a target of the ideal mechanism within limits; false where that cannot be. */
-static bool gb_keep_one_within(const gb_real *p, const gb_real *limits, gb_solution *answer)
+static bool gb_keep_one_within(const gb_real *p, const gb_real *limits, gb_solution *answer, size_t *steps)
 {
     gb_answers all;
     memset(&all, 0, sizeof all);
     all.problem.mechanism = &gb_this;
     all.problem.p = p;
+    all.problem.steps = steps;
     all.out = answer;
     all.count = 1;
     return gb_keep_within(&all, limits) == 1;
@@ -195,13 +197,14 @@ static bool gb_bring_within(const gb_real *p, const gb_real *limits, gb_solution
 {
     gb_real ideal[GB_PARAMETERS];
     const gb_mechanism mechanism = gb_as_described();
-    const gb_problem problem = {&mechanism, p, NULL}, own = {&gb_this, p, NULL};
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
+    const gb_problem problem = {&mechanism, p, NULL, &steps}, own = {&gb_this, p, NULL, &steps};
     const uint32_t free = answer->free;
     answer->free = 0;
-    bool is_within = gb_keep_one_within(p, limits, answer);
+    bool is_within = gb_keep_one_within(p, limits, answer, &steps);
     answer->free = free;
     if (!is_within && free != 0 && gb_onto_self_motion(&own, answer->q, free) && gb_ideal_parameters(answer->q, ideal)) {
-        is_within = gb_keep_one_within(ideal, limits, answer);
+        is_within = gb_keep_one_within(ideal, limits, answer, &steps);
     }
     answer->residual = gb_measure_of(&problem, answer->q).residual;
     return is_within;

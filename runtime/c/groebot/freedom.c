@@ -2,15 +2,16 @@
 
 /* What a column has across the derivatives by the joints that are not `free`, and how the joints move for it to be no more than that; false where they
  * cannot. */
-static bool gb_across(const gb_mechanism *m, const gb_real *rows, const gb_real *columns, size_t column, uint32_t free, gb_real *rest, gb_real *way)
+static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_real *columns, size_t column, uint32_t free, gb_real *rest, gb_real *way)
 {
+    const gb_mechanism *m = problem->mechanism;
     gb_triangle triangle;
     gb_real along[GB_MAX_JOINTS];
     gb_clear_triangle(m, &triangle);
     for (size_t i = 0; i < m->equations; i++) {
         gb_column(&triangle, m->joints)[i] = columns[i * m->joints + column];
     }
-    gb_fill_triangle(m, rows, gb_dampings[1], free, &triangle);
+    gb_fill_triangle(problem, rows, gb_dampings[1], free, &triangle);
     if (!gb_substitute(&triangle, along)) {
         return false;
     }
@@ -59,14 +60,14 @@ static bool gb_freeing_step(const gb_problem *problem, const gb_real *q, uint32_
     }
     gb_clear_triangle(m, &triangle);
     gb_share(problem, q, rows, values);
-    if (!gb_across(m, rows, rows, first, free, gb_column(&triangle, m->joints), way)) {
+    if (!gb_across(problem, rows, rows, first, free, gb_column(&triangle, m->joints), way)) {
         return false;
     }
     gb_bend(problem, q, way, bends);
     gb_make_shares(problem, q, GB_STIFF, free, &nearer);
     for (size_t i = 0; i <= m->joints; i++) {
         gb_real *filled = gb_column(&triangle, i);
-        if (i < m->joints && !gb_is_in(free, i) && !gb_across(m, rows, bends, i, free, filled, way)) {
+        if (i < m->joints && !gb_is_in(free, i) && !gb_across(problem, rows, bends, i, free, filled, way)) {
             return false;
         }
         for (size_t k = 0; k <= i && k < m->joints; k++) {

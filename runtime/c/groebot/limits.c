@@ -94,6 +94,7 @@ static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32
 static bool gb_strides_within(const gb_answers *all, size_t answer, const gb_real *limits, gb_end *place)
 {
     const uint32_t free = *gb_free_of(all, answer);
+    *all->problem.steps = gb_steps_at_most(GB_MOST_STEPS);
     for (size_t i = 0; i < 2 * all->problem.mechanism->joints; i++) {
         const gb_real way = i % 2 == 0 ? GB_STRIDE : -GB_STRIDE;
         if (gb_is_in(free, i / 2) && gb_stride_within(&all->problem, gb_q_of(all, answer), free, i / 2, way, limits, place)) {

@@ -49,9 +49,11 @@ static void gb_clear_triangle(const gb_mechanism *m, gb_triangle *triangle)
 }
 
 /* The triangle of equations with these derivatives, their values in the last column; joints that are `held` stay. */
-static void gb_fill_triangle(const gb_mechanism *m, const gb_real *rows, gb_real damping, uint32_t held, gb_triangle *triangle)
+static void gb_fill_triangle(const gb_problem *problem, const gb_real *rows, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
+    const gb_mechanism *m = problem->mechanism;
     gb_real size = R(0.0);
+    gb_take_step(problem);
     for (size_t i = 0; i < m->joints; i++) {
         gb_real *column = gb_column(triangle, i), square = R(0.0);
         for (size_t k = 0; !gb_is_in(held, i) && k < m->equations; k++) {
@@ -81,11 +83,12 @@ static void gb_find_slopes(const gb_problem *problem, const gb_real *q, gb_slope
 }
 
 /* The triangle of a step's equations, damped. */
-static void gb_triangle_of(const gb_mechanism *m, const gb_slopes *slopes, gb_real damping, uint32_t held, gb_triangle *triangle)
+static void gb_triangle_of(const gb_problem *problem, const gb_slopes *slopes, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
+    const gb_mechanism *m = problem->mechanism;
     gb_clear_triangle(m, triangle);
     gb_copy(gb_column(triangle, m->joints), slopes->values, m->equations);
-    gb_fill_triangle(m, slopes->rows, damping, held, triangle);
+    gb_fill_triangle(problem, slopes->rows, damping, held, triangle);
 }
 
 /* The same at joint values. */
@@ -93,7 +96,7 @@ static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_rea
 {
     gb_slopes slopes;
     gb_find_slopes(problem, q, &slopes);
-    gb_triangle_of(problem->mechanism, &slopes, damping, held, triangle);
+    gb_triangle_of(problem, &slopes, damping, held, triangle);
 }
 
 /* The derivatives of the equations and their values, as shares of their sizes. */
@@ -121,7 +124,7 @@ static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real 
     gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
     gb_clear_triangle(m, triangle);
     gb_share(problem, q, rows, gb_column(triangle, m->joints));
-    gb_fill_triangle(m, rows, damping, held, triangle);
+    gb_fill_triangle(problem, rows, damping, held, triangle);
 }
 
 /* Solves the triangular system; false for a zero or non-finite pivot. */
@@ -142,10 +145,13 @@ static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular, or no steps are left. */
 static bool gb_newton_step(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_real *step)
 {
     gb_triangle triangle;
+    if (gb_are_spent(problem)) {
+        return false;
+    }
     gb_make_triangle(problem, q, damping, held, &triangle);
     return gb_substitute(&triangle, step);
 }
@@ -197,12 +203,15 @@ static bool gb_is_regular(gb_triangle *triangle)
 }
 
 /* The direction in which the equations change least at q, its longest way one, and by what share of the largest pivot they do. By inverse iteration; false
- * where a pivot is zero. */
+ * where a pivot is zero, or no steps are left. */
 static bool gb_stillest(const gb_problem *problem, const gb_real *q, gb_real *way, gb_real *share)
 {
     const size_t joints = problem->mechanism->joints;
     gb_triangle triangle;
     gb_real least, most;
+    if (gb_are_spent(problem)) {
+        return false;
+    }
     gb_make_triangle(problem, q, R(0.0), 0, &triangle);
     gb_pivots(&triangle, &least, &most);
     gb_real *right = gb_column(&triangle, joints);
@@ -305,7 +314,7 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
     gb_find_slopes(problem, end->q, &slopes);
     for (size_t k = 0; k < GB_LENGTH_OF(gb_dampings); k++) {
         const bool is_plain = k == 0;
-        gb_triangle_of(m, &slopes, gb_dampings[k], held, &triangle);
+        gb_triangle_of(problem, &slopes, gb_dampings[k], held, &triangle);
         if (!gb_substitute(&triangle, step)) {
             continue;
         }
@@ -351,7 +360,8 @@ static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
     for (int i = 0; i < GB_POLISH_STEPS; i++) {
         const gb_end before = *end;
         gb_real step[GB_MAX_JOINTS];
-        if (before.fit.relative <= GB_POLISHED || slow == GB_PATIENCE || !gb_improve(problem, end, held)) {
+        const bool is_done = before.fit.relative <= GB_POLISHED || slow == GB_PATIENCE || gb_are_spent(problem);
+        if (is_done || !gb_improve(problem, end, held)) {
             return;
         }
         slow = end->fit.relative <= gb_larger(GB_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
@@ -399,6 +409,7 @@ static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real at[GB_MAX_PLACES], values[GB_MAX_EQUATIONS], sizes[GB_MAX_SIZES], sum = R(0.0);
+    gb_take_step(problem);
     gb_place(problem, q, at);
     m->values(problem->p, at, values);
     m->measures(problem->p, at, sizes);
@@ -441,7 +452,7 @@ GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held
 {
     gb_real squares = gb_squares(problem, q), longest = INFINITY;
     for (int i = 0; i < GB_FITTING_STEPS && longest > GB_SHORT; i++) {
-        if (squares <= GB_POLISHED * GB_POLISHED || !gb_fall(problem, q, &squares, held, most, &longest)) {
+        if (squares <= GB_POLISHED * GB_POLISHED || gb_are_spent(problem) || !gb_fall(problem, q, &squares, held, most, &longest)) {
             break;
         }
     }

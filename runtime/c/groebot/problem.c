@@ -16,12 +16,25 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
     }
 }
 
+/* Takes a step of the target's. */
+static void gb_take_step(const gb_problem *problem)
+{
+    *problem->steps -= *problem->steps > 0;
+}
+
+/* Whether no steps are left: what has not been polished stays as it is. */
+static bool gb_are_spent(const gb_problem *problem)
+{
+    return *problem->steps == 0;
+}
+
 /* How well joint values solve the equations, which read of them what is at `at`. */
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real values[GB_MAX_EQUATIONS], sizes[GB_MAX_SIZES], largest[GB_MAX_SIZES] = {R(0.0)};
     gb_fit fit = {R(0.0), R(0.0), true};
+    gb_take_step(problem);
     m->values(problem->p, at, values);
     m->measures(problem->p, at, sizes);
     for (size_t i = 0; i < m->joints; i++) {

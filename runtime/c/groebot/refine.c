@@ -87,12 +87,35 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
+/* Whether an isolated answer has been found to lie on no self-motion of these joints. */
+static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
+{
+    for (size_t i = 0; i < GB_LONERS && i < all->loners_count; i++) {
+        bool is_same = all->loners_of[i] == free;
+        for (size_t k = 0; k < all->problem.mechanism->joints; k++) {
+            is_same = is_same && all->loners[i][k] == q[k];
+        }
+        if (is_same) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
  * almost. */
-static bool gb_is_on(const gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
+static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
 {
-    return gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)
-        && (!all->suffices || gb_leads_to(&all->problem, member, isolated, free));
+    if (gb_is_loner(all, isolated, free)) {
+        return false;
+    }
+    if (!gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)) {
+        const size_t next = all->loners_count++ % GB_LONERS;
+        gb_copy(all->loners[next], isolated, all->problem.mechanism->joints);
+        all->loners_of[next] = free;
+        return false;
+    }
+    return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
@@ -114,15 +137,29 @@ static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b
     return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, b->q, b->free));
 }
 
+/* Whether an answer in the list and a new one that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to
+ * the other. */
+static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
+{
+    const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
+    if (*gb_free_of(all, i) == 0 && b->free == 0) {
+        return relative > GB_ACCEPT && gb_farthest(all->problem.mechanism, gb_q_of(all, i), b->q) <= GB_BLUR;
+    }
+    return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
+}
+
 /* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
  * singular configuration. */
-static bool gb_is_one(const gb_answers *all, size_t i, const gb_answer *b)
+static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
     const gb_real *a = gb_q_of(all, i), relative = *gb_relative_of(all, i);
     const uint32_t free = *gb_free_of(all, i);
     if (gb_is_close(problem->mechanism, a, b->q, free | b->free, GB_MERGE)) {
         return true;
+    }
+    if (gb_are_spent(problem)) {
+        return gb_are_alike(all, i, b);
     }
     if (free == 0 && b->free == 0) {
         return gb_are_blurred(problem, a, relative, b);
@@ -239,12 +276,25 @@ static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb
     return found->free == 0;
 }
 
+/* Whether what no steps are left to polish is near enough to an answer. */
+static bool gb_may_stay(const gb_problem *problem, const gb_real *q, const gb_fit *fit)
+{
+    bool is_whole = true;
+    for (size_t i = 0; i < problem->mechanism->joints; i++) {
+        is_whole = is_whole && gb_is_finite(q[i]);
+    }
+    for (size_t i = 0; problem->extras && i < problem->mechanism->places; i++) {
+        is_whole = is_whole && gb_is_finite(problem->extras[i]);
+    }
+    return gb_are_spent(problem) && fit->relative <= GB_TOLERATED && is_whole;
+}
+
 /* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second root of a double one
  * takes the next free number below `last`. */
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
 {
     gb_answer answer;
-    if (!fit->accepted) {
+    if (!fit->accepted && !gb_may_stay(&all->problem, q, fit)) {
         gb_miss(all, q, fit);
         return;
     }
@@ -267,7 +317,7 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     gb_real weights[GB_MAX_JOINTS];
     bool is_found = end->fit.accepted;
     gb_weights(&all->problem, end->q, weights);
-    for (gb_real farther = R(1.0); farther <= GB_FARTHEST; farther *= GB_FARTHER) {
+    for (gb_real farther = R(1.0); farther <= GB_FARTHEST && !gb_are_spent(&all->problem); farther *= GB_FARTHER) {
         for (size_t i = 0; i < 2 * m->joints; i++) {
             const gb_real sign = i % 2 == 0 ? R(-1.0) : R(1.0), weight = end->fit.accepted ? R(1.0) : weights[i / 2];
             const gb_real way = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
@@ -330,144 +380,7 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     }
 }
 
-/* Keeps a candidate if it is a member of a self-motion; whether it is. */
-static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
-{
-    const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
-    if (is_member) {
-        gb_keep(all, found, end->q, &end->fit);
-    }
-    return is_member;
-}
-
-/* Whether an isolated answer with these joints is listed. */
-static bool gb_is_listed(const gb_answers *all, const gb_real *q)
-{
-    for (size_t i = 0; i < all->count; i++) {
-        if (*gb_free_of(all, i) == 0 && gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGE)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an isolated
- * answer. One that has not been found before may have another next to it. */
-static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
-{
-    if (end->fit.relative > GB_ALONE) {
-        gb_miss(all, end->q, &end->fit);
-        return;
-    }
-    gb_found_1 alone = *found;
-    alone.free = gb_is_listed(all, end->q) ? 0 : gb_joint_on_self_motion(&all->problem, end->q, end->fit.relative);
-    const size_t known = all->count;
-    gb_keep(all, &alone, end->q, &end->fit);
-    if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
-        gb_around(all, &alone, end, missed);
-    }
-}
-
-/* Whether an answer in the list is a member of a self-motion within rounding, of the branch and with the free joints of a candidate. */
-static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
-{
-    return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
-}
-
-/* Whether some member of a candidate's self-motion is known. */
-static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
-{
-    for (size_t i = 0; i < all->merged_count; i++) {
-        if (all->merged[i].branch == found->branch && all->merged[i].free == found->free) {
-            return true;
-        }
-    }
-    for (size_t i = 0; i < all->count; i++) {
-        if (gb_is_told(all, i, found)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
-static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
-{
-    if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
-        gb_keep(all, found, end->q, &end->fit);
-        return true;
-    }
-    gb_kind_of_stray *kind = is_known ? NULL : gb_kind(&all->strays, found);
-    if (kind) {
-        kind->is_astray = true;
-    }
-    gb_miss(all, end->q, &end->fit);
-    return true;
-}
-
-/* Whether the member found last that is on a self-motion of the list, of this branch and with these free joints, is joined to another: most often it is the
- * nearest. */
-static bool gb_joins(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
-{
-    const gb_found_1 *last = &all->joined_as;
-    return last->free == found->free && last->branch == found->branch && gb_leads_to(&all->problem, all->joined, q, found->free);
-}
-
-/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
- * asked. */
-static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end *end)
-{
-    if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
-        return false;
-    }
-    bool joins = gb_joins(all, found, end->q);
-    for (size_t i = 0; i < all->count && !joins; i++) {
-        joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
-    }
-    if (joins) {
-        all->joined_as = *found;
-        gb_copy(all->joined, end->q, all->problem.mechanism->joints);
-    }
-    return !joins;
-}
-
-/* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
- * the circle, or where there is none and an isolated answer stands near the place. */
-static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
-{
-    const bool is_known = gb_is_known(all, found);
-    gb_end end;
-    if (is_known && !gb_is_single(found->free)) {
-        return;
-    }
-    gb_copy(end.q, q, all->problem.mechanism->joints);
-    end.fit = gb_measure(&all->problem, q);
-    const gb_real missed = end.fit.relative;
-    if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
-        gb_miss(all, end.q, &end.fit);
-        return;
-    }
-    const bool may_miss = all->problem.mechanism->is_nearby && gb_is_single(found->free) && !is_known;
-    if (may_miss && missed > GB_ROUNDING && gb_begin_curve(all, found, end.q)) {
-        return;
-    }
-    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
-        gb_polish(&all->problem, &end, found->free);
-    }
-    if (is_known && !gb_is_another(all, found, &end)) {
-        return;
-    }
-    all->is_another = is_known;
-    const bool is_done = all->suffices ? gb_keep_long_member(all, found, &end, is_known) : gb_keep_member(all, found, &end);
-    all->is_another = false;
-    if (is_done || is_known) {
-        return;
-    }
-    gb_polish(&all->problem, &end, 0);
-    if (!gb_keep_member(all, found, &end)) {
-        gb_keep_alone(all, found, &end, missed);
-    }
-}
+static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q);
 
 /* Such a candidate stands between two answers: starts from the other side too. */
 static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_end *end)
@@ -591,7 +504,7 @@ static void gb_mark_choice(gb_answers *all)
 }
 
 /* Brings answers into order. */
-GB_LINKAGE void gb_settle(gb_answers *all)
+GB_LINKAGE void gb_put_in_order(gb_answers *all)
 {
     gb_unite(all);
     gb_sort(all);

@@ -18,12 +18,9 @@ static bool gb_leads_back(const gb_problem *problem, const gb_real *q, uint32_t 
 static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], share = R(1.0);
+    gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], share = R(1.0) / GB_FIRST_STAGE;
     gb_copy(before, q, m->joints);
     gb_copy(at, q, m->joints);
-    for (int i = 1; i < GB_DOUBLINGS; i++) {
-        share *= R(0.5);
-    }
     for (int stage = 0; stage < GB_DOUBLINGS; stage++) {
         gb_end next;
         gb_beyond(m, before, at, stage == 1 ? R(1.0) : R(2.0), next.q);
@@ -41,22 +38,46 @@ static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t
     return true;
 }
 
+/* Whether the others follow where the joints `free` are moved by the first stage of a way. */
+static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_end next;
+    for (size_t i = 0; i < m->joints; i++) {
+        next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, way / GB_FIRST_STAGE) : q[i];
+    }
+    gb_polish_from(problem, &next, free);
+    return next.fit.relative <= bound;
+}
+
+/* One of the ways aside, each an eighth of the one before. */
+static gb_real gb_narrowed(int narrow)
+{
+    gb_real way = GB_ASIDE;
+    for (int i = 0; i < narrow; i++) {
+        way = way / R(8.0);
+    }
+    return way;
+}
+
 /* Whether q leads aside, with what its regularity is. */
 static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound, gb_real regularity)
 {
-    gb_real way = GB_ASIDE;
     bound = gb_larger(GB_ROUNDING, bound);
-    if (regularity > GB_REGULAR) {
+    if (regularity > GB_REGULAR || gb_are_spent(problem)) {
         return false;
     }
-    for (int narrow = 0; narrow < GB_NARROWS; narrow++) {
-        if (narrow == 1 && (bound > GB_ROUNDING || regularity > GB_SINGULAR)) {
-            return false;
-        }
+    const int narrows = bound > GB_ROUNDING || regularity > GB_SINGULAR ? 1 : GB_NARROWS;
+    /* What leads nowhere along the last way but one leads nowhere along longer ones. */
+    const gb_real first = gb_narrowed(GB_NARROWS - 2);
+    if (narrows > 1 && !gb_sets_out(problem, q, free, first, bound) && !gb_sets_out(problem, q, free, -first, bound)) {
+        return false;
+    }
+    for (int narrow = 0; narrow < narrows; narrow++) {
+        const gb_real way = gb_narrowed(narrow);
         if (gb_leads_aside(problem, q, free, way, bound) || gb_leads_aside(problem, q, free, -way, bound)) {
             return true;
         }
-        way /= R(8.0);
     }
     return false;
 }
@@ -71,7 +92,8 @@ GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real 
 
 static bool gb_leads_far_aside(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
-    return gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING);
+    return !gb_are_spent(problem)
+        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
 }
 
 /* The same within rounding, but for self-motions that go round a small part of the circle only. */
@@ -167,9 +189,11 @@ static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb
 }
 
 /* Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too. */
-static bool gb_is_there(const gb_problem *problem, const gb_real *q, const gb_real *b, uint32_t free)
+static bool gb_is_there(const gb_problem *problem, gb_end *end, const gb_real *b, uint32_t free)
 {
-    return gb_is_close(problem->mechanism, q, b, 0, GB_ARRIVED) && gb_are_joined(problem, q, b, GB_ROUNDING, free);
+    gb_polish(problem, end, free);
+    const bool is_close = end->fit.accepted && gb_is_close(problem->mechanism, end->q, b, 0, GB_ARRIVED);
+    return is_close && gb_are_joined(problem, end->q, b, GB_ROUNDING, free);
 }
 
 /* How far free joints go on `way`: the farthest of them. */
@@ -182,27 +206,23 @@ static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t 
     return gb_longest(m, freed);
 }
 
-/* Whether the others follow, from end->q, where the free joints have been moved, and are near: by a few steps, and with more care where these come next to
- * it. */
+/* Whether the others follow, from end->q, where the free joints have been moved, and are near: by a few steps. */
 static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real ahead[GB_MAX_JOINTS];
     gb_copy(ahead, end->q, m->joints);
     end->fit = gb_measure(problem, end->q);
-    for (int k = 0; k < GB_RETURNS && !end->fit.accepted; k++) {
+    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY); k++) {
         gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
-        if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
+        if (!gb_newton_step(problem, end->q, GB_STIFF, free, step)) {
             return false;
         }
         gb_stepped(m, end->q, step, next);
         gb_copy(end->q, next, m->joints);
         end->fit = gb_measure(problem, end->q);
     }
-    if (!end->fit.accepted && end->fit.relative <= GB_ASTRAY) {
-        gb_polish(problem, end, free);
-    }
-    return end->fit.accepted && gb_farthest(m, end->q, ahead) <= GB_LEAPT;
+    return end->fit.relative <= GB_ASTRAY && gb_farthest(m, end->q, ahead) <= GB_LEAPT;
 }
 
 /* Whether the joints come to b as the free ones go `way` from a and the others follow, in steps with which they keep up; in `*arrives`. Whether they do. */
@@ -213,7 +233,7 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
     gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], gone = R(0.0), last = R(1.0), pace = gb_along[1];
     gb_copy(before, a, m->joints);
     gb_copy(at, a, m->joints);
-    for (int k = 0; k < GB_PACES; k++) {
+    for (int k = 0; k < GB_PACES && !gb_are_spent(problem); k++) {
         const bool is_last = pace >= length - gone;
         const gb_real step = is_last ? length - gone : pace, share = is_last ? R(1.0) : (gone + pace) / length;
         gb_end next;
@@ -223,7 +243,7 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
         }
         if (gb_followed(problem, &next, free)) {
             if (is_last) {
-                *arrives = gb_is_there(problem, next.q, b, free);
+                *arrives = gb_is_there(problem, &next, b, free);
                 return true;
             }
             gb_copy(before, at, m->joints);

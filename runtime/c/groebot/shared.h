@@ -200,16 +200,20 @@ typedef struct {
     bool (*approach)(const gb_problem *problem, const gb_real *at, const gb_real *q, gb_approach *approach);
 } gb_mechanism;
 
-/* A mechanism's equations at a target; `extras` are the numbers of a candidate that follow from no joint, among others, or null. */
+/* A mechanism's equations at a target; `extras` are the numbers of a candidate that follow from no joint, among others, or null. What is left of the target's
+ * steps. */
 struct gb_problem {
     const gb_mechanism *mechanism;
     const gb_real *p;
     const gb_real *extras;
+    size_t *steps;
 };
 
 /* Candidates for members of self-motions that are none, where no answer is lost without them, by branch and free joints: how many there are, the most that
  * one of them misses the equations by, and whether they have turned out to be no members. */
 #define GB_KINDS 16
+#define GB_LONERS 8
+#define GB_MEMBERS 32
 typedef struct {
     size_t branch;
     size_t count;
@@ -246,16 +250,21 @@ typedef struct {
     bool suffices;
     /* Candidates for members of self-motions that were dropped for this. */
     gb_strays strays;
-    /* The last member of a self-motion that has been found to be on one of its branch in the list, and how it was found; of no free joints before. And whether
-     * the one that is kept is on none of these. */
-    gb_found_1 joined_as;
-    gb_real joined[GB_MAX_JOINTS];
+    /* Candidates that have turned out to be members of self-motions of the list; of more, the first is forgotten. Strata repeat each other, and the next
+     * candidate of a branch is near the last one most often. And whether the one that is kept is of another self-motion. */
+    gb_found_1 trails_of[GB_MEMBERS];
+    gb_real trails[GB_MEMBERS][GB_MAX_JOINTS];
+    size_t trails_count;
     bool is_another;
     /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
     gb_found_1 merged[GB_KINDS];
     size_t merged_count;
     /* Candidates next to which a curve is walked along behind all others. */
     gb_starts starts;
+    /* Isolated answers that have been found to lie on no self-motion of these joints; of more, the first is forgotten. */
+    gb_real loners[GB_LONERS][GB_MAX_JOINTS];
+    uint32_t loners_of[GB_LONERS];
+    size_t loners_count;
     /* Whether a stratum was met that could not be derived. */
     bool is_open;
     /* What missed the equations by the least share of their size. */
@@ -297,12 +306,18 @@ GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t f
 GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
 GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q);
 GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free);
-GB_LINKAGE void gb_settle(gb_answers *all);
+GB_LINKAGE void gb_put_in_order(gb_answers *all);
 GB_LINKAGE size_t gb_count_turns(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits);
 GB_LINKAGE void gb_turn(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits, size_t index, gb_real *out);
 GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits);
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q);
 GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target);
+
+/* So many steps at most: they are spent with the next one, which tells that they are not enough. */
+GB_INLINE size_t gb_steps_at_most(size_t most)
+{
+    return most < SIZE_MAX ? most + 1 : most;
+}
 
 /* The greater of two numbers; the first where the second is none. */
 GB_INLINE gb_real gb_larger(gb_real a, gb_real b)

@@ -21,7 +21,7 @@ static int gb_conform(const gb_real *target, gb_real *conforming)
 }
 
 /* Walks through the program to the answers to a target with these parameters; 0, or a code below. */
-static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought)
+static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought, size_t *steps)
 {
     gb_real conforming[GB_INPUTS] = {0};
     const int code = gb_conform(target, conforming);
@@ -32,6 +32,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.problem.mechanism = &gb_this;
     c->all.problem.p = p;
     c->all.problem.extras = NULL;
+    c->all.problem.steps = steps;
     c->all.out = c->out = out;
     c->all.room = GB_CAPACITY;
     c->all.count = sought == GB_OTHERS ? c->known : 0;
@@ -40,8 +41,8 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.starts.count = 0;
     c->all.strays.count = 0;
     c->all.strays.are_too_many = false;
-    c->all.joined_as.free = 0;
-    c->all.merged_count = 0;
+    c->all.trails_count = 0;
+    c->all.merged_count = c->all.loners_count = 0;
     c->all.is_open = c->all.has_nearest = c->all.is_another = false;
     c->pairs = pairs;
     c->sought = sought;
@@ -51,7 +52,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     if (gb_this.is_nearby && c->all.starts.count > 0) {
         gb_walk_curves(&c->all);
     }
-    if (gb_are_doubtful(&c->all.strays)) {
+    if (gb_are_doubtful(&c->all.strays) && *steps > 0) {
         c->all.suffices = false;
         gb_walk_1(p, c);
         gb_flush(c);
@@ -60,7 +61,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
 }
 
 /* Whether answers are in order as they are. */
-GB_INLINE bool gb_are_settled(const gb_sink_1 *c)
+GB_INLINE bool gb_are_in_order(const gb_sink_1 *c)
 {
     bool are_sorted = GB_PREFERRED < 0 && c->all.count <= GB_ISOLATED;
     for (size_t i = 1; i < c->all.count; i++) {
@@ -69,50 +70,67 @@ GB_INLINE bool gb_are_settled(const gb_sink_1 *c)
     return are_sorted;
 }
 
+/* Marks all answers to a target that are not settled, for its steps are spent; their number, or a code below zero. */
+GB_INLINE int gb_settle(size_t steps, gb_solution *out, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i].settled = steps > 0;
+    }
+    return steps > 0 || count > 0 ? (int)count : GB_UNSETTLED;
+}
+
 /* All joint values with which the equations hold, or a code below zero. */
-GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out)
+GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out, size_t *steps)
 {
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS, steps);
     if (code < 0) {
         return code;
     }
-    if (!gb_are_settled(&c)) {
-        gb_settle(&c.all);
+    if (!gb_are_in_order(&c)) {
+        gb_put_in_order(&c.all);
     }
-    return (int)c.all.count;
+    return gb_settle(*steps, out, c.all.count);
+}
+
+int GB_PUBLIC(solve_bounded)(const gb_real *target, size_t most, gb_solution *out)
+{
+    size_t steps = gb_steps_at_most(most);
+#ifdef GB_WITHIN
+    return gb_solve_described(target, out, NULL, &steps);
+#else
+    return gb_solve_ideal(target, out, &steps);
+#endif
 }
 
 int GB_PUBLIC(solve)(const gb_real *target, gb_solution *out)
 {
-#ifdef GB_WITHIN
-    return gb_solve_described(target, out, NULL);
-#else
-    return gb_solve_ideal(target, out);
-#endif
+    return GB_PUBLIC(solve_bounded)(target, GB_MOST_STEPS, out);
 }
 
 int GB_PUBLIC(solve_or_nearest)(const gb_real *target, gb_solution *out, gb_solution *nearest)
 {
     memset(nearest, 0, sizeof *nearest);
     nearest->residual = nearest->relative = INFINITY;
+    nearest->settled = true;
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
 #ifdef GB_WITHIN
-    return gb_solve_described(target, out, nearest);
+    return gb_solve_described(target, out, nearest, &steps);
 #else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS);
+    const int code = gb_walk_through(&c, target, p, out, NULL, GB_ANSWERS, &steps);
     if (code < 0) {
         return code;
     }
-    gb_settle(&c.all);
+    gb_put_in_order(&c.all);
     if (c.all.count == 0 && c.all.has_nearest) {
         memcpy(nearest->q, c.all.nearest, sizeof nearest->q);
         nearest->residual = c.all.nearest_fit.residual;
         nearest->relative = c.all.nearest_fit.relative;
     }
-    return (int)c.all.count;
+    return gb_settle(steps, out, c.all.count);
 #endif
 }
 
@@ -126,6 +144,7 @@ static void gb_pairs_of(const gb_solution *solution, gb_pairs *out)
     out->residual = solution->residual;
     out->branch = solution->branch;
     out->free = solution->free;
+    out->settled = solution->settled;
 }
 
 /* The pairs of what the robot's solve finds. */
@@ -146,7 +165,8 @@ int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
 #else
     gb_sink_1 c;
     gb_real p[GB_PARAMETERS];
-    const int code = gb_walk_through(&c, target, p, NULL, out, GB_ANSWERS);
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
+    const int code = gb_walk_through(&c, target, p, NULL, out, GB_ANSWERS, &steps);
     if (code < 0) {
         return code;
     }
@@ -218,7 +238,7 @@ size_t GB_PUBLIC(solve_pairs_batch)(const gb_real *targets, size_t count, gb_pai
 gb_real GB_PUBLIC(residual)(const gb_real *target, const gb_real *q)
 {
     gb_real conforming[GB_INPUTS] = {0}, p[GB_PARAMETERS], at[GB_PLACES], values[GB_EQUATIONS], largest = R(0.0);
-    const gb_problem problem = {&gb_this, p, NULL};
+    const gb_problem problem = {&gb_this, p, NULL, NULL};
     if (GB_EXTRAS || gb_conform(target, conforming) < 0) {
         return NAN;
     }
@@ -242,7 +262,7 @@ bool GB_PUBLIC(forward)(const gb_real *q, gb_real *target)
 {
 #ifdef GB_REACHED
     static const gb_reached reached[GB_INPUTS] = {GB_REACHED};
-    const gb_problem problem = {&gb_this, NULL, NULL};
+    const gb_problem problem = {&gb_this, NULL, NULL, NULL};
     gb_real at[GB_PLACES], tip[GB_EQUATIONS];
     gb_place(&problem, q, at);
 #ifdef GB_WITHIN
@@ -297,9 +317,11 @@ int GB_PUBLIC(solve_within)(const gb_real *target, const gb_real *limits, gb_sol
     return gb_bring_all_within(p, limits, out, count);
 #else
     gb_answers all;
+    size_t steps;
     memset(&all, 0, sizeof all);
     all.problem.mechanism = &gb_this;
     all.problem.p = p;
+    all.problem.steps = &steps;
     all.out = out;
     all.count = (size_t)count;
     return (int)gb_keep_within(&all, limits);

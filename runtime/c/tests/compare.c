@@ -34,6 +34,7 @@ static bool is_next_solution(FILE *file, const puma_solution *solution)
     is_equal &= is_next(file, solution->relative);
     is_equal &= is_next(file, (double)solution->branch);
     is_equal &= is_next(file, (double)solution->chosen);
+    is_equal &= is_next(file, (double)solution->settled);
     is_equal &= is_next(file, (double)solution->free);
     return is_equal;
 }
@@ -52,16 +53,25 @@ static bool are_next_pairs(FILE *file, const puma_pairs *pairs)
     return is_equal;
 }
 
-/* Whether all answers to a target are the next ones of a file. */
-static bool are_next_answers(FILE *file, const double *target)
+/* Whether solutions are the next ones of a file, all of which are read. */
+static bool are_next_solutions(FILE *file, const puma_solution *out, int count)
 {
-    puma_solution out[PUMA_CAPACITY], nearest;
-    puma_pairs pairs[PUMA_CAPACITY];
-    int count = puma_solve(target, out);
     bool are_equal = is_next(file, count);
     for (int i = 0; i < count; i++) {
         are_equal &= is_next_solution(file, &out[i]);
     }
+    return are_equal;
+}
+
+/* Whether all answers to the target with this number are the next ones of a file. */
+static bool are_next_answers(FILE *file, const double *target, size_t number)
+{
+    puma_solution out[PUMA_CAPACITY], nearest;
+    puma_pairs pairs[PUMA_CAPACITY];
+    int count = puma_solve(target, out);
+    bool are_equal = are_next_solutions(file, out, count);
+    count = puma_solve_bounded(target, number % 256, out);
+    are_equal &= are_next_solutions(file, out, count);
     count = puma_solve_pairs(target, pairs);
     are_equal &= is_next(file, count);
     for (int i = 0; i < count; i++) {
@@ -89,7 +99,7 @@ int main(int count, char **arguments)
             }
             memcpy(target + i, &word, sizeof word);
         }
-        if (!are_next_answers(file, target)) {
+        if (!are_next_answers(file, target, targets)) {
             printf("target %zu has other answers\n", targets);
             return 1;
         }

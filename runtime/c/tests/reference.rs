@@ -5,7 +5,7 @@ mod puma;
 use groebot_runtime::Error;
 use puma::{CAPACITY, INPUTS, JOINTS, Pairs, Solution, Solve, Solver};
 use std::fs::File;
-use std::io::{BufWriter, Result, Write};
+use std::io::{BufWriter, Write};
 
 /// Values where joints line up, or nearly do.
 const SPECIAL: [f64; 7] = [0.0, 1e-9, 1.5707963267948966, 1e-5, 3.141592653589793, 1e-3, -1.5707963267948966];
@@ -46,15 +46,25 @@ fn code(error: Error) -> f64 {
         Error::NotFinite => -1.0,
         Error::OpenStratum(_) => -2.0,
         Error::NotRotation => -3.0,
+        Error::Unsettled => -5.0,
         _ => -4.0,
     }
 }
 
-fn write(file: &mut impl Write, numbers: &[f64]) -> Result<()> {
+fn write(file: &mut impl Write, numbers: &[f64]) -> std::io::Result<()> {
     numbers.iter().try_for_each(|number| file.write_all(&number.to_ne_bytes()))
 }
 
-fn main() -> Result<()> {
+fn write_solutions(file: &mut impl Write, count: Result<usize, Error>, out: &[Solution]) -> std::io::Result<()> {
+    write(file, &[count.map_or_else(code, |count| count as f64)])?;
+    out[..count.unwrap_or(0)].iter().try_for_each(|a| {
+        write(file, &a.q)?;
+        let flags = [a.chosen, a.settled].map(|flag| f64::from(u8::from(flag)));
+        write(file, &[a.residual, a.relative, a.branch as f64, flags[0], flags[1], f64::from(a.free)])
+    })
+}
+
+fn main() -> std::io::Result<()> {
     let arguments: Vec<String> = std::env::args().collect();
     let mut file = BufWriter::new(File::create(&arguments[1])?);
     let mut random = Random(88_172_645_463_325_252);
@@ -64,11 +74,9 @@ fn main() -> Result<()> {
         let target = target(number, &mut random);
         write(&mut file, &target)?;
         let count = Solver.solve(&target, &mut out);
-        write(&mut file, &[count.map_or_else(code, |count| count as f64)])?;
-        for a in &out[..count.unwrap_or(0)] {
-            write(&mut file, &a.q)?;
-            write(&mut file, &[a.residual, a.relative, a.branch as f64, f64::from(u8::from(a.chosen)), f64::from(a.free)])?;
-        }
+        write_solutions(&mut file, count, &out)?;
+        let count = Solver.solve_bounded(&target, number % 256, &mut out);
+        write_solutions(&mut file, count, &out)?;
         let count = Solver.solve_pairs(&target, &mut pairs);
         write(&mut file, &[count.map_or_else(code, |count| count as f64)])?;
         for a in &pairs[..count.unwrap_or(0)] {

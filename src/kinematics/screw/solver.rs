@@ -292,7 +292,7 @@ impl ScrewSolver {
                 free: (0..*joints).filter(|&i| free && trail.free[i]).collect(),
                 residual: miss.position.max(miss.rotation),
                 branch: visit.order.first_branch + trail.branch,
-                chosen: false,
+                ..Solution::default()
             });
         }
     }

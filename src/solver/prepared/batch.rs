@@ -28,6 +28,7 @@ pub struct Batch {
     branches: Vec<usize>,
     /// By answer: bit `j` is set where joint `j` is free.
     free: Vec<u32>,
+    settled: Vec<bool>,
     refused: Vec<(usize, Error)>,
 }
 
@@ -44,6 +45,8 @@ pub enum Solved<'a> {
         branch: usize,
         /// Bit `j` is set where joint `j` may take any value.
         free: u32,
+        /// [`Solution::settled`].
+        settled: bool,
     },
     /// The end of a target.
     Target {
@@ -94,6 +97,11 @@ impl Batch {
         &self.free
     }
 
+    /// By answer: whether the work on its target was done ([`Solution::settled`]).
+    pub fn settled(&self) -> &[bool] {
+        &self.settled
+    }
+
     /// The targets that are none, each with its index and the reason; they have no answers.
     pub fn refused(&self) -> &[(usize, Error)] {
         &self.refused
@@ -108,6 +116,7 @@ impl Batch {
         self.residuals.clear();
         self.branches.clear();
         self.free.clear();
+        self.settled.clear();
         self.refused.clear();
     }
 
@@ -117,15 +126,17 @@ impl Batch {
         self.residuals.reserve(answers);
         self.branches.reserve(answers);
         self.free.reserve(answers);
+        self.settled.reserve(answers);
     }
 
     fn push(&mut self, solved: Solved<'_>) {
         match solved {
-            Solved::Answer { q, residual, branch, free } => {
+            Solved::Answer { q, residual, branch, free, settled } => {
                 self.joints.iter_mut().zip(q).for_each(|(column, value)| column.push(*value));
                 self.residuals.push(residual);
                 self.branches.push(branch);
                 self.free.push(free);
+                self.settled.push(settled);
             }
             Solved::Target { refused } => {
                 self.refused.extend(refused.map(|error| (self.targets(), error)));
@@ -142,6 +153,7 @@ impl Batch {
         self.residuals.extend_from_slice(&behind.residuals);
         self.branches.extend_from_slice(&behind.branches);
         self.free.extend_from_slice(&behind.free);
+        self.settled.extend_from_slice(&behind.settled);
         self.refused.extend(behind.refused.into_iter().map(|(index, error)| (targets + index, error)));
     }
 }
@@ -208,8 +220,8 @@ impl<S: Storage + 'static> Shaped<S> {
                 for (count, target) in counts[..solved].iter().zip(targets[done * facts.inputs..].chunks(facts.inputs))
                 {
                     for answer in answers.by_ref().take(count.unwrap_or(0)) {
-                        let runtime::Solution { q, residual, branch, free, .. } = answer;
-                        take(Solved::Answer { q: q.as_ref(), residual: *residual, branch: *branch, free: *free });
+                        let &runtime::Solution { ref q, residual, branch, free, settled, .. } = answer;
+                        take(Solved::Answer { q: q.as_ref(), residual, branch, free, settled });
                     }
                     take(Solved::Target { refused: count.err().map(|error| self.refused(target, error)) });
                 }

@@ -223,6 +223,9 @@ impl<S: Storage + 'static> Shaped<S> {
             let text = format!("the target lies on `{label}`, a stratum that could not be derived");
             return Error::new(ErrorKind::Unsupported, text);
         }
+        if error == runtime::Error::Unsettled {
+            return Error::new(ErrorKind::Budget, error.to_string());
+        }
         let not_finite = self.inputs.iter().zip(target).find(|(_, value)| !value.is_finite());
         let text = match not_finite {
             Some((input, value)) => format!("`{}` is {value}; give a finite number", input.name),
@@ -240,6 +243,7 @@ fn solution<S: Storage + 'static>(found: &runtime::Solution<Shaped<S>>) -> Solut
         branch: found.branch,
         free: joints_of(found.free),
         chosen: found.chosen,
+        settled: found.settled,
     }
 }
 

@@ -108,7 +108,7 @@ impl<'a> CoupledModel<'a> {
 
     /// All joint vectors that `solve` finds chain by chain, from a chain's target.
     fn continued(&self, target: &[f64], solve: &Solve<'a, '_>) -> Result<Vec<Solution>> {
-        let start = Solution { q: vec![0.0; self.count], residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
+        let start = Solution { q: vec![0.0; self.count], ..Solution::default() };
         let mut ways = vec![start];
         for member in &self.members {
             let mut next = Vec::new();
@@ -202,7 +202,7 @@ impl Configuration for CoupledModel<'_> {
     fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
         let solve = |member: &Member<'_>, target: &[f64]| {
             let found = member.own.search(target, seeds)?;
-            let answer = |q| Solution { q, residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
+            let answer = |q| Solution { q, ..Solution::default() };
             Ok(found.into_iter().map(answer).collect())
         };
         Ok(self.continued(target, &solve)?.into_iter().map(|answer| answer.q).collect())

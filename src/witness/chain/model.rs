@@ -294,7 +294,7 @@ impl Configuration for Model<'_> {
         };
         let unknowns: Vec<Unknown> = self.unknown.iter().map(unknown).collect();
         let whole = |values: &[f64]| {
-            let part = Solution { q: values.to_vec(), residual: 0.0, branch: 0, free: Vec::new(), chosen: false };
+            let part = Solution { q: values.to_vec(), ..Solution::default() };
             self.completed(target, part).q
         };
         let oracle = Oracle { seeds, ..Oracle::default() };

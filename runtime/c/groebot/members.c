@@ -1,0 +1,207 @@
+/* Candidates for members of self-motions: members.rs */
+
+/* Remembers a member. */
+static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_real *q)
+{
+    const size_t place = all->trails_count++ % GB_MEMBERS;
+    all->trails_of[place].branch = branch;
+    all->trails_of[place].free = free;
+    gb_copy(all->trails[place], q, all->problem.mechanism->joints);
+}
+
+/* The place of the k-th last member that is remembered, from 1; false where there are not so many. */
+static bool gb_look_back(const gb_answers *all, size_t k, size_t *place)
+{
+    if (k > all->trails_count || k > GB_MEMBERS) {
+        return false;
+    }
+    *place = (all->trails_count - k) % GB_MEMBERS;
+    return true;
+}
+
+/* Whether the same joints have been found to be a member before. */
+static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t free)
+{
+    size_t place;
+    for (size_t k = 1; gb_look_back(all, k, &place); k++) {
+        if (all->trails_of[place].free == free && gb_is_close(all->problem.mechanism, all->trails[place], q, 0, GB_MERGE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The place of the last member of a branch with these free joints, or without `free` with any single one; false where there is none. */
+static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, size_t *place)
+{
+    for (size_t k = 1; gb_look_back(all, k, place); k++) {
+        const gb_found_1 *found = &all->trails_of[*place];
+        if (found->branch == branch && (free == 0 ? gb_is_single(found->free) : found->free == free)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps an answer, and remembers a member. */
+static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    if (found->free != 0) {
+        gb_remember(all, found->branch, found->free, end->q);
+    }
+    gb_keep(all, found, end->q, &end->fit);
+}
+
+/* Whether joints are on a self-motion of one joint that the last candidates of this branch have led to. */
+static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    size_t place;
+    if (!gb_find_trail(all, found->branch, 0, &place) || gb_regularity(&all->problem, q) > GB_REGULAR
+        || !gb_leads_to(&all->problem, all->trails[place], q, all->trails_of[place].free)) {
+        return false;
+    }
+    gb_remember(all, found->branch, all->trails_of[place].free, q);
+    return true;
+}
+
+/* Keeps a candidate if it is a member of a self-motion; whether it is. */
+static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
+    if (is_member) {
+        gb_keep_on_trail(all, found, end);
+    }
+    return is_member;
+}
+
+/* Whether an isolated answer with these joints is listed. */
+static bool gb_is_listed(const gb_answers *all, const gb_real *q)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (*gb_free_of(all, i) == 0 && gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGE)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an isolated
+ * answer. One that has not been found before may have another next to it. */
+static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
+{
+    if (end->fit.relative > GB_ALONE) {
+        gb_miss(all, end->q, &end->fit);
+        return;
+    }
+    gb_found_1 alone = *found;
+    const bool is_listed = gb_is_listed(all, end->q);
+    if (!is_listed && gb_is_on_trail(all, found, end->q)) {
+        return;
+    }
+    alone.free = is_listed ? 0 : gb_joint_on_self_motion(&all->problem, end->q, end->fit.relative);
+    const size_t known = all->count;
+    gb_keep_on_trail(all, &alone, end);
+    if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+        gb_around(all, &alone, end, missed);
+    }
+}
+
+/* Whether an answer in the list is a member of a self-motion within rounding, of the branch and with the free joints of a candidate. */
+static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
+{
+    return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
+}
+
+/* Whether some member of a candidate's self-motion is known. */
+static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
+{
+    for (size_t i = 0; i < all->merged_count; i++) {
+        if (all->merged[i].branch == found->branch && all->merged[i].free == found->free) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < all->count; i++) {
+        if (gb_is_told(all, i, found)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
+static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
+{
+    if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
+        gb_keep_on_trail(all, found, end);
+        return true;
+    }
+    gb_kind_of_stray *kind = is_known ? NULL : gb_kind(&all->strays, found);
+    if (kind) {
+        kind->is_astray = true;
+    }
+    gb_miss(all, end->q, &end->fit);
+    return true;
+}
+
+/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
+ * asked. */
+static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+{
+    if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
+        return false;
+    }
+    size_t place;
+    bool joins = gb_find_trail(all, found->branch, found->free, &place)
+        && gb_leads_to(&all->problem, all->trails[place], end->q, found->free);
+    for (size_t i = all->count; i > 0 && !joins;) {
+        i--;
+        joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
+    }
+    return !joins;
+}
+
+/* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
+ * the circle, or where there is none and an isolated answer stands near the place. */
+static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+{
+    const bool is_known = gb_is_known(all, found);
+    gb_end end;
+    if (is_known && (!gb_is_single(found->free) || gb_are_spent(&all->problem))) {
+        return;
+    }
+    if (gb_is_remembered(all, q, found->free)) {
+        return;
+    }
+    gb_copy(end.q, q, all->problem.mechanism->joints);
+    end.fit = gb_measure(&all->problem, q);
+    const gb_real missed = end.fit.relative;
+    if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
+        gb_miss(all, end.q, &end.fit);
+        return;
+    }
+    if (gb_are_spent(&all->problem)) {
+        gb_keep(all, found, end.q, &end.fit);
+        return;
+    }
+    const bool may_miss = all->problem.mechanism->is_nearby && gb_is_single(found->free) && !is_known;
+    if (may_miss && missed > GB_ROUNDING && gb_begin_curve(all, found, end.q)) {
+        return;
+    }
+    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
+        gb_polish(&all->problem, &end, found->free);
+    }
+    if (is_known && !gb_is_another(all, found, &end)) {
+        gb_remember(all, found->branch, found->free, end.q);
+        return;
+    }
+    all->is_another = is_known;
+    const bool is_done = all->suffices ? gb_keep_long_member(all, found, &end, is_known) : gb_keep_member(all, found, &end);
+    all->is_another = false;
+    if (is_done || is_known) {
+        return;
+    }
+    gb_polish(&all->problem, &end, 0);
+    if (!gb_keep_member(all, found, &end)) {
+        gb_keep_alone(all, found, &end, missed);
+    }
+}
