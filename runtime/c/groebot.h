@@ -52,7 +52,7 @@ typedef double gb_real;
  * linear system of Newton's method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers
  * are not settled. */
 #ifndef GB_MOST_STEPS
-#define GB_MOST_STEPS 20000
+#define GB_MOST_STEPS 300000
 #endif
 /* The most turns that are counted. */
 #define GB_MOST_TURNS 1000000

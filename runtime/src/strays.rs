@@ -51,7 +51,7 @@ impl Strays {
     /// Whether an answer may have been lost: a kind is there on a part of the circle only, next to whose end rounding may have hidden one, so near
     /// the stratum are its candidates.
     pub fn are_doubtful(&self) -> bool {
-        let is_doubtful = |kind: &Kind| kind.is_astray && kind.missed <= DOUBTED && kind.count % PLACES != 0;
+        let is_doubtful = |kind: &Kind| kind.is_astray && kind.missed <= DOUBTED && !kind.count.is_multiple_of(PLACES);
         self.are_too_many || self.kinds[..self.count].iter().any(is_doubtful)
     }
 

@@ -33,7 +33,7 @@ pub const PIVOT: f64 = 1e-9;
 pub const NEGLIGIBLE: f64 = 1e-290;
 /// The most steps of polishing that a target may take, unless [other](crate::Solve::solve_bounded) is asked for. A step is a linear system of Newton's
 /// method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers are not settled.
-pub const MOST_STEPS: usize = 20_000;
+pub const MOST_STEPS: usize = 300_000;
 /// What solves the equations within this share of their sizes is an answer, not a settled one, where the steps of polishing are spent.
 pub const UNSETTLED: f64 = 1e-6;
 /// Newton steps that polish each answer; a step that does not lower the residual is not taken.

@@ -34,12 +34,14 @@ fn every_solution_reaches_its_target() {
         let answer = json(target, &[]);
         let solutions = answer["solutions"].as_array().unwrap();
         assert_eq!(solutions.len(), count, "{target}");
+        assert_eq!(answer["settled"], true, "a leg of two joints takes few steps");
         let wanted = numbers(&answer["target"]);
         for solution in solutions {
             let reached = ankle(&numbers(&solution["q"]));
             let off = (reached[0] - wanted[0]).hypot(reached[1] - wanted[1]);
             assert!(off < 1e-10, "{target}: off by {off}");
             assert!(solution["residual"].as_f64().unwrap() < 1e-10 && solution["free"] == Value::Array(Vec::new()));
+            assert_eq!(solution["settled"], true, "{target}");
         }
         let chosen: Vec<f64> = solutions
             .iter()
@@ -144,7 +146,7 @@ fn csv_says_what_json_says_and_reads_its_own_output() {
     let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..5], ["target", "px", "pz", "solutions", "branch"]);
     assert_eq!(rows.len(), 1 + 2 + 1 + 2, "{}", ran.out);
-    assert_eq!(rows[3], ["2", "0", "0", "0", "", "", "", "", "", "", ""]);
+    assert_eq!(rows[3], ["2", "0", "0", "0", "", "", "", "", "", "", "", ""]);
     let answer = json("60,150", &[]);
     for (row, solution) in rows[1..3].iter().zip(answer["solutions"].as_array().unwrap()) {
         let q: Vec<f64> = row[5..7].iter().map(|cell| cell.parse().unwrap()).collect();
