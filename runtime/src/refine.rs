@@ -43,6 +43,9 @@ impl<M: Mechanism> Answers<'_, M> {
         if found.close {
             self.doubted = number;
         }
+        if is_nearby && is_beside && self.keep_moving(found, &end) {
+            return;
+        }
         if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end) {
             return self.miss(end);
         }
@@ -81,11 +84,25 @@ impl<M: Mechanism> Answers<'_, M> {
         if is_steep {
             self.unsound = number;
         }
+        if is_steep && self.keep_moving(found, &(end.clone(), fit)) {
+            return;
+        }
         let is_curve = is_steep && self.is_curve(found, &(end.clone(), fit));
         self.keep(found, (end.clone(), fit));
         if is_steep && !(is_curve && fit.relative > ROUNDING) {
             self.twin(found, &end, missed);
         }
+    }
+
+    /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
+    /// self-motion as to an isolated answer. Whether it is one.
+    fn keep_moving(&mut self, found: &Found, end: &End<M>) -> bool {
+        let is_sharp = end.1.relative <= ROUNDING;
+        let joint = if is_sharp { self.problem.joint_on_long_self_motion(&end.0) } else { None };
+        if let Some(free) = joint {
+            self.keep(&Found { free, ..*found }, end.clone());
+        }
+        joint.is_some()
     }
 
     /// Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed.

@@ -360,6 +360,18 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
     }
 }
 
+/* Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a self-motion as to
+ * an isolated answer. Whether it is one. */
+static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+{
+    gb_found_1 moving = *found;
+    moving.free = fit->relative <= GB_ROUNDING ? gb_joint_on_long_self_motion(&all->problem, q) : 0;
+    if (moving.free != 0) {
+        gb_keep(all, &moving, q, fit);
+    }
+    return moving.free != 0;
+}
+
 /* Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed. */
 static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
 {
@@ -373,6 +385,9 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
 {
     const bool is_steep = approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD);
     all->unsound = is_steep ? number : all->unsound;
+    if (is_steep && gb_keep_moving(all, found, approach->end, &approach->fit)) {
+        return;
+    }
     const bool is_curve = is_steep && gb_is_curve(all, found, approach->end, &approach->fit);
     gb_keep(all, found, approach->end, &approach->fit);
     if (is_steep && !(is_curve && approach->fit.relative > GB_ROUNDING)) {
@@ -426,6 +441,9 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;
+    if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
+        return;
+    }
     if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end)) {
         gb_miss(all, end.q, &end.fit);
         return;
