@@ -156,24 +156,21 @@ fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], name
 }
 
 fn finding(finding: &Finding) -> Found<'_> {
-    Found {
-        kind: finding.kind.name(),
-        joint: finding.joint.as_deref(),
-        size: finding.size,
-        text: finding.to_string(),
-    }
+    Found { kind: finding.kind.name(), joint: finding.joint.as_deref(), size: finding.size, text: finding.to_string() }
 }
 
 fn in_words(consistency: &Consistency) -> String {
-    let deviations = consistency.squares.sqrt();
-    match (consistency.holds(), consistency.is_converged) {
-        (true, _) => format!(
-            "bodies can weigh that, within its noise: those that come nearest, none with a negative mass or principal moment of its mass, are {deviations:.2} deviations off"
-        ),
-        (false, true) => format!("no bodies weigh that: those that come nearest are {deviations:.1} deviations off"),
-        (false, false) => format!(
-            "whether bodies weigh that is open: the search for the nearest ones did not converge, and ended {deviations:.1} deviations off"
-        ),
+    let [reached, least] = [consistency.squares, consistency.least].map(f64::sqrt);
+    if consistency.holds() {
+        format!(
+            "bodies can weigh that, within its noise: those that come nearest, none with a negative mass or principal moment of its mass, are {reached:.2} deviations off"
+        )
+    } else if consistency.is_refuted() {
+        format!("no bodies weigh that: all are at least {least:.1} deviations off")
+    } else {
+        format!(
+            "whether bodies weigh that is open: the search for the nearest ones did not converge; they are between {least:.1} and {reached:.1} deviations off"
+        )
     }
 }
 
@@ -200,7 +197,9 @@ fn text(report: &Report<'_>) -> String {
     }
     for ((joint, miss), (_, share)) in report.root_mean_square_misses.iter().zip(&report.unexplained) {
         let (joint, percent) = (shown(joint), 100.0 * share);
-        text += &format!("{joint}: torques miss by {miss:.3e} in the root of the mean square, {percent:.2} % of their standard deviation\n");
+        text += &format!(
+            "{joint}: torques miss by {miss:.3e} in the root of the mean square, {percent:.2} % of their standard deviation\n"
+        );
     }
     text += &report.consistency;
     text.push('\n');

@@ -30,7 +30,10 @@ pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<Vec<String>> 
             return Err(named(error, least));
         }
         if let Some(error) = fault(inertia, 0.0) {
-            notes.push(format!("{}; it is less than {least:.0e} kg m^2 off, taken for rounding", named(error, 0.0).message()));
+            notes.push(format!(
+                "{}; it is less than {least:.0e} kg m^2 off, taken for rounding",
+                named(error, 0.0).message()
+            ));
         }
     }
     Ok(notes)

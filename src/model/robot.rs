@@ -6,8 +6,8 @@ use super::check;
 use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::number::BigRational;
-use crate::spatial::exact::Placement;
 use crate::spatial::NEGLIGIBLE;
+use crate::spatial::exact::Placement;
 use crate::{ErrorKind, Result};
 
 /// A checked tree of links and joints, with masses and shapes. It never changes.

@@ -53,7 +53,9 @@ fn bad_data_has_the_exit_status_three() {
         let torque = factor * (0.0825 * a - 0.25 * 9.81 * q.cos());
         format!("{torque},{q},0,{a}\n")
     };
-    for (factor, code, words) in [(1.0, 0, ""), (-1.0, 3, "opposite to those of the description"), (1000.0, 3, "times those of the description")] {
+    for (factor, code, words) in
+        [(1.0, 0, ""), (-1.0, 3, "opposite to those of the description"), (1000.0, 3, "times those of the description")]
+    {
         let rows: String = (0..40).map(|number| row(number, factor)).collect();
         fs::write(&log, format!("tau:j1,q:j1,v:j1,a:j1\n{rows}")).unwrap();
         let ran = run(&["identify", &corpus("hinge.urdf"), text(&log)]);

@@ -35,7 +35,11 @@ impl Reading {
         let text = match fitting.len() {
             1 => return Ok(fitting.remove(0)),
             0 => {
-                let free = if floating { "7 numbers of its free root come first" } else { "7 more come first where its root moves freely" };
+                let free = if floating {
+                    "7 numbers of its free root come first"
+                } else {
+                    "7 more come first where its root moves freely"
+                };
                 let (count, names) = (independent.len(), listed(&independent));
                 format!(
                     "{} columns q0.. are given; the robot has {count} independent joints ({names}), and {free}",
@@ -58,7 +62,8 @@ impl Reading {
     fn all(robot: &Robot) -> Vec<Reading> {
         let moving = || robot.moving().into_iter().map(|place| &robot.joints()[place]);
         let follows = |name: &String| moving().any(|joint| joint.name == *name && robot.law(joint).leader != *name);
-        let (followers, leaders): (Vec<String>, Vec<String>) = moving().map(|joint| joint.name.clone()).partition(follows);
+        let (followers, leaders): (Vec<String>, Vec<String>) =
+            moving().map(|joint| joint.name.clone()).partition(follows);
         let own = || moving().map(|joint| joint.name.clone()).collect();
         let mut all = Vec::new();
         for base in [Base::Fixed, Base::Floating] {
@@ -95,7 +100,12 @@ impl Reading {
 
     /// That joints which follow others are taken to be on their own.
     pub fn note(&self) -> Option<String> {
-        let text = || format!("the table has columns for joints that follow others, each taken to be on its own: {}", listed(&self.followers));
+        let text = || {
+            format!(
+                "the table has columns for joints that follow others, each taken to be on its own: {}",
+                listed(&self.followers)
+            )
+        };
         (!self.followers.is_empty()).then(text)
     }
 }

@@ -74,8 +74,8 @@ fn solve<S: Divisible + PartialEq>(mut matrix: Vec<S>, mut right: Vec<S>) -> Opt
         }
     }
     for k in (0..count).rev() {
-        let known = (k + 1..count)
-            .fold(right[k].clone(), |sum, j| sum - matrix[k * count + j].clone() * right[j].clone());
+        let known =
+            (k + 1..count).fold(right[k].clone(), |sum, j| sum - matrix[k * count + j].clone() * right[j].clone());
         right[k] = known / matrix[k * count + k].clone();
     }
     Some(right)

@@ -86,7 +86,8 @@ impl Equations {
                 room.inertia = DMatrix::zeros(self.freedoms(), self.freedoms());
                 let inertia = self.inertia(room, state.q)?;
                 let block = |at: usize| inertia.view((0, 0), (at + 1, at + 1)).into_owned();
-                let is_massless = |at: usize| block(at).cholesky().is_none_or(|factors| massless_row(&factors).is_some());
+                let is_massless =
+                    |at: usize| block(at).cholesky().is_none_or(|factors| massless_row(&factors).is_some());
                 let massless = (0..inertia.nrows()).find(|at| is_massless(*at));
                 Err(self.massless(massless.and_then(|at| at.checked_sub(self.first()))))
             }

@@ -33,13 +33,16 @@ pub fn reflected_rotor(element: &Element) -> Result<f64> {
     let value = |name: &str| element.child(name)?.map_or(Ok(None), |child| child.float("value"));
     let ratio = value("drake:gear_ratio")?.unwrap_or(1.0);
     let reflected = value("drake:rotor_inertia")?.unwrap_or(0.0) * ratio * ratio;
-    let beyond = || element.error(ErrorKind::BadValue, "has a rotor whose inertia times the gear ratio squared is beyond doubles");
+    let beyond = || {
+        element.error(ErrorKind::BadValue, "has a rotor whose inertia times the gear ratio squared is beyond doubles")
+    };
     if reflected.is_finite() { Ok(reflected) } else { Err(beyond()) }
 }
 
 /// Adds the rotors of all transmissions to their joints. What is wrong with one is a fault of its actuator.
 pub fn add_rotors<'e>(transmissions: impl Iterator<Item = &'e Element>, joints: &mut [Joint]) -> Vec<Fault> {
-    let places: HashMap<String, usize> = joints.iter().enumerate().map(|(at, joint)| (joint.name.clone(), at)).collect();
+    let places: HashMap<String, usize> =
+        joints.iter().enumerate().map(|(at, joint)| (joint.name.clone(), at)).collect();
     let mut faults = Vec::new();
     for element in transmissions {
         for actuator in all(element, "actuator") {
@@ -73,6 +76,8 @@ fn add_rotor(
             joints[*place].armature += rotor;
             Ok(())
         }
-        None => Err::<(), Error>(joint.error(ErrorKind::UnknownName, "is no joint of the robot, and an actuator has a rotor for it")),
+        None => Err::<(), Error>(
+            joint.error(ErrorKind::UnknownName, "is no joint of the robot, and an actuator has a rotor for it"),
+        ),
     }
 }

@@ -7,8 +7,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix4};
 
-/// The squares that are left are within these of the least ones: absolutely, in units of the noise, and as a share.
-const GAP: [f64; 2] = [1e-4, 1e-4];
+/// The squares that are left are within these of the least ones: absolutely, where a square of one is the noise, and as a share.
+const GAP: [f64; 2] = [1e-2, 1e-4];
 /// By how much `mu` falls at a time, how often at most, and how many steps of Newton's method each takes at most.
 const FALL: f64 = 0.1;
 const STAGES: usize = 60;
@@ -25,6 +25,8 @@ pub(super) struct Nearest {
     pub(super) parameters: Vec<f64>,
     /// The sum of squares that they leave.
     pub(super) squares: f64,
+    /// No bodies leave less.
+    pub(super) least: f64,
     pub(super) is_converged: bool,
 }
 
@@ -48,22 +50,24 @@ impl Problem {
         let bodies = inside(given);
         let inverses: Option<Vec<Matrix4<f64>>> = bodies.iter().map(|body| body.try_inverse()).collect();
         let Some(given) = inverses else {
-            return Nearest { parameters: given.to_vec(), squares: f64::INFINITY, is_converged: false };
+            return Nearest { parameters: given.to_vec(), squares: f64::INFINITY, least: 0.0, is_converged: false };
         };
         let mut point = Point { problem: self, given, bodies };
         let mut mu = point.squares().max(GAP[0]) / (4 * point.bodies.len()) as f64;
-        let mut is_converged = false;
+        let (mut least, mut is_converged) = (0.0_f64, false);
         for _ in 0..STAGES {
-            if !point.centre(mu) {
-                break;
+            let is_centre = point.centre(mu);
+            let squares = point.squares();
+            if is_centre {
+                least = least.max(squares - mu * point.width());
             }
-            is_converged = mu * point.width() <= GAP[0] + GAP[1] * point.squares();
-            if is_converged {
+            is_converged = squares - least <= GAP[0] + GAP[1] * squares;
+            if is_converged || !is_centre {
                 break;
             }
             mu *= FALL;
         }
-        Nearest { parameters: point.parameters().as_slice().to_vec(), squares: point.squares(), is_converged }
+        Nearest { parameters: point.parameters().as_slice().to_vec(), squares: point.squares(), least, is_converged }
     }
 }
 
@@ -148,8 +152,7 @@ fn numbers(p: &Matrix4<f64>) -> [f64; 10] {
 }
 
 /// The entries of a symmetric matrix whose sum of squares is that of the matrix.
-const ENTRIES: [(usize, usize); 10] =
-    [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+const ENTRIES: [(usize, usize); 10] = [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 fn weight((i, j): (usize, usize)) -> f64 {
     if i == j { 1.0 } else { std::f64::consts::SQRT_2 }

@@ -80,16 +80,36 @@ impl fmt::Display for Finding {
         let size = self.size;
         match self.kind {
             FindingKind::Unexplained => {
-                write!(f, "{:.0} % of the torques are unexplained; are angles in radians, torques in N m, and both of the same times?", 100.0 * size)
+                write!(
+                    f,
+                    "{:.0} % of the torques are unexplained; are angles in radians, torques in N m, and both of the same times?",
+                    100.0 * size
+                )
             }
             FindingKind::Correlated => {
-                write!(f, "what torques miss is correlated from row to row ({size:.2}), so that intervals are too narrow; is there friction (--friction), a delay, a filter?")
+                write!(
+                    f,
+                    "what torques miss is correlated from row to row ({size:.2}), so that intervals are too narrow; is there friction (--friction), a delay, a filter?"
+                )
             }
-            FindingKind::Clipped => write!(f, "{size:.0} rows have the extreme torque, and bodies need more; remove rows where the drive is at its limit"),
-            FindingKind::Outliers => write!(f, "{size:.0} rows miss by more than {OUTLYING} robust deviations; remove outliers"),
-            FindingKind::Sign => write!(f, "torques are opposite to those of the description (correlation {size:.2}); change the sign of its torques or of its angles"),
-            FindingKind::Unit => write!(f, "torques are {size:.3e} times those of the description; are they in N m, or N of a joint that slides?"),
-            FindingKind::NoBodies => write!(f, "no bodies weigh what was found: those that come nearest are {size:.1} deviations off"),
+            FindingKind::Clipped => write!(
+                f,
+                "{size:.0} rows have the extreme torque, and bodies need more; remove rows where the drive is at its limit"
+            ),
+            FindingKind::Outliers => {
+                write!(f, "{size:.0} rows miss by more than {OUTLYING} robust deviations; remove outliers")
+            }
+            FindingKind::Sign => write!(
+                f,
+                "torques are opposite to those of the description (correlation {size:.2}); change the sign of its torques or of its angles"
+            ),
+            FindingKind::Unit => write!(
+                f,
+                "torques are {size:.3e} times those of the description; are they in N m, or N of a joint that slides?"
+            ),
+            FindingKind::NoBodies => {
+                write!(f, "no bodies weigh what was found: all are at least {size:.1} deviations off")
+            }
         }
     }
 }
@@ -127,8 +147,8 @@ pub(super) fn findings(
 
 /// That no bodies weigh what was found.
 pub(super) fn of_bodies(consistency: &Consistency, freedom: usize) -> Option<Finding> {
-    let is_off = freedom > 0 && consistency.is_converged && !consistency.holds();
-    is_off.then(|| Finding { kind: FindingKind::NoBodies, joint: None, size: consistency.squares.sqrt() })
+    let is_off = freedom > 0 && consistency.is_refuted();
+    is_off.then(|| Finding { kind: FindingKind::NoBodies, joint: None, size: consistency.least.sqrt() })
 }
 
 fn squares(list: &[f64]) -> f64 {
@@ -181,7 +201,8 @@ fn clipped(torques: &[f64], misses: &[f64]) -> Option<f64> {
     let extremes = [(f64::max as fn(f64, f64) -> f64, -1.0), (f64::min as fn(f64, f64) -> f64, 1.0)];
     let count = |(farther, inside): (fn(f64, f64) -> f64, f64)| {
         let extreme = torques.iter().copied().reduce(farther)?;
-        let there: Vec<f64> = torques.iter().zip(misses).filter(|(x, _)| **x == extreme).map(|(_, miss)| *miss).collect();
+        let there: Vec<f64> =
+            torques.iter().zip(misses).filter(|(x, _)| **x == extreme).map(|(_, miss)| *miss).collect();
         let is_often = there.len() >= fewest && there.len() as f64 >= share * torques.len() as f64;
         let is_inside = inside * mean(&there) > deviations * deviation / (there.len() as f64).sqrt();
         (is_often && is_inside && there.len() < torques.len()).then_some(there.len() as f64)

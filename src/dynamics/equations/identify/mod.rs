@@ -60,11 +60,13 @@ pub struct Consistency {
     pub bodies: Vec<f64>,
     /// Their base parameters.
     pub values: Vec<f64>,
-    /// How far these are from those that were found, in their common standard deviation: the square of it, and what 99.9 % are below if noise alone is the cause.
+    /// How far these are from those that were found: the square of that, in their common standard deviation.
     pub squares: f64,
-    /// As told.
+    /// No bodies are nearer.
+    pub least: f64,
+    /// What 99.9 % of the squares are below if noise alone is the cause.
     pub bound: f64,
-    /// Whether the least of the squares was reached, within 1e-4 of itself.
+    /// Whether the least of the squares was reached, within 1e-4 of itself or a hundredth of the noise.
     pub is_converged: bool,
 }
 
@@ -72,6 +74,11 @@ impl Consistency {
     /// Whether bodies can weigh what was found, within its noise.
     pub fn holds(&self) -> bool {
         self.squares <= self.bound
+    }
+
+    /// Whether no bodies can.
+    pub fn is_refuted(&self) -> bool {
+        self.least > self.bound
     }
 }
 
@@ -259,6 +266,7 @@ impl Equations {
             values: values.as_slice().to_vec(),
             bodies: nearest.parameters,
             squares: nearest.squares,
+            least: nearest.least,
             bound: chi_square_999(count) * widening(freedom.max(1)).powi(2),
             is_converged: nearest.is_converged,
         }
@@ -304,8 +312,7 @@ impl System {
 }
 
 fn check_range(logged: &Logged) -> Result<()> {
-    let lists =
-        [("q", &logged.q), ("v", &logged.velocity), ("a", &logged.acceleration), ("tau", &logged.torques)];
+    let lists = [("q", &logged.q), ("v", &logged.velocity), ("a", &logged.acceleration), ("tau", &logged.torques)];
     for (name, list) in lists {
         if let Some(at) = list.iter().position(|value| value.abs() > MOST) {
             let text = format!("{name}{at} is {:e}; give a number of at most {MOST:e} in size", list[at]);

@@ -55,7 +55,18 @@ mod tests {
     /// Tables of the two distributions, such as those of the NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.
     #[test]
     fn quantiles_are_those_of_tables() {
-        let table = [(1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (5, 2.571), (10, 2.228), (30, 2.042), (100, 1.984), (1000, 1.962), (100_000, 1.960)];
+        let table = [
+            (1, 12.706),
+            (2, 4.303),
+            (3, 3.182),
+            (4, 2.776),
+            (5, 2.571),
+            (10, 2.228),
+            (30, 2.042),
+            (100, 1.984),
+            (1000, 1.962),
+            (100_000, 1.960),
+        ];
         for (freedom, expected) in table {
             assert!((student_95(freedom) - expected).abs() < 6e-4, "{freedom}: {}", student_95(freedom));
         }
