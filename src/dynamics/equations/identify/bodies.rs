@@ -25,7 +25,7 @@ pub(super) struct Nearest {
     pub(super) parameters: Vec<f64>,
     /// The sum of squares that they leave.
     pub(super) squares: f64,
-    /// No bodies leave less.
+    /// No bodies leave less, as the fall of the squares along the central path shows.
     pub(super) least: f64,
     pub(super) is_converged: bool,
 }
@@ -54,18 +54,19 @@ impl Problem {
         };
         let mut point = Point { problem: self, given, bodies };
         let mut mu = point.squares().max(GAP[0]) / (4 * point.bodies.len()) as f64;
-        let (mut least, mut is_converged) = (0.0_f64, false);
+        let (mut least, mut is_converged, mut before) = (0.0, false, f64::INFINITY);
         for _ in 0..STAGES {
             let is_centre = point.centre(mu);
             let squares = point.squares();
             if is_centre {
-                least = least.max(squares - mu * point.width());
+                // What is left to gain is less than what this stage gained, twice.
+                least = (squares - (mu * point.width()).max(2.0 * (before - squares))).max(0.0);
             }
             is_converged = squares - least <= GAP[0] + GAP[1] * squares;
             if is_converged || !is_centre {
                 break;
             }
-            mu *= FALL;
+            (mu, before) = (FALL * mu, squares);
         }
         Nearest { parameters: point.parameters().as_slice().to_vec(), squares: point.squares(), least, is_converged }
     }
@@ -84,7 +85,7 @@ impl Point<'_> {
         self.residual().norm_squared()
     }
 
-    /// What the squares exceed the least ones by at most, for `mu` of one: four for each body, and what the given ones pull by.
+    /// What the squares exceed the least ones by, for `mu` of one, near the end of the path: four for each body, and what the given ones pull by.
     fn width(&self) -> f64 {
         let pull: f64 = self.bodies.iter().zip(&self.given).map(|(body, given)| (given * body).trace()).sum();
         4.0 * self.bodies.len() as f64 + 2.0 * pull
@@ -141,6 +142,23 @@ fn pseudo_inertia(numbers: &[f64]) -> Matrix4<f64> {
         x, y, z, m,
     );
     pseudo
+}
+
+/// Whether a sum of ten numbers a body, with these coefficients, is negative of no bodies: the matrices `Y` with the sum `trace(Y P)` have no negative eigenvalue.
+pub(super) fn is_never_negative(coefficients: &[f64]) -> bool {
+    coefficients.chunks_exact(10).all(|body| {
+        let [m, x, y, z, xx, xy, yy, xz, yz, zz] = std::array::from_fn(|i| body[i]);
+        #[rustfmt::skip]
+        let dual = 0.5 * Matrix4::new(
+            2.0 * (yy + zz), -xy, -xz, x,
+            -xy, 2.0 * (xx + zz), -yz, y,
+            -xz, -yz, 2.0 * (xx + yy), z,
+            x, y, z, 2.0 * m,
+        );
+        let least =
+            nalgebra::SymmetricEigen::try_new(dual, f64::EPSILON, 1000).map(|factors| factors.eigenvalues.min());
+        least.is_some_and(|least| least >= -1e-12 * dual.amax())
+    })
 }
 
 /// The ten numbers of a pseudo-inertia.

@@ -13,7 +13,7 @@ mod quantiles;
 use nalgebra::{DMatrix, DVector};
 
 use self::base::Base;
-use self::bodies::Problem;
+use self::bodies::{Problem, is_never_negative};
 use self::fit::Fit;
 pub use self::judge::{Finding, FindingKind};
 use self::quantiles::{chi_square_999, student_95, widening};
@@ -62,7 +62,7 @@ pub struct Consistency {
     pub values: Vec<f64>,
     /// How far these are from those that were found: the square of that, in their common standard deviation.
     pub squares: f64,
-    /// No bodies are nearer.
+    /// No bodies are nearer: by a parameter that no bodies have below zero, and by how the squares fell at last.
     pub least: f64,
     /// What 99.9 % of the squares are below if noise alone is the cause.
     pub bound: f64,
@@ -258,15 +258,15 @@ impl Equations {
     fn consistency(&self, base: &Base, fit: &Fit, friction: usize, scale: f64, freedom: usize) -> Consistency {
         let count = base.pivots.len();
         let root = fit.root.view((friction, friction), (count, count)) / scale.max(1.0);
-        let found = fit.values.rows(friction, count);
-        let problem = Problem { matrix: &root * &base.combinations, right: &root * found };
+        let found: DVector<f64> = fit.values.rows(friction, count).into_owned();
+        let problem = Problem { matrix: &root * &base.combinations, right: &root * &found };
         let nearest = problem.solve(&self.parameters());
         let values = &base.combinations * DVector::from_column_slice(&nearest.parameters);
         Consistency {
             values: values.as_slice().to_vec(),
             bodies: nearest.parameters,
             squares: nearest.squares,
-            least: nearest.least,
+            least: nearest.least.max(below_nothing(base, &root, found.as_slice())),
             bound: chi_square_999(count) * widening(freedom.max(1)).powi(2),
             is_converged: nearest.is_converged,
         }
@@ -309,6 +309,17 @@ impl System {
         all.into_iter().enumerate().for_each(|(row, value)| lists[row % self.count].push(value));
         lists
     }
+}
+
+/// The square of the greatest distance below zero, in deviations, of a base parameter that is so of no bodies.
+fn below_nothing(base: &Base, root: &DMatrix<f64>, found: &[f64]) -> f64 {
+    let Some(inverse) = root.clone().try_inverse() else { return 0.0 };
+    let distance = |at: usize| {
+        let row: Vec<f64> = base.combinations.row(at).iter().copied().collect();
+        let is_wrong = found[at] < 0.0 && is_never_negative(&row);
+        if is_wrong { (found[at] / inverse.row(at).norm()).powi(2) } else { 0.0 }
+    };
+    (0..found.len()).map(distance).fold(0.0, f64::max)
 }
 
 fn check_range(logged: &Logged) -> Result<()> {
