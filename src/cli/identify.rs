@@ -6,8 +6,9 @@ use serde::Serialize;
 
 use super::moving::described;
 use super::part::PartArguments;
-use super::{Outcome, console};
-use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};
+use super::{Halt, Outcome, console};
+use crate::document::shown;
+use crate::dynamics::{Base, Consistency, Equations, Estimate, Finding, Identification, Logged};
 use crate::files::write_atomically;
 use crate::motion::StateTable;
 use crate::{Error, ErrorKind, Result};
@@ -16,10 +17,15 @@ const EXAMPLES: &str = "Examples:
   groebot identify ur5.urdf log.csv
   groebot identify ur5.urdf log.csv --friction --json -o identified.csv
 
-log.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description), v0.., a0.. and tau0.., of motions that were measured.
+log.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description), v0.., a0.. and tau0.., of motions that were measured; or q:JOINT, v:JOINT
+and so on in any order. Rows are in the order of time.
 
 Reported are the base parameters, sums of the inertial parameters of bodies (m, mx, my, mz: mass, and mass times centre; Ixx to Izz: inertia about the origin; each in the frame of its
-link, with the links fixed to it) which alone matter for motion, with 95 % confidence, and whether bodies can have them.";
+link, with the links fixed to it) which alone matter for motion, with 95 % confidence, and the same of bodies that can exist (positive semidefinite pseudo-inertia). The confidence
+holds for noise that is independent from row to row.
+
+The exit status is 3 for a log that is not one of bodies and independent noise: torques that are unexplained, opposite, in another unit, clipped, outliers, or miss by noise that is
+correlated in time.";
 
 /// Identifies inertial parameters by least squares on base parameters, from a log of motions and torques
 #[derive(clap::Args)]
@@ -48,25 +54,43 @@ pub struct Arguments {
 struct Report<'a> {
     format: u32,
     rows: usize,
+    /// Torques beyond the numbers that are found.
+    degrees_of_freedom: usize,
     condition: f64,
     /// By joint.
     root_mean_square_misses: Vec<(&'a str, f64)>,
+    /// By joint, as a share of the torques' standard deviation.
+    unexplained: Vec<(&'a str, f64)>,
     parameters: Vec<Row<'a>>,
     consistent: bool,
-    /// In words, and, where bodies can weigh it, what they do.
+    /// In words.
     consistency: String,
+    /// What those weigh that can exist and explain the torques best.
     bodies: Vec<(String, f64)>,
+    good: bool,
+    /// What is wrong with the log.
+    findings: Vec<Found<'a>>,
     /// What of the robot's file was ignored.
-    notes: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
 struct Row<'a> {
     name: &'a str,
     value: f64,
-    /// Half of what 95 % lie within.
-    confidence: f64,
+    /// Half of what 95 % lie within; none where no degree of freedom is left.
+    confidence: Option<f64>,
     described: f64,
+    /// Of bodies that can exist; none of friction.
+    of_bodies: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Found<'a> {
+    kind: &'static str,
+    joint: Option<&'a str>,
+    size: f64,
+    text: String,
 }
 
 /// Reads the log and tells.
@@ -75,22 +99,26 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations =
         Equations::as_told(&robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
-    let log = read(arguments)?;
+    let log = read(arguments, &equations)?;
     let found = equations.identify(&log, arguments.friction).map_err(|error| error.in_file(&arguments.log))?;
     let names = equations.parameter_names();
-    let report = Report { notes: &robot.parts().notes, ..report(&found, log.len(), equations.joints(), &names) };
+    let notes = [&robot.parts().notes[..], equations.notes()].concat();
+    let report = Report { notes, ..report(&found, log.len(), equations.joints(), &names) };
     if let Some(file) = &arguments.out {
         write_atomically(file, table(&report).as_bytes())?;
     }
     if arguments.json {
-        return console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"));
+        console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"))?;
+    } else {
+        console::tell(&report.notes);
+        console::print(&text(&report))?;
     }
-    console::tell(report.notes);
-    console::print(&text(&report))
+    if report.good { Ok(()) } else { Err(Halt::BadData) }
 }
 
-fn read(arguments: &Arguments) -> Result<Vec<Logged>> {
+fn read(arguments: &Arguments, equations: &Equations) -> Result<Vec<Logged>> {
     let table = StateTable::read_csv(&arguments.log)?;
+    let table = table.in_order_of(equations.joints()).map_err(|error| error.in_file(&arguments.log))?;
     let whole = table.rows.into_iter().map(|row| {
         Some(Logged { q: row.q, velocity: row.velocity?, acceleration: row.acceleration?, torques: row.torques? })
     });
@@ -99,61 +127,92 @@ fn read(arguments: &Arguments) -> Result<Vec<Logged>> {
 }
 
 fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], names: &[String]) -> Report<'a> {
-    let row = |estimate: &'a Estimate| Row {
+    let row = |estimate: &'a Estimate, of_bodies: Option<f64>| Row {
         name: &estimate.name,
         value: estimate.value,
-        confidence: CONFIDENT * estimate.deviation,
+        confidence: estimate.interval,
         described: estimate.told,
+        of_bodies,
     };
-    let (consistent, consistency, bodies) = match &found.consistency {
-        Consistency::Consistent(numbers) => {
-            let text =
-                "bodies can weigh that: none of them has a negative mass or principal moment of its mass".to_owned();
-            (true, text, names.iter().cloned().zip(numbers.iter().copied()).collect())
-        }
-        Consistency::Off { deviations, name } => {
-            let text = format!(
-                "no bodies were found that weigh that: of those that come nearest `{name}` is {deviations:.1} deviations off"
-            );
-            (false, text, Vec::new())
-        }
-    };
+    let consistency = &found.consistency;
+    let base = found.base.iter().zip(&consistency.values).map(|(estimate, value)| row(estimate, Some(*value)));
+    let friction = found.friction.iter().flatten().map(|estimate| row(estimate, None));
+    let by_joint = |list: &[f64]| joints.iter().map(String::as_str).zip(list.iter().copied()).collect();
     Report {
-        format: 1,
+        format: 2,
         rows,
+        degrees_of_freedom: found.freedom,
         condition: found.condition,
-        root_mean_square_misses: joints.iter().map(String::as_str).zip(found.misses.iter().copied()).collect(),
-        parameters: found.base.iter().chain(found.friction.iter().flatten()).map(row).collect(),
-        consistent,
-        consistency,
-        bodies,
-        notes: &[],
+        root_mean_square_misses: by_joint(&found.misses),
+        unexplained: by_joint(&found.unexplained),
+        parameters: base.chain(friction).collect(),
+        consistent: consistency.holds(),
+        consistency: in_words(consistency),
+        bodies: names.iter().cloned().zip(consistency.bodies.iter().copied()).collect(),
+        good: found.findings.is_empty(),
+        findings: found.findings.iter().map(finding).collect(),
+        notes: Vec::new(),
+    }
+}
+
+fn finding(finding: &Finding) -> Found<'_> {
+    Found { kind: finding.kind.name(), joint: finding.joint.as_deref(), size: finding.size, text: finding.to_string() }
+}
+
+fn in_words(consistency: &Consistency) -> String {
+    let [reached, least] = [consistency.squares, consistency.least].map(f64::sqrt);
+    if consistency.holds() {
+        format!(
+            "bodies can weigh that, within its noise: those that come nearest, none with a negative mass or principal moment of its mass, are {reached:.2} deviations off"
+        )
+    } else if consistency.is_refuted() {
+        format!("no bodies weigh that: all are at least {least:.1} deviations off")
+    } else {
+        format!(
+            "whether bodies weigh that is open: the search for the nearest ones did not converge; they are between {least:.1} and {reached:.1} deviations off"
+        )
     }
 }
 
 fn text(report: &Report<'_>) -> String {
     let mut text = format!(
-        "{} rows, {} numbers; condition number {:.3e} (columns of one length)\n{:>14}  {:>11}  {:>14}  what\n",
+        "{} rows, {} numbers, {} degrees of freedom left; condition number {:.3e} (columns of one length)\n{:>14}  {:>11}  {:>14}  {:>14}  what\n",
         report.rows,
         report.parameters.len(),
+        report.degrees_of_freedom,
         report.condition,
         "found",
         "+- (95 %)",
+        "of bodies",
         "described"
     );
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6e}"));
     for row in &report.parameters {
-        text += &format!("{:>14.6e}  {:>11.2e}  {:>14.6e}  {}\n", row.value, row.confidence, row.described, row.name);
+        let interval = row.confidence.map_or_else(|| "-".to_owned(), |half| format!("{half:.2e}"));
+        let (bodies, name) = (cell(row.of_bodies), shown(row.name));
+        text += &format!("{:>14.6e}  {interval:>11}  {bodies:>14}  {:>14.6e}  {name}\n", row.value, row.described);
     }
-    for (joint, miss) in &report.root_mean_square_misses {
-        text += &format!("{joint}: torques miss by {miss:.3e} in the root of the mean square\n");
+    if report.degrees_of_freedom == 0 {
+        text += "no interval: the log has as many torques as numbers are asked for, and nothing is left to judge its noise by\n";
     }
-    text + &report.consistency + "\n"
+    for ((joint, miss), (_, share)) in report.root_mean_square_misses.iter().zip(&report.unexplained) {
+        let (joint, percent) = (shown(joint), 100.0 * share);
+        text += &format!(
+            "{joint}: torques miss by {miss:.3e} in the root of the mean square, {percent:.2} % of their standard deviation\n"
+        );
+    }
+    text += &report.consistency;
+    text.push('\n');
+    report.findings.iter().for_each(|finding| text += &format!("bad data: {}\n", finding.text));
+    text
 }
 
 fn table(report: &Report<'_>) -> String {
-    let mut text = "name,value,confidence_95,described\n".to_owned();
+    let mut text = "name,value,confidence_95,described,of_bodies\n".to_owned();
+    let cell = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
     for row in &report.parameters {
-        text += &format!("\"{}\",{:?},{:?},{:?}\n", row.name, row.value, row.confidence, row.described);
+        let (interval, bodies) = (cell(row.confidence), cell(row.of_bodies));
+        text += &format!("\"{}\",{:?},{interval},{:?},{bodies}\n", row.name, row.value, row.described);
     }
     text
 }

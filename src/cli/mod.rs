@@ -1,7 +1,7 @@
 //! The command-line tool: one file a subcommand.
 //!
 //! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots, 4 where there is no path, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots and a log that `identify` finds bad, 4 where there is no path, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
 
 mod algebra;
 mod answers;
@@ -81,7 +81,7 @@ const EXAMPLES: &str = "Examples:
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, 4 there is no path, 5 the robot falls, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, or a log that is bad (identify), 4 there is no path, 5 the robot falls, 130 interrupted.";
 
 /// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
 #[derive(Parser)]
@@ -129,9 +129,11 @@ enum Halt {
     Fell,
     /// A solver was derived and written, and misses answers at some singular targets; that has been reported.
     WeakSpots,
+    /// A log is not one of bodies and independent noise; that has been reported.
+    BadData,
 }
 
-/// The exit status of [`Halt::WeakSpots`].
+/// The exit status of [`Halt::WeakSpots`] and [`Halt::BadData`].
 const WEAK: u8 = 3;
 /// The exit status of [`Halt::NoWay`].
 const NO_WAY: u8 = 4;
@@ -187,7 +189,7 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => 0,
-        Err(Halt::WeakSpots) => WEAK,
+        Err(Halt::WeakSpots | Halt::BadData) => WEAK,
         Err(Halt::NoWay) => NO_WAY,
         Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {

@@ -23,11 +23,12 @@ pub struct PartArguments {
 }
 
 impl PartArguments {
-    /// The robot whose joints move between the two links alone, and gravity \[m/s^2\] in its root's frame.
+    /// The robot whose joints move between the two links alone, and gravity \[m/s^2\] in its root's frame. Joints that follow others by a multiplier of zero are fixed.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for links that are not there, [`ErrorKind::BadValue`] where the base is not above the tip.
     pub fn of(&self, robot: &Robot) -> Result<(Robot, Vector3<f64>)> {
+        let robot = &robot.with_constants_fixed()?;
         let ends = [self.base.as_deref(), self.tip.as_deref()];
         let place = |name: Option<&str>| name.map(|name| robot.link(name)).transpose();
         let (base, tip) = (place(ends[0])?, place(ends[1])?);
@@ -43,7 +44,8 @@ impl PartArguments {
         };
         for (joint, told) in parts.joints.iter_mut().enumerate() {
             let moves = if tip.is_some() { path.contains(&joint) && !carrying.contains(&joint) } else { below(joint) };
-            if told.kind.is_single() && !moves {
+            let is_part = ends.iter().any(Option::is_some);
+            if !moves && (told.kind.is_single() || is_part) {
                 (told.kind, told.limits, told.mimic) = (JointType::Fixed, None, None);
             }
         }

@@ -148,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let known = equations(&robot).map_err(|error| error.in_file(&arguments.robot))?;
     let plant = equations(&heavier(&robot, &arguments.masses)?)?;
-    let trajectory = read(arguments, known.freedoms())?;
+    let trajectory = read(arguments, known.joints())?;
     let efforts = efforts(&robot, &known);
     let law = law(arguments, &robot, &known)?;
     let most = efforts.iter().map(|effort| effort.filter(|_| arguments.efforts).unwrap_or(f64::INFINITY)).collect();
@@ -191,9 +191,10 @@ fn law(arguments: &Arguments, robot: &Robot, known: &Equations) -> Result<Box<dy
     })
 }
 
-fn read(arguments: &Arguments, joints: usize) -> Result<Trajectory> {
-    let table = StateTable::read_csv(&arguments.trajectory)?;
+fn read(arguments: &Arguments, names: &[String]) -> Result<Trajectory> {
     let fault = |error: Error| error.in_file(&arguments.trajectory);
+    let table = StateTable::read_csv(&arguments.trajectory)?.in_order_of(names).map_err(fault)?;
+    let joints = names.len();
     let missing = |text: String| fault(Error::new(ErrorKind::BadValue, text));
     let times = table.rows.iter().map(|row| row.time).collect::<Option<Vec<f64>>>();
     let times = times.ok_or_else(|| missing("there is no column t; give times in seconds".to_owned()))?;

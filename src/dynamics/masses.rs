@@ -1,23 +1,19 @@
 //! Masses that no body has: [`check_masses`].
 
 use super::Model;
+use crate::document::shown;
 use crate::model::{Link, Robot};
-use crate::spatial::Inertia;
+use crate::spatial::{Inertia, NEGLIGIBLE};
 use crate::{Error, ErrorKind, Result};
 
-/// What is negligible of a link's mass and inertia, as a share of the robot's mass (and that times a square metre).
-const NEGLIGIBLE: f64 = 1e-12;
-
-/// Refuses what no body has: of the links that are fixed to one another the first that has it alone is named, else the first of all.
-pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<()> {
+/// Refuses what no body has: of the links that are fixed to one another the first that has it alone is named, else the first of all. Notes tell what was taken for rounding.
+pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<Vec<String>> {
     // Less is what rounding has left of nothing.
     let least = NEGLIGIBLE * model.mass().abs();
     let weighs = |inertia: &Inertia| inertia.generalised().iter().any(|entry| entry.abs() > least);
-    let fault = |inertia: &Inertia| {
-        let checked = Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational());
-        weighs(inertia).then_some(checked.err()).flatten()
-    };
-    let told = |link: &Link, error: Error| error.with_context(format!("link `{}`", link.name));
+    let fault = |inertia: &Inertia, least: f64| inertia.check(least).err().filter(|_| weighs(inertia));
+    let told = |link: &Link, error: Error| error.with_context(format!("link `{}`", shown(&link.name)));
+    let mut notes = Vec::new();
     for (body, inertia) in model.bodies.iter().enumerate() {
         let links =
             || (0..robot.links().len()).filter(|&link| model.link(link).0 == body).map(|link| &robot.links()[link]);
@@ -25,11 +21,20 @@ pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<()> {
             let text = format!("mass {} kg: give one that is not below zero", link.inertia().mass());
             return Err(told(link, Error::new(ErrorKind::BadValue, text)));
         }
-        if let Some(error) = fault(inertia) {
-            let alone = links().find_map(|link| fault(&link.inertia()).map(|error| told(link, error)));
+        let named = |error: Error, least: f64| {
+            let alone = links().find_map(|link| fault(&link.inertia(), least).map(|error| told(link, error)));
             let first = links().find(|link| weighs(&link.inertia()));
-            return Err(alone.or_else(|| Some(told(first?, error.clone()))).unwrap_or(error));
+            alone.or_else(|| Some(told(first?, error.clone()))).unwrap_or(error)
+        };
+        if let Some(error) = fault(inertia, least) {
+            return Err(named(error, least));
+        }
+        if let Some(error) = fault(inertia, 0.0) {
+            notes.push(format!(
+                "{}; it is less than {least:.0e} kg m^2 off, taken for rounding",
+                named(error, 0.0).message()
+            ));
         }
     }
-    Ok(())
+    Ok(notes)
 }

@@ -15,7 +15,7 @@ mod placed;
 pub(crate) mod recursions;
 
 pub use clearance::{Clearance, Touch};
-pub use equations::identify::{CONFIDENT, Consistency, Estimate, Identification, Logged};
+pub use equations::identify::{Consistency, Estimate, Finding, FindingKind, Identification, Logged};
 pub(crate) use equations::pull;
 pub use equations::{Base, Equations, Formal, FormalState, State, Value, Workspace};
 pub use model::{Model, ModelJoint};

@@ -2,13 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
 use super::frame::{Frame, Rationality, Reading};
 use super::parts::{Meant, along_z};
 use super::telescope::{Telescope, joined};
 use super::tip::TipChoice;
-use super::{Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Task, Tip};
+use super::{Chain, ChainParts, ExactVector, Joint, JointKind, LengthUnit, Mimic, Placement, Task, Tip};
 use crate::document::shown;
 use crate::model::{self, Fault, JointType, Part, Robot, some_among};
 use crate::number::BigRational;
@@ -266,17 +266,10 @@ impl Robot {
 
 /// The motion of a joint at a value that never changes: right to rounding.
 fn held(kind: JointKind, axis: &ExactVector, value: &BigRational) -> Placement {
-    let square: BigRational = axis.iter().map(|entry| entry * entry).sum();
-    let root = BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt());
-    let length = root.filter(|root| !root.is_zero()).unwrap_or_else(BigRational::one);
-    if kind == JointKind::Prismatic {
-        return Placement { origin: axis.each_ref().map(|entry| entry * value / &length), ..Placement::identity() };
+    match kind {
+        JointKind::Prismatic => Placement::shifted_along(axis, value),
+        JointKind::Revolute => Placement::turned_about(axis, value),
     }
-    let half = value.to_f64().unwrap_or(0.0) / 2.0;
-    let [sine, cosine] = [half.sin(), half.cos()].map(|x| BigRational::from_float(x).unwrap_or_default());
-    let [x, y, z] = axis.each_ref().map(|entry| entry * &sine / &length);
-    let rotation = ExactRotation::from_quaternion(&[x, y, z, cosine]).unwrap_or_else(ExactRotation::identity);
-    Placement { rotation, ..Placement::identity() }
 }
 
 /// How a joint moves in a chain; none when it is fixed.

@@ -6,7 +6,8 @@ use super::check;
 use super::{Actuator, Fault, Joint, JointType, Link, Mimic, Part, RobotParts};
 use crate::document::shown;
 use crate::number::BigRational;
-use crate::spatial::Inertia;
+use crate::spatial::NEGLIGIBLE;
+use crate::spatial::exact::Placement;
 use crate::{ErrorKind, Result};
 
 /// A checked tree of links and joints, with masses and shapes. It never changes.
@@ -67,6 +68,24 @@ impl Robot {
             if let Some(meant) = placement.meant.take() {
                 placement.rotation = meant;
             }
+        }
+        Robot::with_faults(parts)
+    }
+
+    /// The robot whose joints that follow others by a multiplier of zero are fixed at their constant value: right to rounding.
+    ///
+    /// # Errors
+    /// As [`Robot::with_faults`].
+    pub fn with_constants_fixed(&self) -> Result<Self> {
+        let mut parts = self.parts.clone();
+        for (joint, fixed) in self.parts.joints.iter().zip(&mut parts.joints) {
+            let Some(value) = self.constant(joint).filter(|_| joint.kind.is_single()) else { continue };
+            let held = match joint.kind {
+                JointType::Prismatic => Placement::shifted_along(&joint.axis, &value),
+                _ => Placement::turned_about(&joint.axis, &value),
+            };
+            fixed.origin = joint.origin.placement.then(&held).into();
+            (fixed.kind, fixed.limits, fixed.mimic) = (JointType::Fixed, None, None);
         }
         Robot::with_faults(parts)
     }
@@ -280,8 +299,7 @@ impl Robot {
             let inertia = link.mass.as_ref()?.inertia();
             // A frame may say that it weighs nothing.
             let weighs = inertia.generalised().iter().any(|entry| *entry != 0.0);
-            weighs.then_some(())?;
-            Inertia::new(inertia.mass(), inertia.centre_of_mass(), inertia.rotational()).err()
+            inertia.check(NEGLIGIBLE * inertia.mass().abs()).err().filter(|_| weighs)
         };
         let of = |link: &Link| {
             let faults = fault(link).map(|fault| fault.message().to_owned()).into_iter();

@@ -7,13 +7,21 @@ use crate::{Error, ErrorKind, Result};
 
 /// The longest table, in bytes.
 const STATES_LIMIT: u64 = 1 << 30;
+/// The greatest size of a cell but a time: sums of squares of such numbers, and products with masses, are far within doubles.
+pub const MOST: f64 = 1e12;
+/// The lists of numbers: configuration, velocity, acceleration, torques.
+const LISTS: [&str; 4] = ["q", "v", "a", "tau"];
 
 /// States of a robot, a row each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateTable {
     /// How many numbers a configuration has.
     pub coordinates: usize,
-    /// The states.
+    /// How many of them are numbered. After them come those of the joints in [`StateTable::joints`].
+    pub numbered: usize,
+    /// The joints that are named, in the order of each list's last numbers.
+    pub joints: Vec<String>,
+    /// The states; at least one.
     pub rows: Vec<StateRow>,
 }
 
@@ -22,14 +30,21 @@ pub struct StateTable {
 pub struct StateRow {
     /// The time, `t`.
     pub time: Option<f64>,
-    /// The configuration, `q0`..
+    /// The configuration, `q0`.. and `q:NAME`..
     pub q: Vec<f64>,
-    /// The velocity, `v0`..
+    /// The velocity, `v0`.. and `v:NAME`..
     pub velocity: Option<Vec<f64>>,
-    /// What it changes by, `a0`..
+    /// What it changes by, `a0`.. and `a:NAME`..
     pub acceleration: Option<Vec<f64>>,
-    /// Torques, `tau0`..
+    /// Torques, `tau0`.. and `tau:NAME`..
     pub torques: Option<Vec<f64>>,
+}
+
+impl StateRow {
+    fn lists(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        let others = [&mut self.velocity, &mut self.acceleration, &mut self.torques];
+        std::iter::once(&mut self.q).chain(others.into_iter().flatten())
+    }
 }
 
 impl StateTable {
@@ -44,27 +59,106 @@ impl StateTable {
     /// The table that `text` holds: a row of names, in any order, and rows of numbers between commas. Empty lines do not count.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for other names than those of [`StateRow`], each list whole, another count of cells than names, and a cell that is no number. With the line.
+    /// [`ErrorKind::Syntax`] for other names than those of [`StateRow`], each list whole, lists that name different joints, another count of cells than names, and a cell that is no
+    /// number or is out of range; [`ErrorKind::MissingKey`] for a table without rows. With the line.
     pub fn from_csv(text: &str) -> Result<Self> {
         let text = unix_lines(text.trim_start_matches('\u{feff}'));
         let full = |(_, line): &(usize, &str)| !line.trim().is_empty();
         let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line)).filter(full);
         let (first, head) = lines.next().unwrap_or((1, ""));
-        let names: Vec<&str> = cells(head).collect();
-        let lists = ["q", "v", "a", "tau"].map(|head| columns(&names, head));
-        let time = names.iter().position(|name| *name == "t");
-        let known = lists.iter().map(Vec::len).sum::<usize>() + usize::from(time.is_some());
-        if known != names.len() || lists[0].is_empty() {
-            let text = format!(
-                "the first row is `{}`; give the names q0, q1, ..., v0, ..., a0, ... and tau0, ..., each list whole, and t for a time",
-                shown(head)
-            );
-            return Err(Error::new(ErrorKind::Syntax, text).at_line(first));
+        let syntax = |text: String| Error::new(ErrorKind::Syntax, text);
+        let header = Header::read(head).map_err(|text| syntax(text).at_line(first))?;
+        let row = |(line, text): (usize, &str)| header.row(text).map_err(|text| syntax(text).at_line(line));
+        let rows: Vec<StateRow> = lines.map(row).collect::<Result<_>>()?;
+        if rows.is_empty() {
+            let text = "the table has a row of names and no row of numbers; give at least one";
+            return Err(Error::new(ErrorKind::MissingKey, text).at_line(first));
         }
-        let row = |(line, text): (usize, &str)| {
-            row(text, &names, time, &lists).map_err(|error| Error::new(ErrorKind::Syntax, error).at_line(line))
+        let Header { lists, joints, .. } = &header;
+        Ok(StateTable {
+            coordinates: lists[0].len(),
+            numbered: lists[0].len() - joints.len(),
+            joints: joints.iter().map(|name| (*name).to_owned()).collect(),
+            rows,
+        })
+    }
+
+    /// The table whose named joints are in this order; one of numbers alone is unchanged.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for a joint that is not among them, [`ErrorKind::MissingKey`] for one of them that the table does not name.
+    pub fn in_order_of(mut self, joints: &[String]) -> Result<Self> {
+        if self.joints.is_empty() {
+            return Ok(self);
+        }
+        let all = || joints.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ");
+        if let Some(name) = self.joints.iter().find(|name| !joints.contains(name)) {
+            let text = format!("column `q:{}`: the robot has no such independent joint; it has {}", shown(name), all());
+            return Err(Error::new(ErrorKind::UnknownName, text));
+        }
+        let place = |name: &String| {
+            let text = || format!("there is no column `q:{}`; give one for each of {}", shown(name), all());
+            let found = self.joints.iter().position(|other| other == name);
+            found.ok_or_else(|| Error::new(ErrorKind::MissingKey, text()))
         };
-        Ok(StateTable { coordinates: lists[0].len(), rows: lines.map(row).collect::<Result<_>>()? })
+        let places: Vec<usize> = joints.iter().map(place).collect::<Result<_>>()?;
+        for list in self.rows.iter_mut().flat_map(StateRow::lists) {
+            let named = list.split_off(list.len() - places.len());
+            list.extend(places.iter().map(|place| named[*place]));
+        }
+        self.joints = joints.to_vec();
+        Ok(self)
+    }
+}
+
+/// What the columns of a table hold.
+struct Header<'a> {
+    names: Vec<&'a str>,
+    time: Option<usize>,
+    /// The columns of [`LISTS`].
+    lists: [Vec<usize>; 4],
+    joints: Vec<&'a str>,
+}
+
+impl<'a> Header<'a> {
+    fn read(head: &'a str) -> std::result::Result<Self, String> {
+        let names: Vec<&str> = cells(head).collect();
+        let joints: Vec<&str> = names.iter().filter_map(|name| name.strip_prefix("q:")).collect();
+        let time = names.iter().position(|name| *name == "t");
+        let lists = LISTS.map(|list| columns(&names, list, &joints));
+        let known = lists.iter().map(Vec::len).sum::<usize>() + usize::from(time.is_some());
+        let repeats = (1..joints.len()).any(|at| joints[..at].contains(&joints[at]));
+        if known != names.len() || lists[0].is_empty() || repeats {
+            return Err(format!(
+                "the first row is `{}`; give the names q0, q1, ..., v0, ..., a0, ... and tau0, ..., each list whole, or q:JOINT, v:JOINT and so on of the same joints, and t for a time",
+                shown(head)
+            ));
+        }
+        Ok(Header { names, time, lists, joints })
+    }
+
+    fn row(&self, text: &str) -> std::result::Result<StateRow, String> {
+        let found: Vec<&str> = cells(text).collect();
+        if found.len() != self.names.len() {
+            return Err(format!(
+                "{} cells stand in the row; the first one has {} names",
+                found.len(),
+                self.names.len()
+            ));
+        }
+        let number = |column: usize, most: f64| number(self.names[column], found[column], most);
+        let list = |columns: &Vec<usize>| {
+            columns.iter().map(|column| number(*column, MOST)).collect::<std::result::Result<Vec<f64>, String>>()
+        };
+        let optional = |columns: &Vec<usize>| if columns.is_empty() { Ok(None) } else { list(columns).map(Some) };
+        let [q, velocity, acceleration, torques] = &self.lists;
+        Ok(StateRow {
+            time: self.time.map(|column| number(column, f64::MAX)).transpose()?,
+            q: list(q)?,
+            velocity: optional(velocity)?,
+            acceleration: optional(acceleration)?,
+            torques: optional(torques)?,
+        })
     }
 }
 
@@ -72,36 +166,20 @@ fn cells(line: &str) -> impl Iterator<Item = &str> {
     line.split(',').map(str::trim)
 }
 
-/// The columns of the names that begin so and count from zero.
-fn columns(names: &[&str], head: &str) -> Vec<usize> {
-    let column = |index: usize| names.iter().position(|name| *name == format!("{head}{index}"));
-    (0..).map_while(column).collect()
+/// The columns of a list: those that count from zero, and those of all joints; none where one of these is missing.
+fn columns(names: &[&str], list: &str, joints: &[&str]) -> Vec<usize> {
+    let place = |name: String| names.iter().position(|other| *other == name);
+    let numbered = (0..).map_while(|index| place(format!("{list}{index}"))).map(Some);
+    let named = joints.iter().map(|joint| place(format!("{list}:{joint}")));
+    numbered.chain(named).collect::<Option<_>>().unwrap_or_default()
 }
 
-fn row(
-    text: &str,
-    names: &[&str],
-    time: Option<usize>,
-    lists: &[Vec<usize>; 4],
-) -> std::result::Result<StateRow, String> {
-    let found: Vec<&str> = cells(text).collect();
-    if found.len() != names.len() {
-        return Err(format!("{} cells stand in the row; the first one has {} names", found.len(), names.len()));
+/// The number of a cell.
+fn number(name: &str, cell: &str, most: f64) -> std::result::Result<f64, String> {
+    let name = shown(name);
+    let value: f64 = cell.parse().map_err(|_| format!("column `{name}`: `{}` is no number", shown(cell)))?;
+    if value.abs() <= most {
+        return Ok(value);
     }
-    let number = |column: usize| {
-        let fault = || format!("column `{}`: `{}` is no number", names[column], shown(found[column]));
-        found[column].parse::<f64>().map_err(|_| fault())
-    };
-    let list = |columns: &Vec<usize>| {
-        columns.iter().map(|column| number(*column)).collect::<std::result::Result<Vec<f64>, String>>()
-    };
-    let optional = |columns: &Vec<usize>| if columns.is_empty() { Ok(None) } else { list(columns).map(Some) };
-    let [q, velocity, acceleration, torques] = lists;
-    Ok(StateRow {
-        time: time.map(number).transpose()?,
-        q: list(q)?,
-        velocity: optional(velocity)?,
-        acceleration: optional(acceleration)?,
-        torques: optional(torques)?,
-    })
+    Err(format!("column `{name}`: {} is out of range; give a finite number of at most {most:e} in size", shown(cell)))
 }

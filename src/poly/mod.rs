@@ -34,6 +34,7 @@ pub use grammar::{MAX_DEPTH, MAX_EXPONENT};
 pub use latex::{latex_name, parse_latex};
 pub use monomial::{Layout, Monomial, Width};
 pub use order::{Block, Order};
+pub(crate) use parse::parse_long;
 pub use parse::{is_identifier, parse, parse_equation};
 pub use ring::{Polynomial, PolynomialRing, Term};
 pub use root::{rational_root, square_root};

@@ -40,6 +40,14 @@ pub fn parse(text: &str) -> Result<Expression> {
     Parser::new(tokens(text)?, Dialect::Text).whole()
 }
 
+/// As [`parse`], of a text whose length the caller bounds.
+///
+/// # Errors
+/// As [`parse`].
+pub(crate) fn parse_long(text: &str) -> Result<Expression> {
+    Parser::new(words(Cursor::at_start(text))?, Dialect::Text).whole()
+}
+
 impl FromStr for Expression {
     type Err = Error;
 
@@ -91,7 +99,10 @@ pub(super) fn continues_name(c: char) -> bool {
 }
 
 fn tokens(text: &str) -> Result<Vec<Token<'_>>> {
-    let mut cursor = Cursor::new(text)?;
+    words(Cursor::new(text)?)
+}
+
+fn words(mut cursor: Cursor<'_>) -> Result<Vec<Token<'_>>> {
     let mut tokens = Vec::new();
     while let Some(c) = cursor.peek_after_space() {
         let column = cursor.column();

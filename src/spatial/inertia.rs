@@ -9,6 +9,9 @@ use crate::{Error, ErrorKind, Result};
 /// How far, relative to its trace, an inertia may miss what mass can make: figures in data sheets are rounded.
 pub const ROUNDING: f64 = 1e-4;
 
+/// What rounding leaves of a moment that is zero: a share of the mass times a square metre. Programs for design write 1e-20 and 1e-35 kg m^2 for nothing.
+pub const NEGLIGIBLE: f64 = 1e-12;
+
 /// How far, relative to its norm, a given tensor may be from symmetric.
 pub const ASYMMETRY: f64 = 1e-9;
 
@@ -47,6 +50,18 @@ impl Inertia {
     /// The figures as they are told, whether a body can have them or not; the tensor is made symmetric.
     pub fn told(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Self {
         Inertia { mass, centre_of_mass, rotational: (rotational + rotational.transpose()) / 2.0 }
+    }
+
+    /// Fails unless a body can have these figures, its moments within `least` \[kg m^2\], which is taken for rounding.
+    ///
+    /// # Errors
+    /// As [`Inertia::new`].
+    pub fn check(&self, least: f64) -> Result<()> {
+        let lifted = self.rotational + Matrix3::from_diagonal_element(least);
+        if is_distribution_of_mass(&lifted) && self.mass > 0.0 && self.mass.is_finite() {
+            return Ok(());
+        }
+        Inertia::new(self.mass, self.centre_of_mass, self.rotational).map(|_| ())
     }
 
     /// No mass at all.

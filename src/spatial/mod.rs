@@ -18,7 +18,7 @@ mod screw_coordinates;
 mod twist;
 mod wrench;
 
-pub use inertia::{ASYMMETRY, Inertia, ROUNDING};
+pub use inertia::{ASYMMETRY, Inertia, NEGLIGIBLE, ROUNDING};
 pub use line::Relation;
 pub use roll_pitch_yaw::RollPitchYaw;
 pub use rotation::{pitch_and_roll, vertical};

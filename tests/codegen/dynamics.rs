@@ -123,13 +123,7 @@ fn compare_form(description: &str, base: Base, rate: f64, form: Form) {
 
 fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
     let equations = Equations::as_told(robot, base).unwrap().without_friction();
-    // Forward dynamics of joints that follow others is not printed.
-    let is_plain = equations.joints().len() == robot.moving().len();
-    let with_forward = |driver: &str| {
-        let lines = driver.lines().filter(|line| is_plain || !line.contains("forward"));
-        lines.map(|line| format!("{line}\n")).collect::<String>()
-    };
-    let functions = Function::ALL.into_iter().filter(|function| is_plain || *function != Function::Forward).collect();
+    let functions = Function::ALL.to_vec();
     let printed = Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
@@ -137,12 +131,9 @@ fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
     write("motion.rs", &printed.rust().unwrap());
     write("motion.h", &header);
     write("motion.c", &source);
-    write("main.rs", &with_forward(RUST_DRIVER));
+    write("main.rs", RUST_DRIVER);
     let upper = robot.name().to_ascii_uppercase();
-    // The second print of forward's results goes with it.
-    let driver =
-        C_DRIVER.replace("_forward(q, v, a, out);\n        print(out, N);", "_forward(q, v, a, out), print(out, N);");
-    write("main.c", &with_forward(&driver).replace("NAME", robot.name()).replace("UPPER", &upper));
+    write("main.c", &C_DRIVER.replace("NAME", robot.name()).replace("UPPER", &upper));
     let mut random = Random(21);
     let joints = equations.joints().len();
     let state = || {
@@ -165,9 +156,6 @@ fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
     let mut numbers = bits(&rust).into_iter().map(f64::from_bits);
     for [q, v, a] in &states {
         for (which, list) in expected(&equations, [q, v, a]).iter().enumerate() {
-            if which == 4 && !is_plain {
-                continue;
-            }
             let size = list.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
             let miss = list.iter().fold(0.0, |miss: f64, x| miss.max((x - numbers.next().unwrap()).abs()));
             // Accelerations are solved for.
@@ -222,13 +210,28 @@ fn what_is_known_beforehand_is_not_printed() {
     assert!(printed.operations(Function::Gravity).unwrap() < 20);
 }
 
-/// Forward dynamics of joints that follow others asks for a matrix to be solved, which is not printed.
+/// Straight-line code, too, where joints follow others: the matrix is solved.
+#[test]
+fn forward_dynamics_of_joints_that_follow_others_is_printed() {
+    let mut parts = Robot::from_urdf(include_str!("../corpus/dynamics/rrp.urdf")).unwrap().parts().clone();
+    let leader = parts.joints.iter().position(|joint| joint.kind.is_single()).unwrap();
+    let follower = parts.joints.iter().rposition(|joint| joint.kind.is_single()).unwrap();
+    let [third, offset] = [BigRational::new((-1).into(), 3.into()), BigRational::new(1.into(), 5.into())];
+    let name = parts.joints[leader].name.clone();
+    parts.joints[follower].mimic = Some(Mimic { leader: name, multiplier: third, offset });
+    compare_robot(&Robot::new(parts).unwrap(), Base::Fixed, 2.0, Form::Straight);
+}
+
+/// Of bodies without mass all is printed but forward dynamics.
 #[test]
 fn what_cannot_be_printed_is_refused() {
-    let robot = groebot::robots::robot("nao_v5").unwrap();
-    let equations = Equations::new(&robot, Base::Fixed).unwrap();
-    let functions = vec![Function::Forward];
-    let printed = Printed { name: "nao", equations: &equations, remarks: Vec::new(), functions, form: Form::Shorter };
-    let refused = printed.rust();
-    assert_eq!(refused.is_err(), equations.freedoms() < robot.moving().len());
+    let mut parts = Robot::from_urdf(include_str!("../corpus/dynamics/ur5.urdf")).unwrap().parts().clone();
+    parts.links.iter_mut().for_each(|link| link.mass = None);
+    let equations = Equations::as_told(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
+    for function in Function::ALL {
+        let functions = vec![function];
+        let printed =
+            Printed { name: "ur5", equations: &equations, remarks: Vec::new(), functions, form: Form::Shorter };
+        assert_eq!(printed.rust().is_err(), function == Function::Forward, "{}", function.name());
+    }
 }

@@ -8,7 +8,7 @@ use crate::cli::codegen::write_generated;
 use crate::cli::moving::described;
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
-use crate::dynamics::{Base, Equations};
+use crate::dynamics::Base;
 use crate::{Error, ErrorKind};
 
 /// What is printed.
@@ -51,24 +51,37 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
-    let new = if arguments.as_told { Equations::as_told } else { Equations::new };
-    let equations = new(&robot, base).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
-    let functions = match arguments.functions.as_slice() {
-        [] => Function::ALL.to_vec(),
-        asked => asked.to_vec(),
-    };
+    let equations = arguments.equations(&robot, base)?.with_gravity(gravity);
     let mut remarks =
         vec![format!("Gravity: {}, {}, {} m/s^2. Friction is left out.", gravity.x, gravity.y, gravity.z)];
     if meant != described {
         remarks.push("Rotations are taken for what their numbers mean: 1.5708 for a quarter turn.".to_owned());
     }
-    let printed = Printed {
+    let functions = arguments.functions.clone();
+    let mut printed = Printed {
         name: robot.name(),
         equations: &equations,
         remarks,
         functions,
         form: arguments.form.map_or(Form::Shorter, FormName::form),
     };
+    let left_out = if arguments.functions.is_empty() { choose_functions(&mut printed) } else { None };
+    let notes = [&robot.parts().notes[..], equations.notes(), left_out.as_slice()].concat();
+    console::tell(&notes);
+    write(arguments, language, &printed)
+}
+
+/// Takes all functions but forward dynamics where bodies without mass would have to move; tells that here and in the code.
+fn choose_functions(printed: &mut Printed<'_>) -> Option<String> {
+    printed.functions = Function::ALL.to_vec();
+    let error = printed.operations(Function::Forward).err()?;
+    printed.functions.retain(|function| *function != Function::Forward);
+    let note = format!("forward dynamics is left out: {}", error.message());
+    printed.remarks.push(note.clone());
+    Some(note)
+}
+
+fn write(arguments: &Arguments, language: Language, printed: &Printed<'_>) -> Outcome {
     let fault = |error: Error| error.in_file(&arguments.robot);
     match (language, &arguments.out) {
         (Language::Rust, None) => console::print(&printed.rust().map_err(fault)?),

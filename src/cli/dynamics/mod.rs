@@ -1,6 +1,7 @@
 //! `groebot dynamics`: the equations of motion of a robot, at states of a table or as polynomials.
 
 mod code;
+mod reading;
 mod states;
 mod symbolic;
 
@@ -9,6 +10,9 @@ use std::path::PathBuf;
 use super::Outcome;
 use super::part::PartArguments;
 use crate::codegen::dynamics::Function;
+use crate::dynamics::{Base, Equations};
+use crate::model::Robot;
+use crate::{ErrorKind, Result};
 
 pub use symbolic::reprove;
 
@@ -22,14 +26,16 @@ const EXAMPLES: &str = "Examples:
 
 states.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description; before them, where the root moves freely, its
 position x, y, z and its quaternion x, y, z, w), v0, v1, ... (the root's linear and angular velocity in its own frame first), a0, a1, ... and, if they are known,
-tau0, tau1, ... Without velocities and accelerations they are zero. The number of q columns decides whether the root moves freely, and whether joints that
-follow others have columns, too: then each is independent.
+tau0, tau1, ... Without velocities and accelerations they are zero. Joints may be named instead, in any order: q:elbow, v:elbow, ...; the free root then has q0 to q6 and v0
+to v5. With --floating the root moves freely; without it the numbers of columns decide that, and a table that allows two readings is refused. Where joints that follow others
+have columns, too, each joint is independent; a note tells it.
 
 Written are tau0.. (inverse dynamics), M0_0, M1_0, M1_1.. (the inertia matrix's lower triangle), C0_0, C0_1.. (the Coriolis matrix of Christoffel's symbols),
-g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones). Metres, kilograms, seconds, radians.
+g0.. (gravity) and qdd0.. (forward dynamics of the given torques, else of the computed ones; empty, with a note, where bodies without mass would have to move). Metres,
+kilograms, seconds, radians.
 
 With --lang the equations of motion are printed as code, friction left out: inverse (torques of a motion), gravity, inertia (M), coriolis (C), forward and derivatives
-(of inverse dynamics by configuration and velocity); Rust needs the crate groebot-runtime, C needs runtime/c/groebot_dynamics.h. With --floating the root moves
+(of inverse dynamics by configuration and velocity). Where bodies without mass would have to move forward is left out, with a note, unless --functions names it. Rust needs the crate groebot-runtime, C needs runtime/c/groebot_dynamics.h. With --floating the root moves
 freely.
 
 With --symbolic M, C, N and the potential energy V are polynomials in cosines and sines, of a chain of up to 7 joints; gravity's direction is that of --gravity, its size g; -o FOLDER writes them as 7_dynamics.txt
@@ -57,8 +63,8 @@ pub struct Arguments {
     /// With --lang: how functions are printed [default: straight-line code, and loops where that would be over 100 KB]
     #[arg(long, value_name = "FORM", requires = "lang")]
     form: Option<code::FormName>,
-    /// With --lang: the root moves freely
-    #[arg(long, requires = "lang")]
+    /// The root moves freely
+    #[arg(long, conflicts_with = "symbolic")]
     floating: bool,
     /// With --symbolic: what bodies weigh in the numbers of the description
     #[arg(long, requires = "symbolic")]
@@ -71,7 +77,7 @@ pub struct Arguments {
     /// Leave the friction of joints out
     #[arg(long)]
     no_friction: bool,
-    /// Accept inertias that no rigid body can have
+    /// Accept masses, inertias and damping that no rigid body or joint can have
     #[arg(long)]
     as_told: bool,
     /// Where the table or code goes, or the folder of polynomials; C goes into NAME.c and NAME.h beside it; standard output without it
@@ -80,6 +86,22 @@ pub struct Arguments {
     /// JSON in place of the table
     #[arg(long)]
     json: bool,
+}
+
+impl Arguments {
+    /// The equations of motion of a robot, its figures checked unless `--as-told` is given.
+    fn equations(&self, robot: &Robot, base: Base) -> Result<Equations> {
+        if self.as_told {
+            return Equations::as_told(robot, base).map_err(|error| error.in_file(&self.robot));
+        }
+        let checked = Equations::new(robot, base).map_err(|error| error.in_file(&self.robot));
+        checked.map_err(|error| match error.kind() {
+            ErrorKind::BadValue if Equations::as_told(robot, base).is_ok() => {
+                error.with_advice("`--as-told` takes the numbers unchanged")
+            }
+            _ => error,
+        })
+    }
 }
 
 /// Prints what is requested.

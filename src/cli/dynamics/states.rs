@@ -6,13 +6,14 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
 use super::Arguments;
+use super::reading::Reading;
 use crate::cli::moving::described;
 use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::files::write_atomically;
 use crate::model::Robot;
 use crate::motion::{StateRow, StateTable};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 
 /// What is told of all states.
 #[derive(Serialize)]
@@ -35,6 +36,7 @@ struct Answer {
     #[serde(rename = "C")]
     coriolis: Vec<Vec<f64>>,
     g: Vec<f64>,
+    /// Empty where bodies without mass would have to move.
     qdd: Vec<f64>,
 }
 
@@ -43,7 +45,7 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let table = StateTable::read_csv(states)?;
-    let report = report(&robot, gravity, arguments, (states, &table))?;
+    let report = report(&robot, gravity, arguments, (states, table))?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
     if !arguments.json {
         console::tell(&report.notes);
@@ -58,39 +60,32 @@ fn report(
     robot: &Robot,
     gravity: Vector3<f64>,
     arguments: &Arguments,
-    (file, table): (&Path, &StateTable),
+    (file, table): (&Path, StateTable),
 ) -> Result<Report> {
-    let (count, moving) = (table.coordinates, robot.moving().len());
-    let new = |robot: &Robot| {
-        let new = if arguments.as_told { Equations::as_told } else { Equations::new };
-        new(robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))
-    };
-    let mut equations = new(robot)?;
-    // A table may tell of joints that follow others, too: then each is on its own.
-    if [moving, moving + 7].contains(&count) && moving > equations.joints().len() {
-        equations = new(&without_followers(robot)?)?;
-    }
-    let joints = equations.joints().to_vec();
-    let base = if count == joints.len() + 7 { Base::Floating } else { Base::Fixed };
-    equations = equations.with_base(base).with_gravity(gravity);
+    let reading = Reading::choose(robot, &table, arguments.floating).map_err(|error| error.in_file(file))?;
+    let table = table.in_order_of(&reading.joints).map_err(|error| error.in_file(file))?;
+    let mut notes = robot.parts().notes.clone();
+    let robot = if reading.followers.is_empty() { robot } else { &without_followers(robot)? };
+    notes.extend(reading.note());
+    let mut equations = arguments.equations(robot, reading.base)?.with_gravity(gravity);
     if arguments.no_friction {
         equations = equations.without_friction();
     }
-    if count != equations.coordinates() {
-        let names = joints.join(", ");
-        let text = format!(
-            "{count} columns q0.. are given; the robot has {} independent joints ({names}), and 7 more where its root moves freely",
-            joints.len()
-        );
-        return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
-    }
+    notes.extend_from_slice(equations.notes());
     let mut room = equations.workspace();
-    let answer = |(index, row): (usize, &StateRow)| {
-        answer(&equations, &mut room, row)
-            .map_err(|error| error.with_context(format!("row {}", index + 1)).in_file(file))
-    };
-    let states = table.rows.iter().enumerate().map(answer).collect::<Result<_>>()?;
-    Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes: robot.parts().notes.clone() })
+    let mut massless = Vec::new();
+    let mut states = Vec::with_capacity(table.rows.len());
+    for (number, row) in (1..).zip(&table.rows) {
+        let at = |error: Error| error.with_context(format!("row {number}"));
+        let (found, free) = answer(&equations, &mut room, row).map_err(|error| at(error).in_file(file))?;
+        states.push(found);
+        massless.extend(free.map(at));
+    }
+    if let Some(first) = massless.first() {
+        notes.push(format!("qdd is empty in {} of {} rows: {}", massless.len(), states.len(), first.message()));
+    }
+    let Reading { joints, base, .. } = reading;
+    Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes })
 }
 
 /// The robot of which each joint is on its own.
@@ -100,7 +95,8 @@ fn without_followers(robot: &Robot) -> Result<Robot> {
     Robot::new(parts)
 }
 
-fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result<Answer> {
+/// What is computed of a state, and why torques of its own do not move it, if bodies without mass would have to.
+fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result<(Answer, Option<Error>)> {
     let still = vec![0.0; equations.freedoms()];
     let or_still = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| still.clone());
     let (velocity, acceleration) = (or_still(&row.velocity), or_still(&row.acceleration));
@@ -110,8 +106,14 @@ fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result
     let tau = list(equations.inverse(room, state, &acceleration)?);
     let [inertia, coriolis] = equations.matrices(room, state)?.map(rows);
     let g = list(equations.gravity(room, &row.q)?);
-    let qdd = list(equations.forward(room, state, row.torques.as_deref().unwrap_or(&tau))?);
-    Ok(Answer { tau, inertia, coriolis, g, qdd })
+    let torques = row.torques.as_deref().unwrap_or(&tau);
+    let (qdd, massless) = match equations.forward(room, state, torques) {
+        Ok(qdd) => (list(qdd), None),
+        // Everything else about the state is right.
+        Err(error) if torques.len() == tau.len() => (Vec::new(), Some(error)),
+        Err(error) => return Err(error),
+    };
+    Ok((Answer { tau, inertia, coriolis, g, qdd }, massless))
 }
 
 fn json(report: &Report) -> String {
@@ -130,7 +132,8 @@ fn csv(report: &Report) -> Result<String> {
         let lower = state.inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]);
         let numbers =
             state.tau.iter().chain(lower).chain(state.coriolis.iter().flatten()).chain(&state.g).chain(&state.qdd);
-        let words: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
+        let mut words: Vec<String> = numbers.map(|number| format!("{number:?}")).collect();
+        words.resize(names.len(), String::new());
         text += &(words.join(",") + "\n");
     }
     Ok(text)

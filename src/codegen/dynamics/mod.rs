@@ -36,7 +36,7 @@ pub enum Form {
     Shorter,
     /// As straight-line code, which is fastest.
     Straight,
-    /// As loops over the bodies, whose figures stand in tables.
+    /// As loops over the bodies, whose figures stand in tables; forward dynamics with joints that follow others is straight-line code all the same.
     Recursive,
 }
 
@@ -68,7 +68,7 @@ impl Printed<'_> {
     /// A Rust file on the crate `groebot-runtime` (edition 2024).
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for forward dynamics of a robot whose joints follow others, [`ErrorKind::BadValue`] where bodies without mass would move.
+    /// [`ErrorKind::BadValue`] for forward dynamics where bodies without mass would move.
     pub fn rust(&self) -> Result<String> {
         Ok(super::fill(RUST, &self.outline(&Rust, "")?))
     }
@@ -124,7 +124,8 @@ impl Printed<'_> {
         let body = self.record(function)?;
         // One language decides for both, so that they round alike.
         let is_long = || self.straight(function, &body, &Rust).0.iter().map(String::len).sum::<usize>() > LONGEST;
-        let is_recursive = self.form == Form::Recursive || self.form == Form::Shorter && is_long();
+        let has_loops = function != Function::Forward || recursive.is_plain();
+        let is_recursive = has_loops && (self.form == Form::Recursive || self.form == Form::Shorter && is_long());
         let (code, answer) = if is_recursive {
             ([language.start(function), recursive.code(function, language)].concat(), language.finish(function))
         } else {

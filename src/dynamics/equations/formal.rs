@@ -1,10 +1,7 @@
 //! The equations of motion over other numbers than doubles: what code is printed of. Main type: [`Formal`].
 
 use super::{Base, Equations};
-use crate::dynamics::recursions::{
-    Articulation, Cause, Data, Derivatives, Divisible, Drive, Freedom, Matrices, Motion, Place, Scalar, Six, Tree,
-};
-use crate::{Error, ErrorKind, Result};
+use crate::dynamics::recursions::{Data, Derivatives, Freedom, Matrices, Motion, Place, Scalar, Six, Tree};
 
 /// Equations of motion over any numbers, without friction and what acts from outside. Where a joint stands comes in as the cosine and the sine of its angle, or
 /// its way: [`Equations::values`] tells what makes them of a configuration.
@@ -82,19 +79,19 @@ impl Equations {
 }
 
 /// A base's motion and that of joints.
-struct Moving<S> {
-    base: Six<S>,
-    rates: Vec<S>,
+pub(super) struct Moving<S> {
+    pub(super) base: Six<S>,
+    pub(super) rates: Vec<S>,
 }
 
 impl<S: Scalar> Formal<S> {
-    fn data(&self, state: &FormalState<S>) -> Data<S> {
+    pub(super) fn data(&self, state: &FormalState<S>) -> Data<S> {
         let mut data = Data::new(&self.tree);
         data.place(&self.tree, state.places.iter().cloned());
         data
     }
 
-    fn moving(&self, list: &[S]) -> Moving<S> {
+    pub(super) fn moving(&self, list: &[S]) -> Moving<S> {
         let rate = |drive: &FormalDrive<S>| drive.factor.clone() * list[self.first + drive.freedom].clone();
         Moving {
             base: if self.first == 0 { Six::zero() } else { Six::of(list) },
@@ -102,7 +99,7 @@ impl<S: Scalar> Formal<S> {
         }
     }
 
-    fn newton_euler(&self, state: &FormalState<S>, acceleration: &[S]) -> Vec<S> {
+    pub(super) fn newton_euler(&self, state: &FormalState<S>, acceleration: &[S]) -> Vec<S> {
         let mut data = self.data(state);
         let (moving, change) = (self.moving(&state.velocity), self.moving(acceleration));
         let motion = Motion {
@@ -186,41 +183,6 @@ impl<S: Scalar> Formal<S> {
             *sum = sum.clone() + above * beside * entry.clone();
         }
         matrix
-    }
-}
-
-impl<S: Divisible + PartialEq> Formal<S> {
-    /// Forward dynamics.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Unsupported`] where joints follow others, [`ErrorKind::BadValue`] where what moves has no mass.
-    pub fn forward(&self, state: &FormalState<S>, torques: &[S]) -> Result<Vec<S>> {
-        let leads = |(at, drive): (usize, &FormalDrive<S>)| drive.freedom == at && drive.factor == S::one();
-        if !self.drives.iter().enumerate().all(leads) {
-            let text = "forward dynamics of joints that follow others is not printed";
-            return Err(Error::new(ErrorKind::Unsupported, text));
-        }
-        let (mut data, moving) = (self.data(state), self.moving(&state.velocity));
-        let pull = pull(&self.gravity, state.turn.as_ref());
-        let base_cause = match self.first {
-            0 => Cause::Acceleration(pull.clone()),
-            _ => Cause::Force(Six::of(torques)),
-        };
-        let rotors: Vec<S> = self.drives.iter().map(|drive| drive.armature.clone()).collect();
-        let drive = Drive {
-            base: moving.base,
-            base_cause,
-            rates: &moving.rates,
-            torques: &torques[self.first..],
-            rotors: &rotors,
-            outside: &[],
-        };
-        let mut changes = vec![S::zero(); self.drives.len()];
-        let found = Articulation::new(&self.tree)
-            .forward(&self.tree, &mut data, &drive, |pivot| *pivot != S::zero(), &mut changes)
-            .map_err(|_| Error::new(ErrorKind::BadValue, "bodies without mass would have to move; give masses"))?;
-        let base = (0..self.first).map(|at| found.at(at).clone() - pull.at(at).clone());
-        Ok(base.chain(changes).collect())
     }
 }
 

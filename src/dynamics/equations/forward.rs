@@ -6,6 +6,20 @@ use super::{Base, Equations, State, Workspace};
 use crate::dynamics::recursions::{self, Cause, Massless, Six};
 use crate::{Error, ErrorKind, Result};
 
+/// What rounding leaves of no inertia along a freedom, as a share of that in all directions: a point mass on the axis of its joint.
+const NO_INERTIA: f64 = 1e-13;
+
+fn is_inertia(pivot: &f64, size: &f64) -> bool {
+    *pivot > NO_INERTIA * size
+}
+
+/// The first freedom that moves no mass, by the factors of the inertia matrix.
+fn massless_row(factors: &Cholesky<f64, Dyn>) -> Option<usize> {
+    let lower = factors.l_dirty();
+    let size = |row: usize| (0..=row).map(|column| lower[(row, column)].powi(2)).sum::<f64>();
+    (0..lower.nrows()).find(|&row| !is_inertia(&lower[(row, row)].powi(2), &size(row)))
+}
+
 impl Equations {
     /// Forward dynamics: what torques (of a floating base first a force and a moment on it, in its own frame), and what acts from outside, change the velocity by.
     ///
@@ -47,7 +61,7 @@ impl Equations {
             Base::Floating => Cause::Force(Six::of(torques)),
         };
         let moving = recursions::Drive { base: base[0], base_cause, rates, torques: own, rotors, outside };
-        let found = articulation.forward(&self.tree, data, &moving, |pivot| *pivot > 0.0, accelerations);
+        let found = articulation.forward(&self.tree, data, &moving, is_inertia, accelerations);
         let of_base = found.map_err(|Massless(joint)| self.massless(joint))?;
         (0..first).for_each(|at| changes[at] = of_base.at(at) - pull.at(at));
         changes.rows_mut(first, accelerations.len()).copy_from_slice(accelerations);
@@ -62,7 +76,7 @@ impl Equations {
         self.inertia(room, state.q)?;
         // The factors take the matrix's place, so that nothing is allocated.
         let inertia = std::mem::replace(&mut room.inertia, DMatrix::zeros(0, 0));
-        match Cholesky::<f64, Dyn>::new(inertia) {
+        match Cholesky::<f64, Dyn>::new(inertia).filter(|factors| massless_row(factors).is_none()) {
             Some(factors) => {
                 factors.solve_mut(&mut room.changes);
                 room.inertia = factors.unpack_dirty();
@@ -72,7 +86,9 @@ impl Equations {
                 room.inertia = DMatrix::zeros(self.freedoms(), self.freedoms());
                 let inertia = self.inertia(room, state.q)?;
                 let block = |at: usize| inertia.view((0, 0), (at + 1, at + 1)).into_owned();
-                let massless = (0..inertia.nrows()).find(|&at| block(at).cholesky().is_none());
+                let is_massless =
+                    |at: usize| block(at).cholesky().is_none_or(|factors| massless_row(&factors).is_some());
+                let massless = (0..inertia.nrows()).find(|at| is_massless(*at));
                 Err(self.massless(massless.and_then(|at| at.checked_sub(self.first()))))
             }
         }

@@ -1,7 +1,9 @@
 //! The equations of motion of a robot, `M q'' + C q' + N + friction = torques`. Main type: [`Equations`].
 
 mod changes;
+mod checks;
 mod formal;
+mod formal_forward;
 mod forward;
 pub(super) mod identify;
 mod inverse;
@@ -10,6 +12,7 @@ mod workspace;
 
 use nalgebra::Vector3;
 
+use self::checks::{check_drives, check_freedoms};
 pub(crate) use formal::pull;
 pub use formal::{Formal, FormalState, Value};
 pub use workspace::Workspace;
@@ -19,10 +22,7 @@ use super::masses::check_masses;
 use super::recursions::{Frame, Tree};
 use crate::model::{Joint, Robot};
 use crate::spatial::{Pose, Wrench};
-use crate::{Error, ErrorKind, Result};
-
-/// How far the length of a quaternion may be from one.
-const ROUNDED: f64 = 1e-3;
+use crate::{ErrorKind, Result};
 
 /// Whether the root link stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +76,7 @@ pub struct Equations {
     told_in: Vec<usize>,
     /// Its name.
     told_names: Vec<String>,
+    notes: Vec<String>,
 }
 
 /// What the equations are asked at: where a robot is and how it moves.
@@ -103,30 +104,37 @@ impl<'a> State<'a> {
 }
 
 impl Equations {
-    /// Those of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame (of a floating root: of the world).
+    /// Those of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame (of a floating root: of the world). Joints that follow others by a multiplier of zero are fixed.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`], with the link's name, for a mass below zero, and where links that are fixed to one another have together an inertia that no
-    /// body has: one of a mass that is not positive, or against the triangle inequality.
+    /// body has: one of a mass that is not positive, or against the triangle inequality; with the joint's name for damping, friction or a rotor below zero.
+    /// [`ErrorKind::Unsupported`] for planar and floating joints that do not hang on the root.
     pub fn new(robot: &Robot, base: Base) -> Result<Self> {
-        let model = Model::new(robot)?;
-        check_masses(robot, &model)?;
-        Equations::of(robot, &model, base)
+        let robot = robot.with_constants_fixed()?;
+        check_drives(&robot)?;
+        let model = Model::new(&robot)?;
+        let rounded = check_masses(&robot, &model)?;
+        let mut equations = Equations::of(&robot, &model, base)?;
+        equations.notes.extend(rounded);
+        Ok(equations)
     }
 
-    /// The same with all figures as they are told, whether bodies can have them or not.
+    /// Same as [`Equations::new`], but all masses, inertias and frictions are taken unchanged, whether bodies can have them or not.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a figure beyond doubles.
+    /// [`ErrorKind::BadValue`] for a figure beyond doubles, [`ErrorKind::Unsupported`] as [`Equations::new`].
     pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
-        Equations::of(robot, &Model::new(robot)?, base)
+        let robot = robot.with_constants_fixed()?;
+        Equations::of(&robot, &Model::new(&robot)?, base)
     }
 
     /// The same of a model of the robot, which may have another root or weigh less: [`Model::rooted_at`], [`Model::halves`]. The root's frame is that of the model.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where a joint follows one that does not move.
+    /// [`ErrorKind::BadValue`] where a joint follows one that does not move, [`ErrorKind::Unsupported`] as [`Equations::new`].
     pub fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
+        let notes = check_freedoms(robot)?;
         let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
         let laws: Vec<_> = moving.iter().map(|joint| robot.law(joint)).collect();
         let leads = |(joint, law): &(&&Joint, &crate::model::Mimic)| law.leader == joint.name;
@@ -173,6 +181,7 @@ impl Equations {
             frames: (0..robot.links().len()).map(frame_of).collect(),
             told_names,
             told_in,
+            notes,
         })
     }
 
@@ -204,6 +213,11 @@ impl Equations {
         self
     }
 
+    /// What was left out of the robot, or taken for rounding.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
     /// The independent joints, in the order of a configuration.
     pub fn joints(&self) -> &[String] {
         &self.names
@@ -228,51 +242,4 @@ impl Equations {
     fn first(&self) -> usize {
         self.freedoms() - self.names.len()
     }
-
-    fn check(&self, state: State<'_>, third: Option<(&str, &[f64])>) -> Result<()> {
-        self.check_place(state.q)?;
-        for (name, list) in std::iter::once(("velocity", state.velocity)).chain(third) {
-            check_list(name, list, self.freedoms())?;
-        }
-        for (link, wrench) in state.outside {
-            self.check_link(*link)?;
-            if !wrench.to_vector().iter().all(|x| x.is_finite()) {
-                let text = format!(
-                    "what acts on link {link} from outside is {:?}; give finite numbers",
-                    wrench.to_vector().as_slice()
-                );
-                return Err(Error::new(ErrorKind::BadValue, text));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_place(&self, q: &[f64]) -> Result<()> {
-        check_list("q", q, self.coordinates())?;
-        if self.base == Base::Floating {
-            let length = q[3..7].iter().map(|x| x * x).sum::<f64>().sqrt();
-            if (length - 1.0).abs() > ROUNDED {
-                let text = format!("the quaternion q3..q6 has length {length}; give one of length 1");
-                return Err(Error::new(ErrorKind::BadValue, text));
-            }
-        }
-        Ok(())
-    }
-
-    fn check_link(&self, link: usize) -> Result<()> {
-        let most = self.frames.len() - 1;
-        let text = || format!("there is no link {link}; links are counted from 0 to {most}");
-        if link <= most { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
-    }
-}
-
-fn check_list(name: &str, list: &[f64], count: usize) -> Result<()> {
-    let text = if list.len() != count {
-        format!("{name}: {} numbers are given, the robot has {count}", list.len())
-    } else if let Some(at) = list.iter().position(|value| !value.is_finite()) {
-        format!("{name}{at} is {}; give a finite number", list[at])
-    } else {
-        return Ok(());
-    };
-    Err(Error::new(ErrorKind::BadValue, text))
 }

@@ -15,7 +15,7 @@ use crate::document::JsonFormat;
 use crate::dynamics::recursions::Scalar;
 use crate::kinematics::Chain;
 use crate::number::{BigRational, parse_rational};
-use crate::poly::parse;
+use crate::poly::parse_long;
 use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
 
@@ -156,7 +156,7 @@ impl Told {
         for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
             let syntax = |text: &str| Error::new(ErrorKind::Syntax, text.to_owned()).at_line(number + 1);
             let (name, value) = line.split_once(" = ").ok_or_else(|| syntax("give `NAME = POLYNOMIAL`"))?;
-            let value = parse(value).and_then(|value| value.evaluate(model.setting.ring()));
+            let value = parse_long(value).and_then(|value| value.evaluate(model.setting.ring()));
             let value = value.map_err(|error| error.at_line(number + 1))?;
             if entries.insert(name.to_owned(), model.setting.number(value)).is_some() {
                 return Err(syntax(&format!("`{name}` is told twice")));

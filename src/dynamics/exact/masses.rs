@@ -9,12 +9,13 @@ use crate::spatial::exact::{ExactMatrix, ExactVector, Placement};
 use crate::{Error, ErrorKind, Result};
 
 /// Ten numbers by joint of a chain along a path of a robot, in the frames of [`ExactModel`](super::ExactModel): links that the joints of the path do not move are left out, and all that hangs on
-/// a body without moving on its own, or by joints beside the path, which stand at zero, counts with it.
+/// a body without moving on its own, or by joints beside the path, which stand at zero, counts with it. Joints that follow others by a multiplier of zero have their constant value.
 ///
 /// # Errors
 /// As [`Robot::check`]; [`ErrorKind::Unsupported`] where the tip is not below the base, or joints of the path are one joint of the chain.
 pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigRational; 10]>> {
     robot.check()?;
+    let robot = &robot.with_constants_fixed()?;
     let refused = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
     if path.joints.iter().any(|(_, upwards)| *upwards) {
         return refused("the tip is not below the base; choose links so that it is");

@@ -2,6 +2,7 @@
 
 mod base_parameters;
 mod certificate;
+mod direction;
 mod lagrange;
 mod masses;
 mod model;

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::Zero;
 
+use super::direction::Direction;
 use super::number::{Exact, Setting, root_name};
-use crate::dynamics::recursions::{Body, Frame, Freedom, Mass, Matrix, Place, Scalar, Tree};
+use crate::dynamics::recursions::{Body, Frame, Freedom, Mass, Place, Scalar, Tree};
 use crate::kinematics::{Chain, Joint, JointKind};
 use crate::number::BigRational;
 use crate::spatial::exact::ExactVector;
@@ -14,9 +14,6 @@ use crate::{Error, ErrorKind, Result};
 
 /// The ten numbers of a body, by their names: the mass, the mass times its centre, the tensor.
 pub const NUMBERS: [&str; 10] = ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
-
-/// The greatest prime of which roots are taken.
-const MOST_PRIME: u32 = 1000;
 
 /// A chain whose bodies have symbols or numbers for masses. Each body's frame stands at its joint's point, and at zero along the axes of the base; the recursions have frames
 /// of their own there.
@@ -187,114 +184,4 @@ fn setting(chain: &Chain, masses: Masses<'_>, primes: &[u32], most: usize) -> Re
         .collect::<std::result::Result<_, _>>()
         .expect("a joint that turns has a cosine and a sine");
     Setting::new(&variables, &circles, primes, most)
-}
-
-/// A direction as its vector over its length, and a direction across it.
-struct Direction {
-    vector: ExactVector,
-    length: Root,
-    /// A direction across, and its length; none along a coordinate axis.
-    across: Option<(ExactVector, Root)>,
-}
-
-impl Direction {
-    fn of(vector: &ExactVector, name: &str) -> Result<Self> {
-        let fault = |error: Error| error.with_context(format!("`{name}`"));
-        let norm = |v: &ExactVector| Root::of(&v.iter().map(|x| x * x).sum());
-        let length = norm(vector).map_err(fault)?;
-        let zeros = vector.iter().filter(|x| x.is_zero()).count();
-        if zeros == 2 {
-            return Ok(Direction { vector: vector.clone(), length, across: None });
-        }
-        // Across the vector lies what stands across two of its coordinates; where one of those is nought, a coordinate axis.
-        let last = (0..3).find(|&i| vector[i].is_zero()).unwrap_or(2);
-        let mut across: ExactVector = std::array::from_fn(|_| BigRational::zero());
-        if vector[last].is_zero() {
-            across[last] = BigRational::one();
-        } else {
-            (across[0], across[1]) = (-vector[1].clone(), vector[0].clone());
-        }
-        let other = norm(&across).map_err(fault)?;
-        Ok(Direction { vector: vector.clone(), length, across: Some((across, other)) })
-    }
-
-    fn primes(&self) -> impl Iterator<Item = u32> {
-        let across = self.across.iter().flat_map(|(_, length)| &length.primes);
-        self.length.primes.iter().chain(across).copied()
-    }
-
-    fn unit(&self, setting: &Arc<Setting>) -> [Exact; 3] {
-        over(&self.vector, &self.length, setting)
-    }
-
-    /// A rotation whose last column is the direction.
-    fn upright(&self, setting: &Arc<Setting>) -> Matrix<Exact> {
-        let z = self.unit(setting);
-        let x = match &self.across {
-            Some((across, length)) => over(across, length, setting),
-            None => {
-                let along = self.vector.iter().position(|x| !x.is_zero()).unwrap_or(2);
-                std::array::from_fn(|i| if i == (along + 1) % 3 { Exact::one() } else { Exact::zero() })
-            }
-        };
-        let y: [Exact; 3] = std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            z[j].clone() * x[k].clone() - z[k].clone() * x[j].clone()
-        });
-        std::array::from_fn(|i| [x[i].clone(), y[i].clone(), z[i].clone()])
-    }
-}
-
-fn over(vector: &ExactVector, length: &Root, setting: &Arc<Setting>) -> [Exact; 3] {
-    let inverse = length.inverse(setting);
-    vector.clone().map(|entry| Exact::from(entry) * inverse.clone())
-}
-
-/// The positive root of a rational number: a rational times roots of primes.
-struct Root {
-    rational: BigRational,
-    primes: Vec<u32>,
-}
-
-impl Root {
-    fn of(square: &BigRational) -> Result<Self> {
-        let unsupported = || {
-            let length = square.to_f64().unwrap_or(f64::NAN).sqrt();
-            let text = format!(
-                "its length {length} is not a rational number times roots of primes up to {MOST_PRIME}; give a simpler direction"
-            );
-            Error::new(ErrorKind::Unsupported, text)
-        };
-        if !square.is_positive() {
-            return Err(Error::new(ErrorKind::BadValue, "a direction of length zero; give another one"));
-        }
-        // sqrt(n / d) = sqrt(n d) / d
-        let mut left = square.numer() * square.denom();
-        let (mut whole, mut primes) = (BigInt::one(), Vec::new());
-        for prime in crate::number::primes_below(u64::from(MOST_PRIME) + 1) {
-            let prime = u32::try_from(prime).map_err(|_| unsupported())?;
-            while (&left % (prime * prime)).is_zero() {
-                left /= prime * prime;
-                whole *= prime;
-            }
-            if (&left % prime).is_zero() {
-                left /= prime;
-                primes.push(prime);
-            }
-        }
-        let root = left.sqrt();
-        if &root * &root != left {
-            return Err(unsupported());
-        }
-        primes.sort_unstable();
-        Ok(Root { rational: BigRational::new(whole * root, square.denom().clone()), primes })
-    }
-
-    /// One over it.
-    fn inverse(&self, setting: &Arc<Setting>) -> Exact {
-        let product = self.primes.iter().fold(BigInt::one(), |product, prime| product * prime);
-        let rational = (&self.rational * BigRational::from_integer(product)).recip();
-        let roots = self.primes.iter().map(|prime| setting.variable(&root_name(*prime)));
-        roots.fold(Exact::from(rational), |product, root| product * root)
-    }
 }

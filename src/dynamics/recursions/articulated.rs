@@ -5,7 +5,7 @@
 use super::data::{Data, bias};
 use super::scalar::{Divisible, Scalar};
 use super::six::{Frame, Mass, Matrix, Six, Three, add, cross, dot, turned, turned_back};
-use super::tree::{Body, Tree};
+use super::tree::{Body, Freedom, Tree};
 
 /// What a body with all that it carries sets against a force: the momentum is `L v + H w` and `H' v + A w`.
 #[derive(Clone, Debug)]
@@ -102,6 +102,15 @@ impl<S: Scalar> Resistance<S> {
         }
     }
 
+    /// The size of its inertia against turning or sliding: the trace.
+    fn size(&self, freedom: Freedom) -> S {
+        let [x, y, z] = match freedom {
+            Freedom::Turn => &self.angular,
+            Freedom::Slide => &self.linear,
+        };
+        x[0].clone() + y[1].clone() + z[2].clone()
+    }
+
     /// The same in the parent's frame, in which the body's stands so.
     fn outward(&self, frame: &Frame<S>) -> Self {
         let (r, p) = (&frame.rotation, &frame.position);
@@ -143,8 +152,8 @@ impl<S: Divisible> Resistance<S> {
         }
     }
 
-    /// The acceleration that a force gives, by elimination without pivoting: of what has mass the pivots are positive.
-    pub(crate) fn solve(&self, force: &Six<S>, is_positive: impl Fn(&S) -> bool) -> Option<Six<S>> {
+    /// The acceleration that a force gives, by elimination without pivoting: of what has mass the pivots are positive beside the size of the inertia.
+    pub(crate) fn solve(&self, force: &Six<S>, is_positive: impl Fn(&S, &S) -> bool) -> Option<Six<S>> {
         let entry = |i: usize, j: usize| match (i / 3, j / 3) {
             (0, 0) => self.linear[i][j].clone(),
             (0, _) => self.coupling[i][j - 3].clone(),
@@ -154,7 +163,8 @@ impl<S: Divisible> Resistance<S> {
         let mut rows: [[S; 6]; 6] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
         let mut right: [S; 6] = std::array::from_fn(|i| force.at(i).clone());
         for k in 0..6 {
-            if !is_positive(&rows[k][k]) {
+            let size = self.size(if k < 3 { Freedom::Slide } else { Freedom::Turn });
+            if !is_positive(&rows[k][k], &size) {
                 return None;
             }
             let pivot = rows[k].clone();
@@ -216,7 +226,8 @@ impl<S: Divisible> Articulation<S> {
         Articulation { bodies: vec![body; tree.bodies.len()] }
     }
 
-    /// What the joints' rates change by, and the acceleration of the base less gravity; the joints stand where `data` has placed them.
+    /// What the joints' rates change by, and the acceleration of the base less gravity; the joints stand where `data` has placed them. `is_positive` decides whether an inertia along a
+    /// freedom is one, beside the size of the inertia in all directions.
     ///
     /// # Errors
     /// The joint, or the base, that moves no mass.
@@ -225,7 +236,7 @@ impl<S: Divisible> Articulation<S> {
         tree: &Tree<S>,
         data: &mut Data<S>,
         drive: &Drive<'_, S>,
-        is_positive: impl Fn(&S) -> bool + Copy,
+        is_positive: impl Fn(&S, &S) -> bool + Copy,
         accelerations: &mut [S],
     ) -> Result<Six<S>, Massless> {
         data.move_bodies(tree, &drive.base, drive.rates);
@@ -240,7 +251,7 @@ impl<S: Divisible> Articulation<S> {
         for &joint in tree.order.iter().rev() {
             let (body, own) = (&tree.bodies[joint], &mut self.bodies[joint]);
             own.yielding = Yielding::of(&own.resistance, body, &own.bias, &drive.torques[joint], &drive.rotors[joint]);
-            if !is_positive(&own.yielding.pivot) {
+            if !is_positive(&own.yielding.pivot, &own.resistance.size(body.freedom)) {
                 return Err(Massless(Some(joint)));
             }
             let (outward, bias) = own.yielding.hand_on(&own.resistance, &own.bias, &own.turning, &data.frames[joint]);

@@ -3,6 +3,7 @@
 use num_traits::ToPrimitive;
 
 use super::refuse_slips;
+use super::transmission::reflected_rotor;
 use super::xml::Element;
 use crate::document::{one_among, shown};
 use crate::model::{Joint, JointType, Mimic, Origin};
@@ -71,13 +72,6 @@ fn read_whole_joint(element: &Element, bare: Joint, is_recent: bool) -> Result<J
         notes,
         ..bare
     })
-}
-
-/// The rotor's inertia as Drake's extension tells it, times the gear ratio squared \[kg m^2 or kg\].
-fn reflected_rotor(element: &Element) -> Result<f64> {
-    let value = |name: &str| element.child(name)?.map_or(Ok(None), |child| child.float("value"));
-    let ratio = value("drake:gear_ratio")?.unwrap_or(1.0);
-    Ok(value("drake:rotor_inertia")?.unwrap_or(0.0) * ratio * ratio)
 }
 
 fn read_kind(element: &Element) -> Result<JointType> {

@@ -4,6 +4,7 @@
 
 mod joint;
 mod link;
+mod transmission;
 mod write;
 mod xacro;
 mod xml;
@@ -11,11 +12,12 @@ mod xml;
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::{Actuator, Fault, Part, Robot, RobotParts};
+use super::{Fault, Part, Robot, RobotParts};
 use crate::document::{did_you_mean, explained, read_xml};
 use crate::{ErrorKind, Result};
 use joint::read_joint;
 use link::{colour_of, read_link};
+use transmission::{add_rotors, read_transmission};
 use xml::Element;
 
 /// The longest file that is read, in bytes.
@@ -63,6 +65,7 @@ impl Robot {
         let name = root.attribute("name").unwrap_or("robot").trim();
         let name = if name.is_empty() { "robot".to_owned() } else { name.to_owned() };
         let actuators = elements("transmission").filter_map(read_transmission).collect();
+        faults.extend(add_rotors(elements("transmission"), &mut joints));
         let parts = RobotParts { name, source: None, links, joints, actuators, faults, notes };
         let line_of = |part: &Part| {
             let Part::Actuator(name) = part else { return None };
@@ -86,19 +89,6 @@ fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [
         }
     }
     colours
-}
-
-/// An actuator of a `<transmission>` that moves several joints; those that are not of that kind are extensions.
-fn read_transmission(element: &Element) -> Option<Actuator> {
-    let all = |name| element.children.iter().filter(move |child| child.name == name);
-    let mut actuators = all("actuator");
-    let actuator = actuators.next().filter(|_| actuators.next().is_none())?;
-    let joint = |joint: &Element| {
-        let reduction = joint.child("mechanicalReduction").ok().flatten().and_then(|child| child.text.parse().ok());
-        Some((joint.attribute("name")?.to_owned(), reduction.unwrap_or(1.0)))
-    };
-    let joints: Vec<(String, f64)> = all("joint").map(joint).collect::<Option<_>>()?;
-    (joints.len() > 1).then_some(Actuator { name: actuator.attribute("name")?.to_owned(), joints })
 }
 
 /// Fails for a child whose name is nearly one of `parts`; other unknown ones are extensions.

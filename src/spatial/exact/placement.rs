@@ -1,7 +1,7 @@
 //! Exact frames: how the origins of chain files, URDF joints and DH rows reach the base frame. Main type: [`Placement`].
 
 use nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::{ExactMatrix, ExactRotation, ExactVector, Turn};
 use crate::number::BigRational;
@@ -40,6 +40,22 @@ impl Placement {
         placement
     }
 
+    /// A frame that is turned by `angle` \[rad\] about an axis of any length through the origin: right to rounding.
+    pub fn turned_about(axis: &ExactVector, angle: &BigRational) -> Self {
+        let length = rounded_length(axis);
+        let half = angle.to_f64().unwrap_or(0.0) / 2.0;
+        let [sine, cosine] = [half.sin(), half.cos()].map(|x| BigRational::from_float(x).unwrap_or_default());
+        let [x, y, z] = axis.each_ref().map(|entry| entry * &sine / &length);
+        let rotation = ExactRotation::from_quaternion(&[x, y, z, cosine]).unwrap_or_else(ExactRotation::identity);
+        Placement { rotation, ..Placement::identity() }
+    }
+
+    /// A frame that is shifted by `distance` along an axis of any length: right to rounding.
+    pub fn shifted_along(axis: &ExactVector, distance: &BigRational) -> Self {
+        let length = rounded_length(axis);
+        Placement { origin: axis.each_ref().map(|entry| entry * distance / &length), ..Placement::identity() }
+    }
+
     /// The frame that stands at `inner` in this frame.
     #[must_use]
     pub fn then(&self, inner: &Placement) -> Self {
@@ -67,6 +83,13 @@ impl Placement {
     pub fn pose(&self) -> Pose {
         Pose::from_parts(point(&self.origin).coords.into(), rotation(&self.rotation.matrix()))
     }
+}
+
+/// The length of a vector as a double; one for a vector of length zero.
+fn rounded_length(vector: &ExactVector) -> BigRational {
+    let square: BigRational = vector.iter().map(|entry| entry * entry).sum();
+    let root = BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt());
+    root.filter(|root| !root.is_zero()).unwrap_or_else(BigRational::one)
 }
 
 fn double(exact: &BigRational) -> f64 {

@@ -56,7 +56,7 @@ impl Recursive {
             let found = if self.floats() {
                 let (torque, bias) = (step.six("tau", 0), step.six("bias[0]", 0));
                 let base = resistance(step, "resistance[0]");
-                base.solve(&torque.add(&bias.negated()), |_| true).unwrap_or_else(Six::zero)
+                base.solve(&torque.add(&bias.negated()), |_, _| true).unwrap_or_else(Six::zero)
             } else {
                 self.pull(step)
             };

@@ -20,17 +20,19 @@ use cells::{body, frame, write_frame};
 pub(super) struct Recursive {
     formal: Formal<f64>,
     freedoms: Vec<Freedom>,
-    /// Whether each joint is a freedom of its own.
     is_plain: bool,
 }
 
 impl Recursive {
     pub fn new(formal: Formal<f64>) -> Self {
-        let drives = formal.drives.iter().enumerate();
-        let is_plain = drives.into_iter().all(|(at, drive)| drive.freedom == at && drive.factor == 1.0);
         let met = |freedom: &Freedom| formal.tree.bodies.iter().any(|body| body.freedom == *freedom);
         let freedoms = [Freedom::Turn, Freedom::Slide].into_iter().filter(met).collect();
-        Recursive { is_plain, freedoms, formal }
+        Recursive { is_plain: formal.is_plain(), freedoms, formal }
+    }
+
+    /// Whether each joint is a freedom of its own.
+    pub fn is_plain(&self) -> bool {
+        self.is_plain
     }
 
     fn floats(&self) -> bool {

@@ -1,0 +1,82 @@
+//! Base parameters, numerically. Main type: [`Base`].
+
+use nalgebra::{DMatrix, DVector};
+
+use super::super::{Equations, State};
+use crate::{Error, ErrorKind, Result};
+
+/// Columns whose part across others is less than this share of themselves depend on these.
+const DEPENDENT: f64 = 1e-8;
+
+/// Which parameters stand for all: `B pi` are the base parameters.
+pub(super) struct Base {
+    pub(super) pivots: Vec<usize>,
+    /// `B`: base parameters x ten numbers a body.
+    pub(super) combinations: DMatrix<f64>,
+}
+
+impl Equations {
+    /// The base parameters by numbers: from the regressors of many states the first columns that are independent, and what the others are of these.
+    pub(super) fn base_parameters(&self) -> Result<Base> {
+        let (count, columns) = (self.freedoms(), self.parameters().len());
+        let states = (3 * columns).div_ceil(count);
+        let mut all = DMatrix::zeros(states * count, columns);
+        let mut room = self.workspace();
+        let mut random = 1_u64;
+        let mut number = || {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for state in 0..states {
+            let mut list = |most: f64| (0..count).map(|_| most * number()).collect::<Vec<f64>>();
+            let [q, velocity, acceleration] = [3.0, 2.0, 5.0].map(&mut list);
+            let regressor = self.regressor(&mut room, State::new(&q, &velocity), &acceleration)?;
+            all.rows_mut(state * count, count).copy_from(regressor);
+        }
+        let size = all.amax();
+        let (mut pivots, mut across): (Vec<usize>, Vec<DVector<f64>>) = (Vec::new(), Vec::new());
+        for column in 0..columns {
+            let own = all.column(column).into_owned();
+            let mut rest = own.clone();
+            // Twice is enough (W. Kahan and B. N. Parlett).
+            for _ in 0..2 {
+                across.iter().for_each(|unit| rest -= unit * unit.dot(&rest));
+            }
+            if rest.norm() > DEPENDENT * own.norm() && own.amax() > DEPENDENT * size {
+                pivots.push(column);
+                across.push(rest.normalize());
+            }
+        }
+        let chosen = all.select_columns(&pivots);
+        let factors = chosen.svd(true, true);
+        let mut combinations = factors.solve(&all, 0.0).map_err(|text| Error::new(ErrorKind::BadValue, text))?;
+        combinations.iter_mut().filter(|entry| entry.abs() < DEPENDENT).for_each(|entry| *entry = 0.0);
+        for (row, pivot) in pivots.iter().enumerate() {
+            combinations.column_mut(*pivot).fill(0.0);
+            combinations[(row, *pivot)] = 1.0;
+        }
+        Ok(Base { pivots, combinations })
+    }
+
+    pub(super) fn base_names(&self, base: &Base) -> Vec<String> {
+        let names = self.parameter_names();
+        let sum = |row: usize| {
+            let mut text = names[base.pivots[row]].clone();
+            for (column, factor) in base.combinations.row(row).iter().enumerate() {
+                if *factor != 0.0 && column != base.pivots[row] {
+                    let sign = if *factor < 0.0 { '-' } else { '+' };
+                    let size = factor.abs();
+                    let times = if (size - 1.0).abs() < 5e-7 { String::new() } else { format!("{} ", short(size)) };
+                    text += &format!(" {sign} {times}{}", names[column]);
+                }
+            }
+            text
+        };
+        (0..base.pivots.len()).map(sum).collect()
+    }
+}
+
+fn short(number: f64) -> String {
+    let text = format!("{number:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,237 @@
+//! Whether a log is one of bodies that move under measured torques. Main type: [`Finding`].
+
+use std::fmt;
+
+use super::Consistency;
+use super::quantiles::chi_square_999;
+use crate::document::shown;
+
+/// The share of all torques that may be left unexplained: wrong units, signs and delays leave more, friction and noise of fair logs less.
+const UNEXPLAINED: f64 = 0.2;
+/// What misses less than this share of a joint's torques is not tested: rounding of files is not independent noise.
+const TINY: f64 = 1e-4;
+/// The fewest rows whose noise is tested.
+const FEWEST: usize = 30;
+/// Lags of the test for independence, and the least correlation that counts however many rows show it.
+const LAGS: usize = 10;
+const CORRELATED: f64 = 0.2;
+/// An outlier misses more than so many robust deviations, and more than this share of the greatest torque.
+const OUTLYING: f64 = 7.0;
+const GROSS: f64 = 0.03;
+/// Torques are clipped where so many rows, and this share of them, have the extreme value, and miss by so many deviations of their mean to the inside.
+const CLIPPED: (usize, f64, f64) = (5, 0.005, 4.0);
+/// A correlation with the torques of the description that shows their sign, and one that shows their unit where they are so many times as great.
+const OPPOSITE: f64 = -0.7;
+const ALIKE: f64 = 0.9;
+const UNIT: f64 = 50.0;
+
+/// Something wrong with a log.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Finding {
+    /// What.
+    pub kind: FindingKind,
+    /// The joint, if it is about one.
+    pub joint: Option<String>,
+    /// How much: a share, a correlation, a count of rows, a factor, squares.
+    pub size: f64,
+}
+
+/// What is wrong with a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FindingKind {
+    /// A share of all torques is explained by no bodies, whether they can exist or not.
+    Unexplained,
+    /// What a joint's torques miss is correlated from row to row.
+    Correlated,
+    /// A joint's torques stop at an extreme value.
+    Clipped,
+    /// Some torques miss far more than the others.
+    Outliers,
+    /// A joint's torques are opposite to those of the description.
+    Sign,
+    /// A joint's torques are like those of the description, but many times as great.
+    Unit,
+    /// No bodies that can exist explain the torques.
+    NoBodies,
+}
+
+impl FindingKind {
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            FindingKind::Unexplained => "unexplained",
+            FindingKind::Correlated => "correlated",
+            FindingKind::Clipped => "clipped",
+            FindingKind::Outliers => "outliers",
+            FindingKind::Sign => "sign",
+            FindingKind::Unit => "unit",
+            FindingKind::NoBodies => "no_bodies",
+        }
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(joint) = &self.joint {
+            write!(f, "{}: ", shown(joint))?;
+        }
+        let size = self.size;
+        match self.kind {
+            FindingKind::Unexplained => {
+                write!(
+                    f,
+                    "{:.0} % of the torques are unexplained; are angles in radians, torques in N m, and both of the same times?",
+                    100.0 * size
+                )
+            }
+            FindingKind::Correlated => {
+                write!(
+                    f,
+                    "what torques miss is correlated from row to row ({size:.2}), so that intervals are too narrow; is there friction (--friction), a delay, a filter?"
+                )
+            }
+            FindingKind::Clipped => write!(
+                f,
+                "{size:.0} rows have the extreme torque, and bodies need more; remove rows where the drive is at its limit"
+            ),
+            FindingKind::Outliers => {
+                write!(f, "{size:.0} rows miss by more than {OUTLYING} robust deviations; remove outliers")
+            }
+            FindingKind::Sign => write!(
+                f,
+                "torques are opposite to those of the description (correlation {size:.2}); change the sign of its torques or of its angles"
+            ),
+            FindingKind::Unit => write!(
+                f,
+                "torques are {size:.3e} times those of the description; are they in N m, or N of a joint that slides?"
+            ),
+            FindingKind::NoBodies => {
+                write!(f, "no bodies weigh what was found: all are at least {size:.1} deviations off")
+            }
+        }
+    }
+}
+
+/// What is wrong with torques, by joint: what was measured, what of it is missed, and what the description tells; `freedom` is how many torques there are beyond the unknowns.
+pub(super) fn findings(
+    joints: &[String],
+    torques: &[Vec<f64>],
+    misses: &[Vec<f64>],
+    told: &[Vec<f64>],
+    freedom: usize,
+) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let whole = |lists: &[Vec<f64>], of: fn(&[f64]) -> f64| lists.iter().map(|list| of(list)).sum::<f64>();
+    let share = (whole(misses, squares) / whole(torques, variation)).sqrt();
+    if freedom > 0 && share > UNEXPLAINED {
+        findings.push(Finding { kind: FindingKind::Unexplained, joint: None, size: share });
+    }
+    for (at, joint) in joints.iter().enumerate() {
+        let (torques, misses, told) = (&torques[at], &misses[at], &told[at]);
+        let mut find = |kind: FindingKind, size: Option<f64>| {
+            findings.extend(size.map(|size| Finding { kind, joint: Some(joint.clone()), size }));
+        };
+        find(FindingKind::Sign, opposite(torques, told));
+        find(FindingKind::Unit, other_unit(torques, told));
+        // Few rows, and rows that are matched exactly, tell no noise.
+        if torques.len() >= FEWEST && freedom >= FEWEST && unexplained(torques, misses) > TINY {
+            find(FindingKind::Clipped, clipped(torques, misses));
+            find(FindingKind::Outliers, outliers(torques, misses));
+            find(FindingKind::Correlated, correlated(misses));
+        }
+    }
+    findings
+}
+
+/// That no bodies weigh what was found.
+pub(super) fn of_bodies(consistency: &Consistency, freedom: usize) -> Option<Finding> {
+    let is_off = freedom > 0 && consistency.is_refuted();
+    is_off.then(|| Finding { kind: FindingKind::NoBodies, joint: None, size: consistency.least.sqrt() })
+}
+
+fn squares(list: &[f64]) -> f64 {
+    list.iter().map(|x| x * x).sum()
+}
+
+fn mean(list: &[f64]) -> f64 {
+    list.iter().sum::<f64>() / list.len().max(1) as f64
+}
+
+/// The sum of squares about the mean.
+fn variation(list: &[f64]) -> f64 {
+    let mean = mean(list);
+    list.iter().map(|x| (x - mean).powi(2)).sum()
+}
+
+pub(super) fn root_mean_square(list: &[f64]) -> f64 {
+    (squares(list) / list.len().max(1) as f64).sqrt()
+}
+
+/// What is missed, as a share of the torques' standard deviation; nought of torques that do not change and are met.
+pub(super) fn unexplained(torques: &[f64], misses: &[f64]) -> f64 {
+    let missed = squares(misses);
+    if missed == 0.0 { 0.0 } else { (missed / variation(torques)).sqrt() }
+}
+
+/// The correlation of two lists, and how many times as great the first one is.
+fn compared(list: &[f64], with: &[f64]) -> Option<[f64; 2]> {
+    let [a, b] = [mean(list), mean(with)];
+    let product: f64 = list.iter().zip(with).map(|(x, y)| (x - a) * (y - b)).sum();
+    let (own, other) = (variation(list), variation(with));
+    let correlation = product / (own * other).sqrt();
+    correlation.is_finite().then(|| [correlation, product / other])
+}
+
+fn opposite(torques: &[f64], told: &[f64]) -> Option<f64> {
+    compared(torques, told).map(|[correlation, _]| correlation).filter(|correlation| *correlation < OPPOSITE)
+}
+
+fn other_unit(torques: &[f64], told: &[f64]) -> Option<f64> {
+    let [correlation, ratio] = compared(torques, told)?;
+    let is_alike = correlation > ALIKE && torques.len() > 2;
+    (is_alike && !(1.0 / UNIT..UNIT).contains(&ratio)).then_some(ratio)
+}
+
+/// How many rows have an extreme torque where bodies need a greater one.
+fn clipped(torques: &[f64], misses: &[f64]) -> Option<f64> {
+    let (fewest, share, deviations) = CLIPPED;
+    let deviation = root_mean_square(misses);
+    let extremes = [(f64::max as fn(f64, f64) -> f64, -1.0), (f64::min as fn(f64, f64) -> f64, 1.0)];
+    let count = |(farther, inside): (fn(f64, f64) -> f64, f64)| {
+        let extreme = torques.iter().copied().reduce(farther)?;
+        let there: Vec<f64> =
+            torques.iter().zip(misses).filter(|(x, _)| **x == extreme).map(|(_, miss)| *miss).collect();
+        let is_often = there.len() >= fewest && there.len() as f64 >= share * torques.len() as f64;
+        let is_inside = inside * mean(&there) > deviations * deviation / (there.len() as f64).sqrt();
+        (is_often && is_inside && there.len() < torques.len()).then_some(there.len() as f64)
+    };
+    extremes.into_iter().filter_map(count).reduce(|a, b| a + b)
+}
+
+/// How many rows miss far more than half of them do.
+fn outliers(torques: &[f64], misses: &[f64]) -> Option<f64> {
+    let mut sizes: Vec<f64> = misses.iter().map(|miss| miss.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // Of a normal distribution the deviation is 1.4826 times the median size.
+    let deviation = 1.4826 * sizes[sizes.len() / 2];
+    let greatest = torques.iter().fold(0.0, |most: f64, torque| most.max(torque.abs()));
+    let least = (OUTLYING * deviation).max(GROSS * greatest);
+    let count = sizes.iter().filter(|size| **size > least).count();
+    (count > 0 && deviation > 0.0).then_some(count as f64)
+}
+
+/// The greatest correlation of misses some rows apart, if they are not independent (G. M. Ljung and G. E. P. Box, Biometrika 65, 1978).
+fn correlated(misses: &[f64]) -> Option<f64> {
+    let (count, middle, all) = (misses.len(), mean(misses), variation(misses));
+    let correlation = |lag: usize| {
+        let pairs = misses.iter().zip(&misses[lag..]);
+        pairs.map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>() / all
+    };
+    let lags: Vec<f64> = (1..=LAGS).map(correlation).collect();
+    let weigh = |(lag, value): (usize, &f64)| value * value / (count - lag) as f64;
+    let statistic = count as f64 * (count + 2) as f64 * (1..).zip(&lags).map(weigh).sum::<f64>();
+    let greatest = lags.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    (statistic > 1.5 * chi_square_999(LAGS) && greatest.abs() > CORRELATED).then_some(greatest)
+}
