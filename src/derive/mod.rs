@@ -22,6 +22,7 @@ mod print;
 pub mod proved;
 mod prover;
 mod radicals;
+mod recount;
 pub mod sequential;
 pub mod setting;
 pub mod stages;

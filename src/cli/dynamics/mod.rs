@@ -10,8 +10,6 @@ use super::Outcome;
 use super::part::PartArguments;
 use crate::codegen::dynamics::Function;
 
-pub use symbolic::reprove;
-
 const EXAMPLES: &str = "Examples:
   groebot dynamics ur5.urdf --states states.csv -o out.csv
   groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json
