@@ -12,7 +12,7 @@ use super::{motion, names};
 use crate::codegen::{c99::Pair, ikfast, rust, single_file};
 use crate::derive::ends::TASK_NAME;
 use crate::derive::stages::{MARK, PAGE};
-use crate::derive::{Proved, Source};
+use crate::derive::{Proved, Recount, Source};
 use crate::solver::Program;
 use crate::witness::{self, Report};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -43,7 +43,7 @@ pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked>
     let mut derivation = None;
     // A folder may hold equations of motion alone.
     if is_derived || moving.is_empty() {
-        match prove(source, stored, watch) {
+        match prove(source, stored, &mut Recount::new(watch)) {
             Ok(proved) => {
                 let checked = witness::check(source, &proved, watch)?;
                 let written = derived(source, &proved, &checked)?;
@@ -62,20 +62,17 @@ pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked>
 /// The derivation that the stored certificate proves, which claims as much as that of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] where there is no certificate; as [`Proved::again`] and [`Proved::recount`]; with the file.
-pub fn prove(source: &Source, stored: &Stored, watch: &Watch) -> Result<Proved> {
-    let path = stored.folder.join(CERTIFICATE);
+/// [`ErrorKind::Io`] where there is no certificate; as [`Proved::again`] and [`Recount::check`]; with the file.
+pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Proved> {
+    let at_file = |error: Error| error.in_file(&stored.folder.join(CERTIFICATE));
     let missing = || {
         let text = "there is no certificate, so nothing proves the other files; `groebot derive` writes it";
         Error::new(ErrorKind::Io, text)
     };
-    let proof = || {
-        let bytes = stored.get(CERTIFICATE).ok_or_else(missing)?;
-        let proved = Proved::again(source, &String::from_utf8_lossy(bytes))?;
-        proved.recount(watch)?;
-        Ok(proved.about(source))
-    };
-    proof().map_err(|error: Error| error.in_file(&path))
+    let bytes = stored.get(CERTIFICATE).ok_or_else(missing).map_err(at_file)?;
+    let proved = Proved::again(source, &String::from_utf8_lossy(bytes)).map_err(at_file)?;
+    recount.check(&proved).map_err(at_file)?;
+    Ok(proved.about(source))
 }
 
 /// Compares the files of a derivation with those that are stored; `proof` says what the certificate proves.
@@ -98,9 +95,12 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
     if name == PAGE && !has_mark(bytes) {
         return match is_by_hand(bytes, &file.bytes) {
             true => Finding::not_checked(name, "a page that groebot did not write"),
-            false => refused(&format!("the page lacks what follows from the proof, and `{MARK}`; `groebot derive` writes it")),
+            false => refused(&format!(
+                "the page lacks what follows from the proof, and `{MARK}`; `groebot derive` writes it"
+            )),
         };
     }
+    let equal = if bytes == file.bytes { "" } else { ", equal up to rounding" };
     match differing(bytes, file) {
         Some(line) => {
             let text = "this line is not what the certificate proves; `groebot derive` writes the right one";
@@ -108,8 +108,8 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
             Finding::fails(&stored.folder, name, error)
         }
         None if name == CERTIFICATE => Finding::holds(name, proof),
-        None if name == CHECKS => Finding::holds(name, check_words(checked)),
-        None => Finding::holds(name, "follows from the proof"),
+        None if name == CHECKS => Finding::holds(name, check_words(checked) + equal),
+        None => Finding::holds(name, format!("follows from the proof{equal}")),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What was measured, compared with what is measured again: words to the letter, numbers up to the rounding of another mathematical library.
 
-/// Coordinates are the same up to this share of their size, or of one.
+/// Coordinates and distances of joints, which next to a singular configuration are known less well than poses, are the same up to this share of
+/// their size, or of one.
 const NEAR: f64 = 1e-6;
 /// Residuals up to this are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -12,27 +13,34 @@ pub fn table_differs(stored: &str, measured: &str) -> Option<usize> {
     differs(stored, measured, |a, b| {
         let (a, b): (Vec<&str>, Vec<&str>) = (a.split(',').collect(), b.split(',').collect());
         // The last columns are the residual, the distance and the verdict.
-        let is_size = |column: usize| (2..4).contains(&(b.len() - column));
-        a.len() == b.len()
-            && a.iter().zip(&b).enumerate().all(|(column, (a, b))| match is_size(column) {
-                true => same_size(a, b),
-                false => same_place(a, b),
-            })
+        same_cells(&a, &b, |column| column + 3 == b.len())
     })
 }
 
 /// The first line, from 1, in which the measured part of a page differs; none where it says the same.
 pub fn page_differs(stored: &str, measured: &str) -> Option<usize> {
-    let words = |line: &str| -> Vec<String> {
-        let parts = line.split([' ', '|', ',', '(', ')', ':', ';']);
-        parts.map(|word| word.trim_end_matches('.').to_owned()).collect()
-    };
     differs(stored, measured, |a, b| {
-        // Weak spots tell their targets; all other numbers are residuals and distances.
-        let same = if b.starts_with('*') { same_place } else { same_size };
+        if b.starts_with('|') {
+            // The last columns are four residuals and two distances; the line ends in a bar.
+            let (a, b): (Vec<&str>, Vec<&str>) = (a.split('|').collect(), b.split('|').collect());
+            return same_cells(&a, &b, |column| column + 3 < b.len());
+        }
+        // A weak spot with its target, or a summary that ends in a residual.
+        let words = |line| -> Vec<&str> {
+            str::split(line, [' ', ',', '(', ')']).map(|word| word.trim_end_matches('.')).collect()
+        };
         let (a, b) = (words(a), words(b));
-        a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| same(a, b))
+        same_cells(&a, &b, |_| !b.starts_with(&["*"]))
     })
+}
+
+/// Whether two lists of cells are the same, where a column is a residual or any other.
+fn same_cells(a: &[&str], b: &[&str], is_residual: impl Fn(usize) -> bool) -> bool {
+    let same = |(column, (a, b)): (usize, (&&str, &&str))| match is_residual(column) {
+        true => same_residual(a.trim(), b.trim()),
+        false => same_place(a.trim(), b.trim()),
+    };
+    a.len() == b.len() && a.iter().zip(b).enumerate().all(same)
 }
 
 fn differs(stored: &str, measured: &str, same: impl Fn(&str, &str) -> bool) -> Option<usize> {
@@ -52,7 +60,7 @@ fn same_place(a: &str, b: &str) -> bool {
     a == b || numbers(a, b).is_some_and(|[x, y]| (x - y).abs() <= NEAR * (1.0 + y.abs()))
 }
 
-fn same_size(a: &str, b: &str) -> bool {
+fn same_residual(a: &str, b: &str) -> bool {
     let same = |[x, y]: [f64; 2]| x.min(y) >= 0.0 && (x.max(y) <= ROUNDING || x.max(y) <= FACTOR * x.min(y));
     a == b || numbers(a, b).is_some_and(same)
 }

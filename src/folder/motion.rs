@@ -73,7 +73,11 @@ pub fn files(
 pub fn check(source: &Source, stored: &Stored) -> Vec<Finding> {
     let folder = &stored.folder;
     let missing = |name: &str, other: &str| {
-        vec![Finding::refused(folder, name, format!("nothing proves this file: `{other}`, which belongs to it, is missing"))]
+        vec![Finding::refused(
+            folder,
+            name,
+            format!("nothing proves this file: `{other}`, which belongs to it, is missing"),
+        )]
     };
     match FILES.map(|name| stored.get(name)) {
         [None, None] => Vec::new(),
@@ -90,7 +94,8 @@ fn checked(source: &Source, stored: &Stored, text: &str, json: &str) -> Vec<Find
     let fails = |name: &str, error: Error| Finding::fails(&stored.folder, name, error);
     match read(source, json) {
         Err(error) => {
-            let unproved = Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{PROOF}` does not hold"));
+            let unproved =
+                Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{PROOF}` does not hold"));
             vec![fails(PROOF, error), fails(TEXT, unproved)]
         }
         Ok((certificate, moving)) => match certificate.prove(&moving.chain, text) {

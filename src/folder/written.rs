@@ -1,12 +1,12 @@
 //! The files of a derivation, in one list for the writer and the check. Main function: [`derived`].
 
 use super::names::{CHECKS, IKFAST, IKFAST_END, SOLVER};
+use crate::Result;
 use crate::codegen::{self, c99::Pair};
 use crate::derive::{Proved, Source, stages};
 use crate::document::word;
 use crate::solver::Program;
 use crate::witness::Report;
-use crate::Result;
 
 /// A file that is written.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -83,14 +83,6 @@ impl DerivedSixAxes {
         DerivedSixAxes::assemble(chain, six, claims.evidence, formulations)
     }
 
-    /// Whether the formulations are those that the derivation chooses, in its order.
-    ///
-    /// # Errors
-    /// As [`DerivedSixAxes::of_chain`].
-    pub(in crate::derive) fn has_all_formulations(&self) -> Result<bool> {
-        Ok(ranked(&self.six)? == self.formulations)
-    }
-
     /// Whether `text` is the certificate of six axes.
     pub fn is_certificate(text: &str) -> bool {
         head_of(text).is_some_and(|(proves, _)| proves == Proves::EigenvalueProblem)

@@ -21,7 +21,7 @@ mod types;
 
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
-pub(super) use recount::{same_evidence, same_plan};
+pub(super) use recount::{same_degrees, same_evidence};
 pub(super) use refuse::not_derived;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};

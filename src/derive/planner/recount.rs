@@ -1,49 +1,46 @@
-//! The numbers of solutions that a plan claims, counted again from the mechanism alone.
+//! The numbers of solutions that a plan claims, beside those that are counted again.
 
 use super::types::{Evidence, Plan, Way};
-use super::{eliminated, evidence, sights};
+use super::{eliminated, sights};
 use crate::derive::closure::Mechanism;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// Counts the solutions of `plan` again, and the values of joints that it finds by eliminating others.
+/// Whether the values of joints that `plan` finds by eliminating others are as many as it claims.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] where the plan claims other numbers; what `watch` stops with.
-pub fn same_plan(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result<()> {
-    same_evidence(mechanism, &plan.evidence, plan.dimension, watch)?;
-    let eliminations = plan.steps.iter().filter(|step| matches!(step.way, Way::Eliminated { .. }));
+/// [`ErrorKind::Certificate`] with the joint where they are not; what `watch` stops with.
+pub fn same_degrees(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result<()> {
+    let mut eliminations = plan.steps.iter().filter(|step| matches!(step.way, Way::Eliminated { .. })).peekable();
+    if eliminations.peek().is_none() {
+        return Ok(());
+    }
     let relations = mechanism.relations();
-    let mut seen = None;
+    let mut sights = sights(mechanism, &relations)?;
     for step in eliminations {
-        let seen = match &mut seen {
-            Some(seen) => seen,
-            none => none.insert(sights(mechanism, &relations)?),
-        };
-        let counted = eliminated::count(seen, step, watch)?;
+        let counted = eliminated::count(&mut sights, step, watch)?;
         if counted != step.degree {
             let name = &mechanism.joints()[step.joint].name;
-            let text = format!("`{name}` has {counted} values in its step, {} are claimed", step.degree);
-            return Err(Error::new(ErrorKind::Certificate, text));
+            return Err(refused(format!("`{name}` has {counted} values in its step, {} are claimed", step.degree)));
         }
     }
     Ok(())
 }
 
-/// Counts the solutions again at the targets modulo primes that every derivation takes.
+/// Whether the evidence that is claimed, and the number of solutions, are what was counted at the same targets; none was counted where solutions
+/// are infinitely many.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] where the evidence or the number that is claimed is another; what `watch` stops with.
-pub fn same_evidence(mechanism: &Mechanism, claimed: &[Evidence], dimension: usize, watch: &Watch) -> Result<()> {
-    let counted = evidence::gather(mechanism, &mechanism.relations(), watch)?;
+/// [`ErrorKind::Certificate`] with both numbers where they are not.
+pub fn same_evidence(counted: Option<&[Evidence]>, claimed: &[Evidence], dimension: usize) -> Result<()> {
     let counted = counted.ok_or_else(|| refused("there are infinitely many solutions".to_owned()))?;
     let least = counted.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
     if least != dimension {
         return Err(refused(format!("the input has {least} solutions, {dimension} are claimed")));
     }
-    if counted != claimed {
-        return Err(refused("the solutions counted modulo primes are not those that are recorded".to_owned()));
+    match counted == claimed {
+        true => Ok(()),
+        false => Err(refused("the solutions counted modulo primes are not those that are recorded".to_owned())),
     }
-    Ok(())
 }
 
 fn refused(text: String) -> Error {

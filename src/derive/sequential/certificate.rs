@@ -4,7 +4,7 @@
 //! ([`crate::derive::closure::prove`]), every step may use only what is known before it, its equations must have the form that the plan
 //! counts solutions by, and every form's bases are checked by [`crate::groebner::verify`] on all strata. So no solution is lost, and
 //! the product of the degrees is the number of solutions that the plan claims. That number itself was counted modulo primes: the
-//! certificate records with which poses, and [`crate::derive::Proved::recount`] counts again.
+//! certificate records with which poses, and [`crate::derive::Recount`] counts again.
 
 use serde::{Deserialize, Serialize};
 

@@ -110,7 +110,14 @@ impl ExactModel {
         let tree = Tree { base: Mass::zero(), bodies, order: (0..joints.len()).collect() };
         let down = down.unit(&setting);
         setting.check()?;
-        Ok(ExactModel { setting, has_symbols: matches!(masses, Masses::Symbols), tree, joints, down, given_gravity: gravity.clone() })
+        Ok(ExactModel {
+            setting,
+            has_symbols: matches!(masses, Masses::Symbols),
+            tree,
+            joints,
+            down,
+            given_gravity: gravity.clone(),
+        })
     }
 
     /// The places of the joints.
