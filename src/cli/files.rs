@@ -9,7 +9,7 @@ use crate::derive::ends::TASK_NAME;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Ends, Proved, Source, stages};
 use crate::document::{TEXT_LIMIT, is_stdin, read_text};
-use crate::folder::{CERTIFICATE, Written, derived, motion};
+use crate::folder::{CERTIFICATE, DYNAMICS, Written, derived};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
@@ -27,7 +27,7 @@ pub fn is_derived(folder: &Path) -> bool {
     let mut head = [0; HEAD];
     // The first key tells; before formats had numbers it was the other.
     let is_ours = |text: &str| text.contains("\"proves\"") || text.contains("\"groebot\"");
-    [CERTIFICATE, motion::PROOF].iter().any(|name| {
+    [CERTIFICATE, DYNAMICS].iter().any(|name| {
         let read = fs::File::open(folder.join(name)).and_then(|mut file| file.read(&mut head));
         read.is_ok_and(|count| is_ours(&String::from_utf8_lossy(&head[..count])))
     })

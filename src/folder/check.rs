@@ -39,7 +39,7 @@ pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked>
     let mut findings = vec![Finding::holds(source.name, described(source))];
     let mut known: BTreeSet<String> = inputs(source).map(str::to_owned).collect();
     let moving = motion::check(source, stored);
-    let is_derived = stored.written().any(|name| !motion::FILES.contains(&name));
+    let is_derived = stored.written().any(|name| !names::MOTION.contains(&name));
     let mut derivation = None;
     // A folder may hold equations of motion alone.
     if is_derived || moving.is_empty() {
@@ -152,7 +152,7 @@ fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) 
                 Finding::holds(name, "follows from the proof")
             }
             Some(_) => {
-                let text = "nothing proves this file: it is none of this derivation's; move it away, or derive again";
+                let text = "nothing proves this file: this derivation does not write it; move it away";
                 Finding::refused(&stored.folder, name, text)
             }
             None => Finding::refused(&stored.folder, name, "nothing proves this file: no certificate does"),

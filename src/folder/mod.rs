@@ -12,6 +12,6 @@ mod written;
 
 pub use check::{Checked, check, compare, prove};
 pub use finding::{Finding, Verdict};
-pub use names::{CERTIFICATE, CHECKS, is_printed_solver, is_written_name};
+pub use names::{CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, is_printed_solver, is_written_name};
 pub use stored::Stored;
 pub use written::{Written, derived, printed_solvers};

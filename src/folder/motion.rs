@@ -1,6 +1,7 @@
 //! Equations of motion in a mechanism's folder: what tells them, what proves them ([`files`]), and the check of both ([`check`]).
 
 use super::finding::Finding;
+use super::names::{DYNAMICS, DYNAMICS_TEXT, MOTION};
 use super::stored::Stored;
 use crate::derive::{Description, Ends, InputFile, Source};
 use crate::dynamics::exact::{Certificate, Masses, Symbolic, masses};
@@ -9,13 +10,6 @@ use crate::model::Robot;
 use crate::number::BigRational;
 use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
-
-/// The polynomials.
-pub const TEXT: &str = "7_dynamics.txt";
-/// Their certificate: an addition to that of a derivation, never one in its place.
-pub const PROOF: &str = "7_dynamics.json";
-/// All that is written.
-pub const FILES: [&str; 2] = [TEXT, PROOF];
 
 /// A chain that moves, and what its bodies weigh.
 #[derive(Clone, Debug)]
@@ -66,7 +60,8 @@ pub fn files(
     let certificate = Certificate::new(symbolic, chain, masses, gravity);
     let text = symbolic.to_text();
     certificate.prove(chain, &text)?;
-    Ok([(TEXT, text), (PROOF, certificate.to_json())].map(|(name, text)| (name.to_owned(), text.into_bytes())))
+    Ok([(DYNAMICS_TEXT, text), (DYNAMICS, certificate.to_json())]
+        .map(|(name, text)| (name.to_owned(), text.into_bytes())))
 }
 
 /// Checks the equations of motion of a folder; nothing where it has none.
@@ -79,10 +74,10 @@ pub fn check(source: &Source, stored: &Stored) -> Vec<Finding> {
             format!("nothing proves this file: `{other}`, which belongs to it, is missing"),
         )]
     };
-    match FILES.map(|name| stored.get(name)) {
+    match MOTION.map(|name| stored.get(name)) {
         [None, None] => Vec::new(),
-        [Some(_), None] => missing(TEXT, PROOF),
-        [None, Some(_)] => missing(PROOF, TEXT),
+        [Some(_), None] => missing(DYNAMICS_TEXT, DYNAMICS),
+        [None, Some(_)] => missing(DYNAMICS, DYNAMICS_TEXT),
         [Some(text), Some(json)] => {
             let [text, json] = [text, json].map(String::from_utf8_lossy);
             checked(source, stored, &text, &json)
@@ -95,12 +90,15 @@ fn checked(source: &Source, stored: &Stored, text: &str, json: &str) -> Vec<Find
     match read(source, json) {
         Err(error) => {
             let unproved =
-                Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{PROOF}` does not hold"));
-            vec![fails(PROOF, error), fails(TEXT, unproved)]
+                Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{DYNAMICS}` does not hold"));
+            vec![fails(DYNAMICS, error), fails(DYNAMICS_TEXT, unproved)]
         }
         Ok((certificate, moving)) => match certificate.prove(&moving.chain, text) {
-            Err(error) => vec![Finding::holds(PROOF, "about this chain"), fails(TEXT, error)],
-            Ok(proof) => vec![Finding::holds(PROOF, proof.to_string()), Finding::holds(TEXT, "follows from the proof")],
+            Err(error) => vec![Finding::holds(DYNAMICS, "about this chain"), fails(DYNAMICS_TEXT, error)],
+            Ok(proof) => vec![
+                Finding::holds(DYNAMICS, proof.to_string()),
+                Finding::holds(DYNAMICS_TEXT, "follows from the proof"),
+            ],
         },
     }
 }

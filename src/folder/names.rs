@@ -1,10 +1,15 @@
 //! The names of files that are written into a mechanism's folder.
 
-use super::motion;
 use crate::derive::stages::STAGES;
 
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";
+/// The equations of motion as polynomials.
+pub const DYNAMICS_TEXT: &str = "7_dynamics.txt";
+/// The certificate of equations of motion: an addition to that of a derivation, never one in its place.
+pub const DYNAMICS: &str = "7_dynamics.json";
+/// All that tells of equations of motion.
+pub(super) const MOTION: [&str; 2] = [DYNAMICS_TEXT, DYNAMICS];
 /// The file of the proof.
 pub const CERTIFICATE: &str = "certificate.json";
 
@@ -29,7 +34,7 @@ pub fn is_written_name(name: &str) -> bool {
         name.strip_prefix(stem).and_then(|rest| rest.strip_prefix('.')).is_some_and(|end| ends.contains(&end))
     };
     STAGES.contains(&name)
-        || motion::FILES.contains(&name)
+        || MOTION.contains(&name)
         || name == CHECKS
         || solver(SOLVER, &CODE[..3])
         || solver(IKFAST, &CODE[3..])

@@ -43,7 +43,7 @@ fn forgeries(text: &str, proved: usize, other: &str) -> Vec<(String, String)> {
         let mut add = |what: &str, changed: Option<String>| {
             forged.extend(changed.map(|changed| (format!("{what} at line {}", line + 1), changed)));
         };
-        add("a line removed", with_lines(text, |lines| drop(lines.remove(line))));
+        add("a line removed", with_lines(text, |lines| _ = lines.remove(line)));
         add("a line doubled", with_lines(text, |lines| lines.insert(line, lines[line])));
         add("two lines exchanged", with_lines(text, |lines| lines.swap(line, (line + 1) % count)));
         add(

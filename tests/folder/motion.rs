@@ -1,7 +1,7 @@
 //! Forged equations of motion, and their certificates.
 
-use groebot::folder::motion::{PROOF, TEXT, check};
-use groebot::folder::{Finding, Stored, Verdict};
+use groebot::folder::motion::check;
+use groebot::folder::{DYNAMICS, DYNAMICS_TEXT, Finding, Stored, Verdict};
 use serde_json::{Value, json};
 
 use super::honest::{self, Honest};
@@ -23,13 +23,13 @@ fn with(honest: &Honest, name: &str, text: Option<&str>) -> Vec<Finding> {
 fn forged_polynomials_and_legends_are_refused() {
     let honest = Honest::new("planar_2r");
     assert!(!fails(&check(&honest.source, &honest.stored)), "{:?}", check(&honest.source, &honest.stored));
-    let text = honest::text("planar_2r", TEXT);
+    let text = honest::text("planar_2r", DYNAMICS_TEXT);
     let lines: Vec<&str> = text.split_inclusive('\n').collect();
     let mut count = 0;
     let mut refuse = |what: &str, lines: &[&str]| {
         let changed = lines.concat();
         if changed != text {
-            assert!(fails(&with(&honest, TEXT, Some(&changed))), "{what}:\n{changed}");
+            assert!(fails(&with(&honest, DYNAMICS_TEXT, Some(&changed))), "{what}:\n{changed}");
             count += 1;
         }
     };
@@ -50,16 +50,16 @@ fn forged_polynomials_and_legends_are_refused() {
             refuse("changed", &all);
         }
     }
-    refuse("another robot's", &[&honest::text("scara", TEXT)]);
+    refuse("another robot's", &[&honest::text("scara", DYNAMICS_TEXT)]);
     refuse("emptied", &[]);
     assert!(count > 120, "{count}");
-    assert!(fails(&with(&honest, TEXT, None)) && fails(&with(&honest, PROOF, None)));
+    assert!(fails(&with(&honest, DYNAMICS_TEXT, None)) && fails(&with(&honest, DYNAMICS, None)));
 }
 
 #[test]
 fn forged_certificates_of_motion_are_refused() {
     let honest = Honest::new("planar_2r");
-    let whole: Value = serde_json::from_str(&honest::text("planar_2r", PROOF)).unwrap();
+    let whole: Value = serde_json::from_str(&honest::text("planar_2r", DYNAMICS)).unwrap();
     let gravity = whole["claims"]["gravity"].clone();
     let [x, y, z]: [String; 3] = serde_json::from_value(gravity.clone()).unwrap();
     let half = |word: &str| if word == "0" { "0".to_owned() } else { format!("{word}/2").replace("/100/2", "/200") };
@@ -84,9 +84,9 @@ fn forged_certificates_of_motion_are_refused() {
         forged.pointer_mut(parent).unwrap()[key] = value.clone();
         assert_ne!(forged, whole);
         let text = serde_json::to_string_pretty(&forged).unwrap() + "\n";
-        assert!(fails(&with(&honest, PROOF, Some(&text))), "{place}: {value}");
+        assert!(fails(&with(&honest, DYNAMICS, Some(&text))), "{place}: {value}");
     }
-    for text in [honest::text("scara", PROOF), honest::text("planar_2r", "certificate.json"), whole.to_string()] {
-        assert!(fails(&with(&honest, PROOF, Some(&text))), "{text}");
+    for text in [honest::text("scara", DYNAMICS), honest::text("planar_2r", "certificate.json"), whole.to_string()] {
+        assert!(fails(&with(&honest, DYNAMICS, Some(&text))), "{text}");
     }
 }
