@@ -36,9 +36,10 @@ pub fn page_differs(stored: &str, measured: &str) -> Option<usize> {
 
 /// Whether two lists of cells are the same, where a column is a residual or any other.
 fn same_cells(a: &[&str], b: &[&str], is_residual: impl Fn(usize) -> bool) -> bool {
-    let same = |(column, (a, b)): (usize, (&&str, &&str))| match is_residual(column) {
-        true => same_residual(a.trim(), b.trim()),
-        false => same_place(a.trim(), b.trim()),
+    let space = |cell: &str| [cell.len() - cell.trim_start().len(), cell.len() - cell.trim_end().len()];
+    let same = |(column, (a, b)): (usize, (&&str, &&str))| {
+        let same = if is_residual(column) { same_residual } else { same_place };
+        a == b || space(a) == space(b) && same(a.trim(), b.trim())
     };
     a.len() == b.len() && a.iter().zip(b).enumerate().all(same)
 }

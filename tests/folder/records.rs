@@ -95,13 +95,13 @@ fn evenly<T>(list: Vec<T>, count: usize) -> Vec<T> {
 
 /// What a forger's certificate proves, when it is accepted and written as a certificate is.
 fn accepted(honest: &mut Honest, forged: &Value) -> Option<Proved> {
-    let text = serde_json::to_string_pretty(forged).unwrap() + "\n";
     let mut stored = honest.stored.clone();
-    stored.files.insert(CERTIFICATE.to_owned(), text.clone().into_bytes());
+    stored.files.insert(CERTIFICATE.to_owned(), forged.to_string().into_bytes());
     let proved = prove(&honest.source, &stored, &mut honest.recount).ok()?;
     let files = proved.stage_files().unwrap();
     let own = files.iter().find(|(name, _)| name == CERTIFICATE).unwrap();
-    (own.1 == text.as_bytes()).then_some(proved)
+    // The order of keys and the space between them say nothing.
+    (serde_json::from_slice::<Value>(&own.1).unwrap() == *forged).then_some(proved)
 }
 
 /// Whether two solvers give the same answers at targets, and claim the same number of them.
@@ -148,7 +148,7 @@ fn forge_records(mut honest: Honest, other: &Value, table: &str) -> usize {
 #[test]
 fn forged_records_of_equations_are_refused() {
     let [leg, arm] = ["nao_leg_sagittal", "nao_arm_planar"].map(honest::certificate);
-    assert!(forge_records(Honest::new("nao_arm_planar"), &leg, "") > 90);
+    assert!(forge_records(Honest::new("nao_arm_planar"), &leg, &honest::text("nao_arm_planar", "6_check.csv")) > 90);
     assert!(
         forge_records(Honest::new("nao_leg_sagittal"), &arm, &honest::text("nao_leg_sagittal", "6_check.csv")) > 90
     );
