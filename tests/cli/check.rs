@@ -114,7 +114,7 @@ fn fails_at(folder: &Path, names: &[&str]) {
 fn equations_of_motion_prove_no_solver() {
     let folder = copy_of("planar_2r");
     fs::remove_file(folder.path().join("certificate.json")).unwrap();
-    edit(&folder.path().join("5_program.json"), "\"capacity\"", "1", "2");
+    edit(&folder.path().join("5_program.json"), "\"name\"", "planar_2r", "planar_3r");
     let ran = run(&["check", text(folder.path())]);
     assert!(ran.code == 1 && ran.err.contains("certificate.json") && ran.err.contains("no certificate"), "{}", ran.err);
     for name in [
