@@ -82,6 +82,8 @@ pub mod codegen;
 pub mod sim;
 pub mod witness;
 
+pub mod folder;
+
 #[cfg(feature = "cli")]
 pub mod cli;
 

@@ -11,6 +11,7 @@ mod document;
 mod dynamics;
 mod eigenvalue;
 mod files;
+mod folder;
 mod gait;
 mod groebner;
 mod kinematics;

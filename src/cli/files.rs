@@ -4,22 +4,15 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::codegen::{self, c99::Pair};
+use crate::codegen;
 use crate::derive::ends::TASK_NAME;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Ends, Proved, Source, stages};
-use crate::document::{TEXT_LIMIT, is_stdin, read_text, word};
+use crate::document::{TEXT_LIMIT, is_stdin, read_text};
+use crate::folder::{CERTIFICATE, DYNAMICS, Written, derived};
 use crate::solver::Program;
 use crate::witness::Report;
 use crate::{Error, ErrorKind, Result};
-
-/// The file of the numeric checks.
-pub const CHECKS: &str = "6_check.csv";
-/// The file of the proof.
-pub const CERTIFICATE: &str = "certificate.json";
-
-/// The file of the proof of equations of motion.
-pub const DYNAMICS: &str = "7_dynamics.json";
 
 /// So many bytes of a certificate tell that it is one of ours.
 const HEAD: usize = 200;
@@ -95,11 +88,11 @@ fn holds_another(folder: &Path, source: &Source) -> bool {
     own.exists() && !is_derived(folder) && !is_same_file(&source.path, &own) && !is_copy()
 }
 
-/// Every file of a derivation with its name: the stages, the printed solvers, the numeric checks, and the input itself with the files
-/// that it refers to when `folder` does not hold them yet.
+/// Every file of a derivation with its name: those of [`derived`], and the input itself with the files that it refers to when `folder` does not
+/// hold them yet.
 ///
 /// # Errors
-/// As [`Proved::stage_files`] and [`read_text`].
+/// As [`derived`] and [`read_text`].
 pub fn assemble_files(
     source: &Source,
     derivation: &Proved,
@@ -107,18 +100,8 @@ pub fn assemble_files(
     folder: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>> {
     let mut files = source_files(source, folder)?;
-    files.extend(derivation.stage_files()?.into_iter().filter(|(name, _)| is_ours(folder, name)));
-    if let (Proved::Chain(_) | Proved::SixAxes(_) | Proved::Coupled(_), Some((_, page))) =
-        (derivation, files.iter_mut().find(|(name, _)| name == stages::PAGE))
-    {
-        page.extend(accuracy(checked).into_bytes());
-        page.extend(weak_spots(checked).into_bytes());
-        if let Proved::Coupled(_) = derivation {
-            page.extend(format!("\nWitnesses: {}.\n", checked.summary()).into_bytes());
-        }
-    }
-    files.extend(printed_solvers(derivation.program(), source));
-    files.push((CHECKS.to_owned(), checked.to_csv().into_bytes()));
+    let written = derived(source, derivation, checked)?.into_iter().filter(|file| is_ours(folder, &file.name));
+    files.extend(written.map(|Written { name, bytes, .. }| (name, bytes)));
     files.sort_by(|a, b| a.0.cmp(&b.0));
     Ok(files)
 }
@@ -142,29 +125,8 @@ pub fn source_files(source: &Source, folder: &Path) -> Result<Vec<(String, Vec<u
     Ok(files)
 }
 
-/// What the page of a chain or of coupled chains says about measured accuracy, behind what follows from the proof.
-fn accuracy(checked: &Report) -> String {
-    format!(
-        "\n## Accuracy, measured\n\nResiduals by forward kinematics (shares of the reach, radians), and how far the joints that made the \
-         target are from the nearest answer:\nat random targets, at and near singular ones, and at the border of the workspace. Next to a \
-         singular configuration joints are known\nless well than the pose.\n\n{}",
-        checked.accuracy()
-    )
-}
-
-/// What the page says about targets at which answers are wrong or missing; nothing where there are none.
-fn weak_spots(checked: &Report) -> String {
-    let rows: String = checked.weak_spots().map(|row| format!("* row {}, {}\n", row.number, row.weakness())).collect();
-    if rows.is_empty() {
-        return rows;
-    }
-    format!(
-        "\n## Weak spots\n\nAt these targets of `6_check.csv`, singular or next to such, the answers are not all right:\n\n{rows}"
-    )
-}
-
-/// Whether a stage file may be written and compared: a page that a person wrote in the place of ours is left alone.
-pub fn is_ours(folder: &Path, name: &str) -> bool {
+/// Whether a file of a derivation may be written: a page that a person wrote in the place of ours is left alone.
+fn is_ours(folder: &Path, name: &str) -> bool {
     let by_hand = |text: String| !text.contains(stages::MARK);
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
@@ -172,22 +134,6 @@ pub fn is_ours(folder: &Path, name: &str) -> bool {
 /// Whether `folder` has a task file that asks the same in words of its own.
 fn keeps_task(source: &Source, folder: &Path) -> bool {
     Ends::read(&folder.join(TASK_NAME)).is_ok_and(|ends| ends == source.ends)
-}
-
-/// The program as source code, one file a language but C's two, named as `source` asks; IKFast's only where it has a type for the task.
-pub fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u8>)> {
-    let stems = source.ends.name.as_deref().map(word);
-    let [solver, ikfast] =
-        stems.map_or(["5_solver".into(), "5_ikfast".into()], |stem| [stem.clone(), stem + "_ikfast"]);
-    let Pair { header, source: code } = Pair::new(program, &solver);
-    let own = [
-        (format!("{solver}.c"), code.into_bytes()),
-        (format!("{solver}.h"), header.into_bytes()),
-        (format!("{solver}.rs"), codegen::rust::emit(program).into_bytes()),
-    ];
-    let for_ikfast = codegen::ikfast::emit_beside(program, &codegen::ikfast::Options::default(), &solver);
-    let for_ikfast = for_ikfast.ok().map(|text| (format!("{ikfast}.cpp"), text.into_bytes()));
-    for_ikfast.into_iter().chain(own).collect()
 }
 
 /// Why there is no file for IKFast; nothing where there is one.

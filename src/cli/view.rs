@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::files::CERTIFICATE;
 use super::floor::{PlaceArguments, room_text};
 use super::moving::{self, Motion};
 use super::progress::{Limits, Session};
@@ -11,6 +10,7 @@ use super::{Outcome, console};
 use crate::derive::{Ends, InputFile, Proved};
 use crate::document::{read_text, shown};
 use crate::files::write_atomically;
+use crate::folder::CERTIFICATE;
 use crate::gait::{Footprint, Side};
 use crate::model::Robot;
 use crate::motion::table::TABLE_LIMIT;

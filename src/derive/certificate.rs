@@ -1,58 +1,29 @@
 //! The stored proof of a derivation: `certificate.json`.
 //!
 //! It lists, stratum by stratum in the order in which the tree grows, the basis and the cofactors. Reading it grows the tree anew from
-//! the equations: every claim is checked by [`crate::groebner::verify`], every denominator is split and branched on again, and only the
-//! Groebner engine is left out. What comes back is a [`Derivation`] that is proved, or an error that says where the proof fails.
-
-use std::fmt;
+//! the equations: every claim is checked by [`crate::groebner::verify`], every denominator is split and branched on again, and the
+//! Groebner engine is left out, but for a stratum that is claimed to be open: the engine must leave it open, too. What comes back is a [`Derivation`] that is proved, or an error that says where the proof fails.
 
 use serde::{Deserialize, Serialize};
 
 use super::certify::Certified;
 use super::grow::grow;
-use super::prover::{MEMBER, Prover, joints_of, member_setting, specialises};
+use super::prover::{Engine, MEMBER, Orders, Prover, joints_of, member_setting, specialises};
 use super::setting::{Poly, Setting, Unknowns};
 use super::tree::{Node, Outcome, SelfMotion, Solved};
 use super::triangular::triangularise;
 use super::{Derivation, System};
-use crate::document::{JsonFormat, shown};
+use crate::document::{Certificate, Proves};
 use crate::groebner::Basis;
 use crate::groebner::verify::Proof;
 use crate::number::{Ring, Style};
 use crate::poly::{Order, parse};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
-/// The form of certificates of all kinds.
-pub(super) const FORMAT: JsonFormat =
-    JsonFormat { what: "certificate", number: 5, renew: "`groebot derive` on its folder writes it anew" };
-
-/// What a certificate proves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Proves {
-    Equations,
-    Chain,
-    EigenvalueProblem,
-    CoupledChains,
-}
-
-impl fmt::Display for Proves {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Proves::Equations => "the equations",
-            Proves::Chain => "the chain",
-            Proves::EigenvalueProblem => "the eigenvalue problem",
-            Proves::CoupledChains => "the coupled chains",
-        })
-    }
-}
-
+/// What is claimed about equations.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Record {
-    format: u32,
-    proves: Proves,
-    name: String,
+struct Claims {
     requested: Vec<Entry>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     searched: Option<Vec<Entry>>,
@@ -96,14 +67,11 @@ struct Claim {
 /// # Errors
 /// When a setting's field cannot be built: never for a derivation that was made by this crate.
 pub fn write(derivation: &Derivation) -> Result<String> {
-    let record = Record {
-        format: FORMAT.number,
-        proves: Proves::Equations,
-        name: derivation.system.name.clone(),
+    let claims = Claims {
         requested: entries(&derivation.requested)?,
         searched: derivation.searched.as_ref().map(entries).transpose()?,
     };
-    Ok(written(&record))
+    Ok(Certificate::new(Proves::Equations, &derivation.system.name, claims).to_json())
 }
 
 /// Proves the derivation of `system` anew from the text of its certificate, without the Groebner engine.
@@ -112,10 +80,10 @@ pub fn write(derivation: &Derivation) -> Result<String> {
 /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum for a claim that does
 /// not hold, is missing or is left over.
 pub fn prove(system: &System, text: &str) -> Result<Derivation> {
-    let record: Record = FORMAT.read(text)?;
-    check_head((record.proves, &record.name), (Proves::Equations, &system.name))?;
-    let requested = replay(system, &record.requested).map_err(|error| error.with_context("requested order"))?;
-    let searched = record.searched.as_ref().map(|entries| replay(system, entries)).transpose();
+    let claims: Claims = Certificate::read(text, Proves::Equations, &system.name)?;
+    let requested = replay(system, Orders::Requested, &claims.requested);
+    let requested = requested.map_err(|error| error.with_context("requested order"))?;
+    let searched = claims.searched.as_ref().map(|entries| replay(system, Orders::Searched, entries)).transpose();
     let searched = searched.map_err(|error| error.with_context("searched order"))?;
     let generic = requested.solved().map(|solved| solved.certified.order.as_slice());
     if generic != Some(system.order.as_slice()) {
@@ -124,44 +92,17 @@ pub fn prove(system: &System, text: &str) -> Result<Derivation> {
     Derivation::assemble(system.clone(), requested, searched)
 }
 
-/// What the certificate in `text` proves; none for text that is no certificate, or an old one.
-pub(super) fn proves(text: &str) -> Option<Proves> {
-    #[derive(Deserialize)]
-    struct Head {
-        proves: Proves,
-    }
-    serde_json::from_str(text).ok().map(|Head { proves }| proves)
-}
-
-/// A record as the text of a certificate of any kind.
-pub(super) fn written(record: &impl Serialize) -> String {
-    serde_json::to_string_pretty(record).expect("a record holds nothing that JSON cannot say") + "\n"
-}
-
-/// Text that is no record.
-pub(super) fn unread(error: &serde_json::Error) -> Error {
-    Error::new(ErrorKind::Syntax, format!("certificate: {error}")).at_line(error.line())
-}
-
-/// Whether a certificate that proves this, of this name, is the one that is allowed.
-///
-/// # Errors
-/// [`ErrorKind::Certificate`] when it is not.
-pub(super) fn check_head(found: (Proves, &str), allowed: (Proves, &str)) -> Result<()> {
-    if found == allowed {
-        return Ok(());
-    }
-    let words = |(proves, name): (Proves, &str)| format!("{proves} `{}`", shown(name));
-    Err(refused(format!("this certificate proves {}; one of {} is allowed", words(found), words(allowed))))
-}
-
 /// A claim that does not hold.
 pub(super) fn refused(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
-pub(super) fn replay(system: &System, entries: &[Entry]) -> Result<Node> {
-    let mut replay = Replay { system, entries: entries.iter() };
+/// The tree of strata of `system` in these orders from what is claimed about it, proved.
+///
+/// # Errors
+/// [`ErrorKind::Certificate`] with the stratum for a claim that does not hold, is missing, is left over, or says less than can be derived.
+pub(super) fn replay(system: &System, orders: Orders, entries: &[Entry]) -> Result<Node> {
+    let mut replay = Replay { system, orders, entries: entries.iter() };
     let node = grow(system, &mut replay)?;
     match (replay.entries.next(), &node.outcome) {
         (Some(entry), _) => Err(refused(format!("stratum `{}` does not belong to this derivation", entry.stratum))),
@@ -205,6 +146,7 @@ fn push_entry(node: &Node, list: &mut Vec<Entry>) -> Result<()> {
 /// Proves by checking stored claims, in order.
 struct Replay<'a> {
     system: &'a System,
+    orders: Orders,
     entries: std::slice::Iter<'a, Entry>,
 }
 
@@ -227,7 +169,7 @@ impl Prover for Replay<'_> {
 impl Replay<'_> {
     fn check(&mut self, claim: &Claim, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
         if claim.kind == Kind::Open {
-            return Ok(Outcome::Open(claim.reason.clone()));
+            return self.open(claim, label, setting, parent);
         }
         let (ring, certified) = verified(claim, setting)?;
         let basis = Basis { ring: ring.clone(), polynomials: certified.basis.clone(), cofactors: Vec::new() };
@@ -249,6 +191,18 @@ impl Replay<'_> {
                 Ok(Outcome::SelfMotion(Box::new(SelfMotion { free, certified, member })))
             }
             _ => Err(refused("the basis is not of the kind that is claimed".to_owned())),
+        }
+    }
+}
+
+impl Replay<'_> {
+    /// A stratum may be left open only where the derivation itself leaves it open, for the same reason: the engine is asked again.
+    fn open(&self, claim: &Claim, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
+        let mut engine = Engine { system: self.system, orders: self.orders, watch: &Watch::none() };
+        match engine.prove(label, setting, parent)? {
+            Outcome::Open(reason) if reason == claim.reason => Ok(Outcome::Open(reason)),
+            Outcome::Open(reason) => Err(refused(format!("it is open, but for another reason: {reason}"))),
+            _ => Err(refused("it is claimed to be open, and can be derived".to_owned())),
         }
     }
 }

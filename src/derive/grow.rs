@@ -1,7 +1,7 @@
 //! Growing the tree of strata: a proof, its denominators, and a branch wherever one of them may vanish.
 
 use super::System;
-use super::prover::{Engine, Orders, Prover};
+use super::prover::{Engine, GENERIC, Orders, Prover, is_final};
 use super::setting::{ParameterPoly, Setting, Substitution, expression_of};
 use super::strata::{self, ZeroSet};
 use super::tree::{Excluded, Node, Outcome, Solved};
@@ -40,7 +40,7 @@ pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Nod
 
 /// The tree of `system` with outcomes from `prover`.
 pub(super) fn grow(system: &System, prover: &mut dyn Prover) -> Result<Node> {
-    let place = Place { label: "generic".to_owned(), factors: Vec::new() };
+    let place = Place { label: GENERIC.to_owned(), factors: Vec::new() };
     Builder { prover, seen: Vec::new() }.node(place, Setting::new(system), None, 0)
 }
 
@@ -125,15 +125,10 @@ pub(super) fn apply(setting: &Setting, substitutions: &[Substitution]) -> Result
     substitutions.iter().try_fold(setting.clone(), |setting, substitution| setting.substitute(substitution))
 }
 
-/// Errors that end the whole derivation; others leave one stratum open.
-fn is_final(error: &Error) -> bool {
-    matches!(error.kind(), ErrorKind::Cancelled | ErrorKind::Budget | ErrorKind::Certificate)
-}
-
 fn place_of(node: &Node, factor: &Expression, setting: &Setting) -> Place {
     let new = &setting.substitutions[node.setting.substitutions.len()..];
     let label = new.iter().map(|s| format!("{} = {}", s.name, s.value)).collect::<Vec<_>>().join(", ");
-    let label = if node.label == "generic" { label } else { format!("{}, {label}", node.label) };
+    let label = if node.label == GENERIC { label } else { format!("{}, {label}", node.label) };
     let mut factors = node.factors.clone();
     factors.push(factor.clone());
     Place { label, factors }
@@ -141,7 +136,7 @@ fn place_of(node: &Node, factor: &Expression, setting: &Setting) -> Place {
 
 fn open_node(node: &Node, factor: Expression, reason: String) -> Node {
     let label = format!("{factor} = 0");
-    let label = if node.label == "generic" { label } else { format!("{}, {label}", node.label) };
+    let label = if node.label == GENERIC { label } else { format!("{}, {label}", node.label) };
     let mut factors = node.factors.clone();
     factors.push(factor);
     Node { factors, derivable: false, ..Node::leaf(&label, node.setting.clone(), Outcome::Open(reason)) }

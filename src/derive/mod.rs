@@ -22,6 +22,7 @@ mod print;
 pub mod proved;
 mod prover;
 mod radicals;
+mod recount;
 pub mod sequential;
 pub mod setting;
 pub mod stages;
@@ -40,6 +41,7 @@ pub use grow::{derive_tree, describe};
 pub use input::{Description, InputFile, Source};
 pub use proved::Proved;
 pub use prover::Orders;
+pub use recount::Recount;
 pub use system::System;
 pub use system_parts::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,

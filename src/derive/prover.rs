@@ -8,7 +8,7 @@ use super::triangular::triangularise;
 use super::{JointKindUnknown, System};
 use crate::groebner::{Basis, Quotient};
 use crate::poly::{Expression, Order};
-use crate::{Result, Watch};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// Gives the proved outcome of a setting's equations.
 pub(super) trait Prover {
@@ -33,9 +33,13 @@ pub(super) struct Engine<'a> {
 }
 
 impl Prover for Engine<'_> {
-    fn prove(&mut self, _label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
+    fn prove(&mut self, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
         self.watch.check()?;
-        self.outcome(setting, parent)
+        match self.outcome(setting, parent) {
+            // Inside a derivation a stratum that cannot be derived stays open, and is recorded as such.
+            Err(error) if label != GENERIC && !is_final(&error) => Ok(Outcome::Open(error.message().to_owned())),
+            outcome => outcome,
+        }
     }
 }
 
@@ -119,6 +123,14 @@ pub(super) fn specialises(parent: &Solved, setting: &Setting, lex: &Basis<Coeffi
     }
     Ok(true)
 }
+
+/// Errors that end the whole derivation; others leave one stratum open.
+pub(super) fn is_final(error: &Error) -> bool {
+    matches!(error.kind(), ErrorKind::Cancelled | ErrorKind::Budget | ErrorKind::Certificate)
+}
+
+/// The label of the root.
+pub(super) const GENERIC: &str = "generic";
 
 /// The label of a self-motion's member.
 pub(super) const MEMBER: &str = "free joints at zero";

@@ -11,6 +11,7 @@
 //! # Ok::<(), groebot::Error>(())
 //! ```
 
+mod certificate;
 mod content;
 mod encoding;
 mod json;
@@ -23,6 +24,7 @@ use toml::de::{DeInteger, DeTable, DeValue};
 use crate::number::{BigInt, BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
+pub(crate) use certificate::{Certificate, Proves, head_of};
 pub(crate) use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub(crate) use json::JsonFormat;

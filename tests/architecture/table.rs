@@ -7,7 +7,7 @@ const ROOT: [&str; 3] = ["error", "watch", "files"];
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 26] = [
+const TABLE: [(&str, Uses); 27] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -51,6 +51,10 @@ const TABLE: [(&str, Uses); 26] = [
         ]),
     ),
     ("serve", Uses::Only(&["sim"])),
+    (
+        "folder",
+        Uses::Only(&["number", "spatial", "model", "kinematics", "dynamics", "solver", "derive", "witness", "codegen"]),
+    ),
     ("cli", Uses::AllAbove),
 ];
 

@@ -3,7 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use super::{Derived, leg, leg_copy, refused, run, succeed, text};
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use super::{Derived, content, leg, leg_copy, refused, root, run, succeed, text};
 
 /// Replaces the first `from` behind `mark` in a file.
 fn edit(path: &Path, mark: &str, from: &str, to: &str) {
@@ -86,4 +89,103 @@ fn a_changed_stage_names_the_file_and_its_line() {
     let folder = leg_copy();
     fs::remove_file(folder.path().join("5_program.json")).unwrap();
     assert!(refused(&["check", text(folder.path())]).contains("5_program.json"));
+}
+
+/// A copy of a committed derivation.
+fn copy_of(derivation: &str) -> TempDir {
+    let copy = tempdir().unwrap();
+    for (name, bytes) in content(&root("derivations").join(derivation)) {
+        fs::write(copy.path().join(name), bytes).unwrap();
+    }
+    copy
+}
+
+/// Checks a folder that must fail at these files, and at no others.
+fn fails_at(folder: &Path, names: &[&str]) {
+    let ran = run(&["check", text(folder)]);
+    let failed = ran.out.lines().filter_map(|line| line.strip_prefix("\u{2717} "));
+    let failed: Vec<&str> = failed.filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!((ran.code, failed), (1, names.to_vec()), "{}", ran.out);
+    assert!(ran.err.contains(names[0]), "{}", ran.err);
+}
+
+/// Equations of motion are an addition to a certificate, and take its place for no file.
+#[test]
+fn equations_of_motion_prove_no_solver() {
+    let folder = copy_of("planar_2r");
+    fs::remove_file(folder.path().join("certificate.json")).unwrap();
+    edit(&folder.path().join("5_program.json"), "\"name\"", "planar_2r", "planar_3r");
+    let ran = run(&["check", text(folder.path())]);
+    assert!(ran.code == 1 && ran.err.contains("certificate.json") && ran.err.contains("no certificate"), "{}", ran.err);
+    for name in [
+        "certificate.json",
+        "1_equations.txt",
+        "3_basis.txt",
+        "5_program.json",
+        "5_solver.c",
+        "6_check.csv",
+        "README.md",
+    ] {
+        assert!(ran.out.contains(&format!("\u{2717} {name} ")), "{name}: {}", ran.out);
+    }
+    assert!(ran.out.contains("\u{2713} 7_dynamics.json"), "{}", ran.out);
+    // Without anything of a derivation they stand alone.
+    for name in content(folder.path()).into_keys().filter(|name| !name.starts_with(['0', '7'])) {
+        fs::remove_file(folder.path().join(name)).unwrap();
+    }
+    assert_eq!(succeed(&["check", text(folder.path())]).lines().count(), 3);
+    fs::remove_file(folder.path().join("7_dynamics.json")).unwrap();
+    let ran = run(&["check", text(folder.path())]);
+    assert!(ran.code == 1 && ran.out.contains("\u{2717} 7_dynamics.txt"), "{}", ran.out);
+}
+
+#[test]
+fn forged_equations_of_motion_and_an_empty_page_are_named() {
+    let folder = copy_of("planar_2r");
+    let file = |name: &str| folder.path().join(name);
+    edit(&file("7_dynamics.txt"), "# Joint 1", "axis", "line");
+    fs::write(file("README.md"), "").unwrap();
+    fails_at(folder.path(), &["README.md", "7_dynamics.txt"]);
+    edit(&file("7_dynamics.txt"), "# Joint 1", "line", "axis");
+    edit(&file("7_dynamics.json"), "\"gravity\"", "981/100", "981/200");
+    fs::write(file("README.md"), "# My own page\n").unwrap();
+    fails_at(folder.path(), &["7_dynamics.txt"]);
+}
+
+/// Files that a derivation of another kind writes are nobody's here; what is not groebot's is named.
+#[test]
+fn every_file_of_a_folder_is_accounted_for() {
+    let folder = leg_copy();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let read =
+        |derivation: &str, name: &str| fs::read_to_string(root("derivations").join(derivation).join(name)).unwrap();
+    write("notes.txt", "mine\n");
+    write("main.c", "int main(void) { return 0; }\n");
+    fs::create_dir(folder.path().join("meshes")).unwrap();
+    write("leg.rs", &fs::read_to_string(folder.path().join("5_solver.rs")).unwrap());
+    let page = succeed(&["check", text(folder.path())]);
+    for name in ["notes.txt", "main.c", "meshes"] {
+        assert!(
+            page.lines().any(|line| line.starts_with(&format!("- {name} ")) && line.contains("not checked")),
+            "{page}"
+        );
+    }
+    assert!(page.contains("\u{2713} leg.rs"), "{page}");
+    let told: Value = serde_json::from_str(&succeed(&["check", text(folder.path()), "--json"])).unwrap();
+    let findings = told["findings"].as_array().unwrap();
+    let of = |name: &str| findings.iter().find(|finding| finding["what"] == name).unwrap()["holds"].clone();
+    assert_eq!((told["holds"].clone(), of("notes.txt"), of("leg.rs")), (true.into(), Value::Null, true.into()));
+    write("5_ikfast.cpp", &read("polar", "5_ikfast.cpp"));
+    write("arm.c", &read("polar", "5_solver.c"));
+    write("7_dynamics.txt", &read("polar", "7_dynamics.txt"));
+    fails_at(folder.path(), &["7_dynamics.txt", "5_ikfast.cpp", "arm.c"]);
+}
+
+/// Less is claimed than there is: the proof holds, the number of solutions that was counted does not.
+#[test]
+fn a_lower_number_of_solutions_is_refused() {
+    let folder = copy_of("planar_2r");
+    edit(&folder.path().join("certificate.json"), "\"evidence\"", "\"dimension\": 2", "\"dimension\": 1");
+    let ran = run(&["check", text(folder.path())]);
+    assert!(ran.code == 1 && ran.err.contains("certificate.json") && ran.err.contains("solutions"), "{}", ran.err);
 }

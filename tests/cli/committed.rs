@@ -25,7 +25,7 @@ fn folders() -> Vec<PathBuf> {
 fn gravity_of(folder: &Path) -> Option<String> {
     let certificate = fs::read_to_string(folder.join("7_dynamics.json")).ok()?;
     let certificate: serde_json::Value = serde_json::from_str(&certificate).unwrap();
-    let entries: Vec<String> = serde_json::from_value(certificate["gravity"].clone()).unwrap();
+    let entries: Vec<String> = serde_json::from_value(certificate["claims"]["gravity"].clone()).unwrap();
     Some(entries.join(","))
 }
 

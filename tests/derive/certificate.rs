@@ -1,5 +1,7 @@
 //! A certificate proves its derivation without the engine, and no damaged one does.
 
+use std::sync::OnceLock;
+
 use groebot::ErrorKind;
 use groebot::derive::{Derivation, certificate};
 use proptest::prelude::*;
@@ -7,10 +9,14 @@ use serde_json::Value;
 
 use super::seed::{derive, source, symbolic_leg};
 
-fn leg() -> (Derivation, String) {
-    let derivation = derive(source("nao_leg_sagittal").system.unwrap());
-    let text = certificate::write(&derivation).unwrap();
-    (derivation, text)
+/// The leg, derived once, and its certificate.
+fn leg() -> &'static (Derivation, String) {
+    static LEG: OnceLock<(Derivation, String)> = OnceLock::new();
+    LEG.get_or_init(|| {
+        let derivation = derive(source("nao_leg_sagittal").system.unwrap());
+        let text = certificate::write(&derivation).unwrap();
+        (derivation, text)
+    })
 }
 
 #[test]
@@ -26,9 +32,10 @@ fn what_is_written_is_proved_again() {
 /// Applies `damage` to the parsed certificate and returns the error.
 fn damaged(damage: impl FnOnce(&mut Value)) -> groebot::Error {
     let (derivation, text) = leg();
-    let mut value: Value = serde_json::from_str(&text).unwrap();
-    let before = value.clone();
-    damage(&mut value);
+    let mut whole: Value = serde_json::from_str(text).unwrap();
+    let before = whole.clone();
+    damage(&mut whole["claims"]);
+    let value = whole;
     assert_ne!(value, before, "the damage took effect");
     certificate::prove(&derivation.system, &value.to_string()).unwrap_err()
 }
@@ -63,8 +70,12 @@ fn forged_claims_are_refused_and_located() {
     expect(&error, "not of the kind");
     let error = damaged(|v| v["requested"][0]["claim"]["order"] = serde_json::json!(["c4", "c3", "s4", "c4"]));
     expect(&error, "the order is not one of the unknowns");
-    let error = damaged(|v| v["name"] = "another".into());
-    expect(&error, "this certificate proves the equations `another`");
+    let (derivation, text) = leg();
+    let other = text.replacen("\"name\": \"nao_leg_sagittal\"", "\"name\": \"another\"", 1);
+    expect(
+        &certificate::prove(&derivation.system, &other).unwrap_err(),
+        "this certificate proves the equations `another`",
+    );
     let error = damaged(|v| drop(v.as_object_mut().unwrap().remove("requested")));
     assert_eq!(error.kind(), ErrorKind::Syntax, "{error}");
 }
@@ -73,7 +84,43 @@ fn forged_claims_are_refused_and_located() {
 fn an_open_claim_does_not_pass_for_a_derivation() {
     let open = serde_json::json!({"kind": "open", "reason": "", "order": [], "basis": [], "cofactors": []});
     let error = damaged(|v| v["requested"] = serde_json::json!([{"stratum": "generic", "claim": open}]));
-    expect(&error, "the generic stratum is not solved");
+    expect(&error, "it is claimed to be open, and can be derived");
+}
+
+/// Every stratum of the leg, in both orders, can be derived: none may be claimed to be open.
+#[test]
+fn a_stratum_that_can_be_derived_is_not_open() {
+    let (_, text) = leg();
+    let value: Value = serde_json::from_str(text).unwrap();
+    let mut count = 0;
+    for tree in ["requested", "searched"] {
+        for at in 1..value["claims"][tree].as_array().unwrap().len() {
+            for reason in ["", "strata nest too deep"] {
+                let open =
+                    serde_json::json!({"kind": "open", "reason": reason, "order": [], "basis": [], "cofactors": []});
+                let error = damaged(|v| v[tree][at]["claim"] = open);
+                expect(&error, "it is claimed to be open, and can be derived");
+                count += 1;
+            }
+        }
+    }
+    assert!(count >= 4, "{count}");
+}
+
+/// Where a divisor vanishes the equations say nothing: the derivation leaves that stratum open, and so may its certificate, for that reason alone.
+#[test]
+fn a_stratum_that_the_derivation_leaves_open_may_be_open() {
+    let system = groebot::derive::System::from_toml(
+        "name = \"divided\"\nlength_unit = \"m\"\norder = [\"x\"]\n[[parameter]]\nname = \"a\"\n[[parameter]]\nname = \"b\"\n\
+         [[joint]]\nname = \"x\"\nunknown = \"x\"\n[[equation]]\nlabel = \"(1)\"\nequation = \"x/a - b = 0\"\n",
+    );
+    let derivation = derive(system.unwrap());
+    let text = certificate::write(&derivation).unwrap();
+    assert!(text.contains("\"kind\": \"open\""), "{text}");
+    assert_eq!(certificate::prove(&derivation.system, &text).unwrap(), derivation);
+    let start = text.find("\"reason\": \"").unwrap() + "\"reason\": \"".len();
+    let forged = format!("{}it is hot{}", &text[..start], &text[start..]);
+    expect(&certificate::prove(&derivation.system, &forged).unwrap_err(), "another reason");
 }
 
 #[test]
@@ -97,7 +144,7 @@ proptest! {
         bytes[index] = letter.as_bytes()[0];
         let changed = String::from_utf8(bytes).unwrap();
         if let Ok(proved) = certificate::prove(&derivation.system, &changed) {
-            prop_assert_eq!(proved.program, derivation.program);
+            prop_assert_eq!(&proved.program, &derivation.program);
         }
     }
 

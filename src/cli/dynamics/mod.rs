@@ -14,8 +14,6 @@ use crate::dynamics::{Base, Equations};
 use crate::model::Robot;
 use crate::{ErrorKind, Result};
 
-pub use symbolic::reprove;
-
 const EXAMPLES: &str = "Examples:
   groebot dynamics ur5.urdf --states states.csv -o out.csv
   groebot dynamics nao_v5 --states flight.csv --gravity 0,0,-1.62 --json

@@ -4,34 +4,28 @@ use std::path::Path;
 
 use super::Arguments;
 use crate::cli::ends::TipLink;
-use crate::cli::files::{DYNAMICS, refuse_overwriting, source_files};
+use crate::cli::files::{refuse_overwriting, source_files};
 use crate::cli::{Outcome, console};
 use crate::derive::explain::{Document, Line, Part};
-use crate::derive::input::{Description, InputFile};
+use crate::derive::input::InputFile;
 use crate::derive::{Ends, Source};
-use crate::document::read_text;
-use crate::dynamics::exact::{Certificate, ExactModel, MOST_TERMS, Masses, Proof, Symbolic, masses};
+use crate::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
 use crate::files::write_folder_atomically;
+use crate::folder::motion::{self, Moving};
 use crate::kinematics::Chain;
-use crate::model::Robot;
-use crate::number::BigRational;
 use crate::robots;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The files of what the certificate proves.
-const TEXT: &str = "7_dynamics.txt";
 /// The most joints of equations as polynomials.
 const MOST_JOINTS: usize = 7;
-/// The longest file that is read again, in bytes.
-const LIMIT: u64 = 64_000_000;
 
 /// Tells the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
     let ends = Ends { base: arguments.part.base.clone(), tip: arguments.part.tip.clone(), ..Ends::default() };
     let asked = Asked::read(&arguments.robot, &ends)?;
-    let numbers = arguments.numbers.then(|| asked.numbers()).transpose()?;
+    let numbers = arguments.numbers.then(|| asked.moving.numbers()).transpose()?;
     let told = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
-    let Asked { chain, .. } = &asked;
+    let chain = &asked.moving.chain;
     let gravity = &arguments.part.gravity.0;
     let symbolic = equations(chain, told, arguments).map_err(|error| error.in_file(&arguments.robot))?;
     let tip = asked.tip.as_ref();
@@ -40,12 +34,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let text = || TipLink::line(tip) + &symbolic.to_text();
         return console::print(&if arguments.latex { latex(chain, &symbolic, tip) } else { text() });
     };
-    let certificate = Certificate::new(&symbolic, chain, told, gravity);
-    let text = symbolic.to_text();
-    certificate.prove(chain, &text)?;
-    let own = [(TEXT, text), (DYNAMICS, certificate.to_json())];
     let mut files = asked.files(folder)?;
-    files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
+    files.extend(motion::files(chain, &symbolic, told, gravity)?);
     refuse_overwriting(folder, &files)?;
     write_folder_atomically(folder, &files, &Watch::none())?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
@@ -76,34 +66,12 @@ fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result
     })
 }
 
-/// Proves the equations of motion in a folder again, if it has any.
-///
-/// # Errors
-/// As [`Certificate::prove`], and [`ErrorKind::BadValue`] where what bodies weigh is not what the robot's description says; with the file.
-pub fn reprove(folder: &Path, ends: &Ends) -> Result<Option<Proof>> {
-    let file = folder.join(DYNAMICS);
-    if !file.is_file() {
-        return Ok(None);
-    }
-    let certificate = Certificate::from_json(&read_text(&file, LIMIT)?).map_err(|error| error.in_file(&file))?;
-    let asked = Asked::read(folder, ends)?;
-    if certificate.has_numbers() && !certificate.has(&asked.numbers()?) {
-        let text = "its numbers are not what the bodies of the description weigh";
-        return Err(Error::new(ErrorKind::BadValue, text).in_file(&file));
-    }
-    let text = folder.join(TEXT);
-    let proof = certificate.prove(&asked.chain, &read_text(&text, LIMIT)?).map_err(|error| error.in_file(&text))?;
-    Ok(Some(proof))
-}
-
 /// A chain, and where it is from.
 struct Asked {
-    chain: Chain,
+    moving: Moving,
     /// The link where it ends, of a robot.
     tip: Option<TipLink>,
     source: Option<Source>,
-    robot: Option<Robot>,
-    ends: Ends,
 }
 
 impl Asked {
@@ -112,29 +80,17 @@ impl Asked {
             let [base, tip] = [ends.base.as_deref(), ends.tip.as_deref()];
             let chain = robot.chain(base, tip)?.ideal().0;
             let tip = Some(TipLink::of_path(&robot.path(base, tip)?));
-            return Ok(Asked { chain, tip, source: None, robot: Some(robot), ends: ends.clone() });
+            return Ok(Asked { moving: Moving { chain, robot: Some(robot), ends: ends.clone() }, tip, source: None });
         }
         let input = InputFile::read(path)?;
-        let robot = if let Description::Robot(robot) = &input.description { Some(robot.clone()) } else { None };
-        let source = Source::of(input, ends)?;
-        let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
-        let text = "this describes no chain of joints; give a chain or a robot";
-        let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(path))?.clone();
-        let (ends, tip) = (source.ends.clone(), TipLink::of_source(&source));
-        Ok(Asked { chain, tip, source: Some(source), robot, ends })
+        let source = Source::of(input.clone(), ends)?;
+        let (moving, tip) = (Moving::of(&input, &source)?, TipLink::of_source(&source));
+        Ok(Asked { moving, tip, source: Some(source) })
     }
 
     /// What of a robot was ignored.
     fn notes(&self) -> &[String] {
         self.source.as_ref().map_or(&[], |source| &source.notes)
-    }
-
-    /// What the bodies weigh.
-    fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
-        let text = "this chain's description has no masses; leave --numbers out";
-        let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
-        let path = robot.path(self.ends.base.as_deref(), self.ends.tip.as_deref())?;
-        masses(robot, &path, &self.chain)
     }
 
     /// The input's own files, as far as a folder has them not.

@@ -9,12 +9,14 @@
 use super::arithmetic::Exact;
 use super::assignment::{Assignment, JointValue, Target, Turn};
 use super::evaluate::evaluate;
-use super::mechanism::Mechanism;
+use super::feature::leaves;
+use super::mechanism::{Mechanism, ScrewJoint};
 use super::relation::{Letter, Measure, Relation, Word};
 use super::vector;
 use crate::{Error, ErrorKind, Result};
 
-/// Proves over Q that `relation` is in the ideal of the loop: that it holds wherever the joints reach the target.
+/// Proves over Q that `relation` is in the ideal of the loop, and that it asks of the target only what the task sees: that it holds wherever the
+/// joints reach the target.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] when it is not; as [`evaluate`] when it is no relation of the mechanism.
@@ -25,6 +27,9 @@ pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
         } else {
             Err(refused(relation, "no joint follows so"))
         };
+    }
+    if !sees(mechanism, relation) {
+        return Err(refused(relation, "it needs more of the target than the task sees"));
     }
     let closed = |word: &Word| closed(mechanism, relation.measure, word);
     let substituted = Relation { left: closed(&relation.left), right: closed(&relation.right), ..relation.clone() };
@@ -39,6 +44,23 @@ pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
 
 fn refused(relation: &Relation, why: &str) -> Error {
     Error::new(ErrorKind::Certificate, format!("`{relation}` does not follow from the loop: {why}"))
+}
+
+/// Whether a relation is the same at all targets that differ by what the task does not see of them, which are motions U behind the last joint: G U in the
+/// place of G. That is so where each U leaves what is moved in place, or where only directions count and U turns nothing.
+fn sees(mechanism: &Mechanism, relation: &Relation) -> bool {
+    let unseen = mechanism.unseen();
+    let turns = unseen.iter().any(ScrewJoint::is_revolute);
+    let whole = unseen.is_empty() || relation.measure == Measure::Angle && !turns;
+    let stays = unseen.iter().all(|motion| leaves(motion, &relation.moved, relation.measure));
+    let word = |word: &Word| {
+        word.0.iter().enumerate().all(|(place, letter)| match letter {
+            Letter::Joint(_) | Letter::Inverse(_) => true,
+            Letter::Target => whole || stays && place + 1 == word.0.len(),
+            Letter::TargetInverse => whole,
+        })
+    };
+    word(&relation.left) && word(&relation.right)
 }
 
 /// `word` with G := E1 ... En, and E E^-1 cancelled. Sliding joints do not act on directions, which is all that angles see.

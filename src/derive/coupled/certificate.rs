@@ -1,21 +1,19 @@
 //! The stored proof of a solver of coupled chains: the certificates of the chains, in the order in which they are solved.
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
-use super::derived::{DerivedCoupled, coupling};
+use super::derived::{ChainStage, DerivedCoupled, coupling};
 use super::model::CoupledChains;
 use crate::Result;
-use crate::derive::certificate::{FORMAT, Proves, check_head, refused, unread, written};
+use crate::derive::certificate::refused;
 use crate::derive::sequential::{Simultaneous, StoredSimultaneous, certificate};
+use crate::document::{Certificate, Proves};
 use crate::kinematics::Chain;
 
+/// What is claimed about coupled chains.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Record {
-    format: u32,
-    proves: Proves,
-    name: String,
+struct Claims {
     /// How the joints that two chains share are found first, where that is done.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     simultaneous: Option<StoredSimultaneous>,
@@ -26,7 +24,7 @@ struct Record {
 #[serde(deny_unknown_fields)]
 struct Proof {
     chain: String,
-    certificate: Value,
+    certificate: Certificate<certificate::Claims>,
 }
 
 impl DerivedCoupled {
@@ -35,19 +33,15 @@ impl DerivedCoupled {
     /// # Errors
     /// As [`certificate::write`].
     pub fn certificate(&self) -> Result<String> {
-        let mut record = Record {
-            format: FORMAT.number,
-            proves: Proves::CoupledChains,
-            name: self.coupled.parts().name.clone(),
-            simultaneous: self.simultaneous.as_ref().map(Simultaneous::stored).transpose()?,
-            chains: Vec::new(),
-        };
-        for stage in &self.stages {
+        let proof = |stage: &ChainStage| {
             let chain = self.coupled.chains()[stage.member].name.clone();
-            let certificate = serde_json::from_str(&certificate::write(&stage.derived)?).map_err(|e| unread(&e))?;
-            record.chains.push(Proof { chain, certificate });
-        }
-        Ok(written(&record))
+            Ok(Proof { chain, certificate: certificate::certificate(&stage.derived)? })
+        };
+        let claims = Claims {
+            simultaneous: self.simultaneous.as_ref().map(Simultaneous::stored).transpose()?,
+            chains: self.stages.iter().map(proof).collect::<Result<_>>()?,
+        };
+        Ok(Certificate::new(Proves::CoupledChains, &self.coupled.parts().name, claims).to_json())
     }
 
     /// Proves the derivation of `chains` anew from the text of its certificate, without search and without the Groebner engine.
@@ -56,18 +50,18 @@ impl DerivedCoupled {
     /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the chain, the step
     /// or the form for a claim that does not hold.
     pub fn prove(coupled: &CoupledChains, text: &str) -> Result<Self> {
-        let record: Record = FORMAT.read(text)?;
-        check_head((record.proves, &record.name), (Proves::CoupledChains, &coupled.parts().name))?;
-        let mut stored = record.chains.iter();
+        let claims: Claims = Certificate::read(text, Proves::CoupledChains, &coupled.parts().name)?;
+        let mut stored = claims.chains.into_iter();
         let mut prove = |member: usize, chain: &Chain| match stored.next() {
             Some(proof) if proof.chain == coupled.chains()[member].name => {
-                certificate::prove(chain, &proof.certificate.to_string())
+                let claims = proof.certificate.claims(Proves::Chain, chain.name())?;
+                certificate::prove_claims(chain, claims)
             }
             _ => Err(refused("its certificate is missing or not in its place".to_owned())),
         };
-        let simultaneous = match (coupling(coupled)?, &record.simultaneous) {
+        let simultaneous = match (coupling(coupled)?, &claims.simultaneous) {
             (Some((sides, shared)), Some(stored)) => Some(Simultaneous::again(sides, shared, stored)?),
-            // Where no relations of shared joints fit, the chains are solved one after the other.
+            // Where no relations of shared joints fit, the chains are solved one after the other; that they do not fit, a recount tells.
             (_, None) => None,
             _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
         };

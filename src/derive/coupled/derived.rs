@@ -67,6 +67,18 @@ impl DerivedCoupled {
         })
     }
 
+    /// Whether joints that two chains share can be found from both at once, and are not.
+    ///
+    /// # Errors
+    /// As [`Simultaneous::derive`].
+    pub(in crate::derive) fn leaves_shared_joints_out(&self, watch: &Watch) -> Result<bool> {
+        if self.simultaneous.is_some() {
+            return Ok(false);
+        }
+        let Some((sides, shared)) = coupling(&self.coupled)? else { return Ok(false) };
+        Ok(found_together(Simultaneous::derive(sides, shared, watch), &self.coupled)?.is_some())
+    }
+
     /// Composes the solvers that `derive` gives of the chains, which it gets in their order with their indices.
     pub(super) fn assemble(
         coupled: &CoupledChains,

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::given::Six;
 use super::program::{program, within};
 use super::{Determinant, Regular, ranked};
-use crate::derive::certificate::{FORMAT, Proves, check_head, proves, refused, written};
+use crate::derive::certificate::refused;
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Evidence};
 use crate::derive::sequential::checks_on;
+use crate::document::{Certificate, Proves, head_of};
 use crate::kinematics::Chain;
 use crate::kinematics::ideal::Report;
 use crate::solver::Program;
@@ -35,12 +36,10 @@ pub struct DerivedSixAxes {
     pub unpolished: Option<Box<Program>>,
 }
 
+/// What is claimed about six axes.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Record {
-    format: u32,
-    proves: Proves,
-    name: String,
+struct Claims {
     evidence: Vec<Evidence>,
     formulations: Vec<Entry>,
 }
@@ -72,35 +71,30 @@ impl DerivedSixAxes {
     /// # Errors
     /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] for a claim that does not hold.
     pub fn prove(chain: &Chain, text: &str) -> Result<Self> {
-        let record: Record = FORMAT.read(text)?;
-        check_head((record.proves, &record.name), (Proves::EigenvalueProblem, chain.name()))?;
+        let claims: Claims = Certificate::read(text, Proves::EigenvalueProblem, chain.name())?;
         let six = Six::of(chain)?;
         let formulations: Result<Vec<Regular>> =
-            record.formulations.iter().map(|entry| entry.prove(&six.chain)).collect();
+            claims.formulations.iter().map(|entry| entry.prove(&six.chain)).collect();
         let formulations = formulations?;
-        let claimed = record.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
+        let claimed = claims.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
         if formulations.is_empty() || claimed == 0 || claimed > SIZE {
             return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
         }
-        DerivedSixAxes::assemble(chain, six, record.evidence, formulations)
+        DerivedSixAxes::assemble(chain, six, claims.evidence, formulations)
     }
 
     /// Whether `text` is the certificate of six axes.
     pub fn is_certificate(text: &str) -> bool {
-        proves(text) == Some(Proves::EigenvalueProblem)
+        head_of(text).is_some_and(|(proves, _)| proves == Proves::EigenvalueProblem)
     }
 
     /// The text of `certificate.json`.
     pub fn certificate(&self) -> String {
         let entry =
             |regular: &Regular| Entry { formulation: regular.formulation, determinants: regular.determinants.clone() };
-        written(&Record {
-            format: FORMAT.number,
-            proves: Proves::EigenvalueProblem,
-            name: self.chain.name().to_owned(),
-            evidence: self.evidence.clone(),
-            formulations: self.formulations.iter().map(entry).collect(),
-        })
+        let formulations = self.formulations.iter().map(entry).collect();
+        let claims = Claims { evidence: self.evidence.clone(), formulations };
+        Certificate::new(Proves::EigenvalueProblem, self.chain.name(), claims).to_json()
     }
 
     /// This solver, of an ideal chain, for the chain `truth` that means it, as [`Derived::polished_on`](super::super::sequential::Derived::polished_on).

@@ -104,7 +104,7 @@ pub fn solver(chain: &Chain) -> Result<six_axes::Chain> {
 ///
 /// # Errors
 /// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
-fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
+pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
     let regular = formulations(chain)?;
     let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
     let best = survey(&layout(chain), &known);

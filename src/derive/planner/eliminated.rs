@@ -67,6 +67,24 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
     Ok(best.into_iter().flatten().collect())
 }
 
+/// The number of values of a step's joint when others are eliminated, counted again; zero when there are none or infinitely many, or when
+/// the step has relations that no planner looks at.
+///
+/// # Errors
+/// As [`Sights::of`]; what `watch` stops with.
+pub fn count(sights: &mut Sights<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
+    let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
+    let places = members(set(away) | 1 << step.joint);
+    let mut some: Vec<Seen> = Vec::with_capacity(relations.len());
+    for relation in relations {
+        let Some(index) = sights.relations.iter().position(|known| known == relation) else { return Ok(0) };
+        let unknown = set(&places) & sights.joints_of(index);
+        some.push((index, sights.of(index, unknown)?));
+    }
+    let (degrees, _) = freed_degrees(sights, &some, &places, watch)?;
+    Ok(places.iter().zip(degrees).find(|(place, _)| **place == step.joint).map_or(0, |(_, degree)| degree))
+}
+
 /// The joints of a set that follow others of it: their laws determine them.
 pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
     let is_in = |joint: usize| joints >> joint & 1 == 1;

@@ -12,6 +12,7 @@ mod evidence;
 mod fitting;
 mod given;
 mod one_joint;
+mod recount;
 mod refuse;
 mod search;
 mod sights;
@@ -20,6 +21,7 @@ mod types;
 
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
+pub(super) use recount::{same_degrees, same_evidence};
 pub(super) use refuse::not_derived;
 pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
@@ -67,6 +69,14 @@ pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Ve
     evidence::gather(mechanism, &mechanism.relations(), watch)
 }
 
+/// What the relations look like at random targets modulo a prime.
+fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sights<'a>> {
+    let lucky = evidence::lucky_primes(mechanism)?.into_iter().next();
+    let (_, arithmetic) =
+        lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
+    Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+}
+
 /// The steps of the best plan, if it is good enough.
 fn search(
     mechanism: &Mechanism,
@@ -75,10 +85,7 @@ fn search(
     dimension: usize,
     watch: &Watch,
 ) -> Result<Vec<PlanStep>> {
-    let lucky = evidence::lucky_primes(mechanism)?.into_iter().next();
-    let (_, arithmetic) =
-        lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
-    let mut sights = Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))?;
+    let mut sights = sights(mechanism, relations)?;
     let may_be_more = !mechanism.counts_exactly();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
     for reach in REACHES {

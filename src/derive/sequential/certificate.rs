@@ -4,7 +4,7 @@
 //! ([`crate::derive::closure::prove`]), every step may use only what is known before it, its equations must have the form that the plan
 //! counts solutions by, and every form's bases are checked by [`crate::groebner::verify`] on all strata. So no solution is lost, and
 //! the product of the degrees is the number of solutions that the plan claims. That number itself was counted modulo primes: the
-//! certificate records with which poses.
+//! certificate records with which poses, and [`crate::derive::Recount`] counts again.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,18 +14,18 @@ use super::half_angle::{self, HalfAngles};
 use super::shape::{eliminated, shape};
 use super::slack::Slack;
 use super::{Derived, Parts, ProvedStep};
-use crate::derive::certificate::{Entry, FORMAT, Proves, check_head, entries, refused, replay, written};
+use crate::derive::Orders;
+use crate::derive::certificate::{Entry, entries, refused, replay};
 use crate::derive::closure::{self, Mechanism};
 use crate::derive::planner::{Plan, PlanStep, Way};
+use crate::document::{Certificate, Proves};
 use crate::kinematics::Chain;
 use crate::{Error, Result};
 
+/// What is claimed about a chain.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Record {
-    format: u32,
-    proves: Proves,
-    name: String,
+pub(in crate::derive) struct Claims {
     plan: Plan,
     form_bases: Vec<Proof>,
     /// In the order of the steps that need one.
@@ -48,10 +48,15 @@ pub(super) struct Proof {
 /// # Errors
 /// When a form's field cannot be built: never for a derivation that was made by this crate.
 pub fn write(derived: &Derived) -> Result<String> {
-    let record = Record {
-        format: FORMAT.number,
-        proves: Proves::Chain,
-        name: derived.chain.name().to_owned(),
+    Ok(certificate(derived)?.to_json())
+}
+
+/// The certificate as data.
+///
+/// # Errors
+/// As [`write`].
+pub(in crate::derive) fn certificate(derived: &Derived) -> Result<Certificate<Claims>> {
+    let claims = Claims {
         plan: derived.plan.clone(),
         form_bases: form_proofs(&derived.form_bases)?,
         eliminations: derived
@@ -62,7 +67,7 @@ pub fn write(derived: &Derived) -> Result<String> {
             .collect(),
         half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
     };
-    Ok(written(&record))
+    Ok(Certificate::new(Proves::Chain, derived.chain.name(), claims))
 }
 
 /// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
@@ -71,20 +76,26 @@ pub fn write(derived: &Derived) -> Result<String> {
 /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form
 /// for a claim that does not hold.
 pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
-    let record: Record = FORMAT.read(text)?;
-    check_head((record.proves, &record.name), (Proves::Chain, chain.name()))?;
+    prove_claims(chain, Certificate::read(text, Proves::Chain, chain.name())?)
+}
+
+/// Proves the derivation of `chain` anew from what is claimed about it.
+///
+/// # Errors
+/// [`crate::ErrorKind::Certificate`] as [`prove`].
+pub(in crate::derive) fn prove_claims(chain: &Chain, claims: Claims) -> Result<Derived> {
     let mechanism = Mechanism::new(chain)?;
-    let mut stored = record.eliminations.iter();
+    let mut stored = claims.eliminations.iter();
     let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
         Some(stored) => Elimination::again(&mechanism, step, away, stored),
         None => Err(refused("its elimination is missing".to_owned())),
     };
-    let steps = prove_plan(&mechanism, &record.plan, &mut eliminate)?;
+    let steps = prove_plan(&mechanism, &claims.plan, &mut eliminate)?;
     if stored.next().is_some() {
         return Err(refused("an elimination is left over".to_owned()));
     }
-    let (form_bases, half_angles) = prove_forms(&steps, &record.form_bases, record.half_angles.as_deref())?;
-    Derived::assemble(chain, &mechanism, Parts { plan: record.plan, steps, form_bases, half_angles }, Slack::NONE)
+    let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
+    Derived::assemble(chain, &mechanism, Parts { plan: claims.plan, steps, form_bases, half_angles }, Slack::NONE)
 }
 
 /// What is claimed about the bases of forms.
@@ -118,7 +129,7 @@ pub(super) fn prove_forms(
 
 fn prove_form(proof: &Proof) -> Result<FormBasis> {
     let system = proof.form.system()?;
-    let tree = replay(&system, &proof.strata)
+    let tree = replay(&system, Orders::Requested, &proof.strata)
         .map_err(|error| refused(format!("form `{}`: {}", proof.form.name(), error.message())))?;
     Ok(FormBasis { form: proof.form, system, tree })
 }

@@ -11,7 +11,7 @@ use super::lagrange::inertia_and_potential;
 use super::model::{ExactModel, Masses};
 use super::number::Exact;
 use super::symbolic::{MOST_TERMS, Symbolic, christoffel, dependent};
-use crate::document::JsonFormat;
+use crate::document::{self, Proves};
 use crate::dynamics::recursions::Scalar;
 use crate::kinematics::Chain;
 use crate::number::{BigRational, parse_rational};
@@ -19,22 +19,19 @@ use crate::poly::parse_long;
 use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
 
-const FORMAT: JsonFormat = JsonFormat {
-    what: "certificate of equations of motion",
-    number: 1,
-    renew: "`groebot dynamics --symbolic` on its folder writes it anew",
-};
-
 /// What holds of the equations of motion that are printed beside it: they are those of this chain under this gravity.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
-    format: u32,
-    /// Always `dynamics`.
-    proves: String,
     /// The chain.
     name: String,
-    /// The direction of gravity in the base.
+    claims: Claims,
+}
+
+/// What is claimed about a chain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Claims {
+    /// Gravity in the base, as it was given.
     gravity: [String; 3],
     /// By body the ten numbers of what it weighs; none where these are symbols.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -70,48 +67,50 @@ impl Certificate {
     /// That of equations of motion of a chain.
     pub fn new(symbolic: &Symbolic, chain: &Chain, masses: Masses<'_>, gravity: &ExactVector) -> Self {
         let told = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
-        Certificate {
-            format: FORMAT.number,
-            proves: "dynamics".to_owned(),
-            name: chain.name().to_owned(),
+        let claims = Claims {
             gravity: gravity.each_ref().map(ToString::to_string),
             masses: match masses {
                 Masses::Symbols => None,
                 Masses::Numbers(all) => Some(all.iter().map(told).collect()),
             },
             terms: symbolic.terms(),
-        }
+        };
+        Certificate { name: chain.name().to_owned(), claims }
     }
 
     /// Whether what bodies weigh are numbers.
     pub fn has_numbers(&self) -> bool {
-        self.masses.is_some()
+        self.claims.masses.is_some()
     }
 
     /// Whether these are they.
     pub fn has(&self, masses: &[[BigRational; 10]]) -> bool {
         let told = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
-        self.masses.as_ref().is_some_and(|own| own.iter().eq(&masses.iter().map(told).collect::<Vec<_>>()))
+        self.claims.masses.as_ref().is_some_and(|own| own.iter().eq(&masses.iter().map(told).collect::<Vec<_>>()))
     }
 
     /// As JSON.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("numbers and names") + "\n"
+        document::Certificate::new(Proves::Dynamics, &self.name, self.claims.clone()).to_json()
     }
 
-    /// Reads it.
+    /// Reads the certificate of the equations of motion of the chain `name`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is none, [`ErrorKind::Unsupported`] for that of another format.
-    pub fn from_json(text: &str) -> Result<Self> {
-        FORMAT.read(text)
+    /// [`ErrorKind::Syntax`] for text that is none, [`ErrorKind::Unsupported`] for that of another format, [`ErrorKind::Certificate`] for one
+    /// that proves something else.
+    pub fn from_json(text: &str, name: &str) -> Result<Self> {
+        let claims = document::Certificate::read(text, Proves::Dynamics, name)?;
+        Ok(Certificate { name: name.to_owned(), claims })
     }
 
     /// Proves again that the equations in `text`, as [`Symbolic::to_text`] prints them, are those of a chain: the inertia matrix and the potential energy by Jacobians and heights,
-    /// which share no step with the recursions that made them, and what follows from them by derivatives.
+    /// which share no step with the recursions that made them, and what follows from them by derivatives. The legend, and how entries are written, have to be those that
+    /// such equations have.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] with the entry that is not what it should be, [`ErrorKind::Syntax`] for what cannot be read.
+    /// [`ErrorKind::BadValue`] with the entry that is not what it should be, [`ErrorKind::Syntax`] for what cannot be read, [`ErrorKind::Certificate`] with the line that
+    /// is written otherwise.
     pub fn prove(&self, chain: &Chain, text: &str) -> Result<Proof> {
         let vector = |words: &[String; 3]| -> Result<ExactVector> {
             let [x, y, z] = words.each_ref().map(|word| parse_rational(word));
@@ -122,7 +121,7 @@ impl Certificate {
             Ok(<[_; 10]>::try_from(numbers).expect("as many as words"))
         };
         let masses: Option<Vec<_>> =
-            self.masses.as_ref().map(|all| all.iter().map(numbers).collect::<Result<_>>()).transpose()?;
+            self.claims.masses.as_ref().map(|all| all.iter().map(numbers).collect::<Result<_>>()).transpose()?;
         let fault = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if self.name != chain.name() {
             return fault(format!("it is about `{}`, the chain is `{}`", self.name, chain.name()));
@@ -131,12 +130,17 @@ impl Certificate {
             return fault("it does not tell ten numbers for each joint".to_owned());
         }
         let masses = masses.as_deref().map_or(Masses::Symbols, Masses::Numbers);
-        let model = ExactModel::new(chain, masses, &vector(&self.gravity)?, MOST_TERMS)?;
+        let gravity = vector(&self.claims.gravity)?;
+        if gravity.each_ref().map(ToString::to_string) != self.claims.gravity {
+            return fault("its gravity is not written in lowest terms".to_owned());
+        }
+        let model = ExactModel::new(chain, masses, &gravity, MOST_TERMS)?;
         let told = Told::read(&model, text)?;
         let proof = told.prove(&model)?;
-        if proof.terms != self.terms {
-            return fault(format!("it tells {} terms; {} are printed", self.terms, proof.terms));
+        if proof.terms != self.claims.terms {
+            return fault(format!("it tells {} terms; {} are printed", self.claims.terms, proof.terms));
         }
+        told.is_written(model, text)?;
         Ok(proof)
     }
 }
@@ -187,6 +191,18 @@ impl Told {
             None => Ok(Told { inertia, coriolis, gravity, potential, base }),
             Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is none of M, C, N, V and B"))),
         }
+    }
+
+    /// Fails where proved entries are written otherwise than [`Symbolic::to_text`] does, or the legend is another.
+    fn is_written(self, model: ExactModel, text: &str) -> Result<()> {
+        let Told { inertia, coriolis, gravity, potential, base } = self;
+        let expected = Symbolic { model, inertia, coriolis, gravity, potential, base }.to_text();
+        if text == expected {
+            return Ok(());
+        }
+        let same = text.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
+        let text = "this line is not what the certificate proves; `groebot dynamics --symbolic` writes the right one";
+        Err(Error::new(ErrorKind::Certificate, text).at_line(same + 1))
     }
 
     fn prove(&self, model: &ExactModel) -> Result<Proof> {

@@ -26,6 +26,8 @@ pub struct ExactModel {
     pub(super) joints: Vec<ExactJoint>,
     /// The direction of gravity, whose size is `g`.
     pub(super) down: [Exact; 3],
+    /// Gravity as it was given.
+    pub(super) given_gravity: ExactVector,
 }
 
 /// A joint of an exact model.
@@ -105,7 +107,14 @@ impl ExactModel {
         let tree = Tree { base: Mass::zero(), bodies, order: (0..joints.len()).collect() };
         let down = down.unit(&setting);
         setting.check()?;
-        Ok(ExactModel { setting, has_symbols: matches!(masses, Masses::Symbols), tree, joints, down })
+        Ok(ExactModel {
+            setting,
+            has_symbols: matches!(masses, Masses::Symbols),
+            tree,
+            joints,
+            down,
+            given_gravity: gravity.clone(),
+        })
     }
 
     /// The places of the joints.

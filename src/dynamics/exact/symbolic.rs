@@ -101,8 +101,9 @@ impl Symbolic {
         let mut lines = vec![
             "$M q'' + C q' + N$ are the torques; $M$ is symmetric, $M' - 2*C$ is skew, and $N$ are the derivatives of the potential energy $V$.".to_owned(),
             format!(
-                "Gravity is $g$ along $({})$.",
-                self.model.down.each_ref().map(|x| self.text(x, Style::Text)).join(", ")
+                "Gravity is $g$ along $({})$, as of --gravity {}.",
+                self.model.down.each_ref().map(|x| self.text(x, Style::Text)).join(", "),
+                self.model.given_gravity.each_ref().map(ToString::to_string).join(",")
             ),
         ];
         for (at, joint) in self.model.joints.iter().enumerate() {

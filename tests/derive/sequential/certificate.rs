@@ -2,6 +2,7 @@
 
 use groebot::ErrorKind;
 use groebot::derive::sequential::certificate;
+use groebot::kinematics::Chain;
 use groebot::robots;
 use serde_json::Value;
 
@@ -28,7 +29,7 @@ fn it_proves_the_same_derivation_again() {
 fn refused(change: impl Fn(&mut Value)) -> String {
     let (chain, text) = puma();
     let mut value: Value = serde_json::from_str(&text).unwrap();
-    change(&mut value);
+    change(&mut value["claims"]);
     let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
     error.message().to_owned()
@@ -59,4 +60,16 @@ fn a_forged_relation_or_basis_is_refused() {
     assert!(text.contains("form `angle`"), "{text}");
     let text = refused(|value| drop(value["form_bases"].as_array_mut().unwrap().pop()));
     assert!(text.contains("the bases are not those of the steps' forms"), "{text}");
+}
+
+/// A position says nothing of where other points of the tip are: an equation about one of these holds in the loop, but not for all poses with that position.
+#[test]
+fn an_equation_about_what_the_task_does_not_see_is_refused() {
+    let chain = Chain::from_toml(include_str!("../../../derivations/polar/0_chain.toml")).unwrap();
+    let mut value: Value = serde_json::from_str(&certificate::write(&derive(&chain)).unwrap()).unwrap();
+    let point = &mut value["claims"]["plan"]["steps"][0]["way"]["single"]["moved"]["point"];
+    assert!(point.as_array().is_some_and(|point| point.len() == 3), "{point}");
+    point.as_array_mut().unwrap().swap(0, 1);
+    let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
+    assert!(error.kind() == ErrorKind::Certificate && error.message().contains("than the task sees"), "{error}");
 }

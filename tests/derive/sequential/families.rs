@@ -84,8 +84,8 @@ fn a_general_arm_needs_half_angles() {
     assert_eq!(groebot::derive::sequential::certificate::prove(&derived.chain, &text).unwrap(), derived);
     println!("certificate {} bytes", text.len());
     let forged = text.replace(
-        "\"eliminations\": [\n    {\n      \"member\": \"",
-        "\"eliminations\": [\n    {\n      \"member\": \"x2 + ",
+        "\"eliminations\": [\n      {\n        \"member\": \"",
+        "\"eliminations\": [\n      {\n        \"member\": \"x2 + ",
     );
     assert_ne!(forged, text);
     let error = groebot::derive::sequential::certificate::prove(&derived.chain, &forged).unwrap_err();

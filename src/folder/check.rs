@@ -1,0 +1,206 @@
+//! The check of a stored folder. Main function: [`check`].
+
+use std::collections::BTreeSet;
+
+use super::finding::{Finding, Verdict};
+use super::measured::{page_differs, table_differs};
+use super::names::{CERTIFICATE, CHECKS, is_printed_solver};
+use super::stored::{Stored, has_mark};
+use super::words::proof_words;
+use super::written::{Written, derived};
+use super::{motion, names};
+use crate::codegen::{c99::Pair, ikfast, rust, single_file};
+use crate::derive::ends::TASK_NAME;
+use crate::derive::stages::{MARK, PAGE};
+use crate::derive::{Proved, Recount, Source};
+use crate::solver::Program;
+use crate::witness::{self, Report};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// The shortest line of our page by which it is recognised, in bytes.
+const TELLING: usize = 40;
+
+/// What a check found, and what it proved again.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// One finding for each file, the input's and the certificate's first.
+    pub findings: Vec<Finding>,
+    /// The derivation with its numeric checks, where the certificate proves it.
+    pub derivation: Option<(Proved, Report)>,
+}
+
+/// Checks every file of a folder that holds the derivation of `source`, or equations of motion of its chain, or both: each file that groebot
+/// writes follows from the certificate, byte by byte, and the certificate claims as much as the derivation of the input does. A file that
+/// groebot writes and that follows from nothing fails; others are named as not checked.
+///
+/// # Errors
+/// Those of the numeric checks; what `watch` stops with. What is wrong with a file is a finding.
+pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked> {
+    let mut findings = vec![Finding::holds(source.name, described(source))];
+    let mut known: BTreeSet<String> = inputs(source).map(str::to_owned).collect();
+    let moving = motion::check(source, stored);
+    let is_derived = stored.written().any(|name| !names::MOTION.contains(&name));
+    let mut derivation = None;
+    // A folder may hold equations of motion alone.
+    if is_derived || moving.is_empty() {
+        match prove(source, stored, &mut Recount::new(watch)) {
+            Ok(proved) => {
+                let checked = witness::check(source, &proved, watch)?;
+                let written = derived(source, &proved, &checked)?;
+                findings.extend(compare(stored, &written, &proof_words(&proved), &checked));
+                derivation = Some((proved, checked));
+            }
+            Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Verdict::Fails(error) }),
+        }
+    }
+    findings.extend(moving);
+    known.extend(findings.iter().map(|finding| finding.what.clone()));
+    findings.extend(strays(stored, &known, derivation.as_ref().map(|(proved, _)| proved.program())));
+    Ok(Checked { findings, derivation })
+}
+
+/// The derivation that the stored certificate proves, which claims as much as that of the input.
+///
+/// # Errors
+/// [`ErrorKind::Io`] where there is no certificate; as [`Proved::again`] and [`Recount::check`]; with the file.
+pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Proved> {
+    let at_file = |error: Error| error.in_file(&stored.folder.join(CERTIFICATE));
+    let missing = || {
+        let text = "there is no certificate, so nothing proves the other files; `groebot derive` writes it";
+        Error::new(ErrorKind::Io, text)
+    };
+    let bytes = stored.get(CERTIFICATE).ok_or_else(missing).map_err(at_file)?;
+    let proved = Proved::again(source, &String::from_utf8_lossy(bytes)).map_err(at_file)?;
+    recount.check(&proved).map_err(at_file)?;
+    Ok(proved.about(source))
+}
+
+/// Compares the files of a derivation with those that are stored; `proof` says what the certificate proves.
+pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Report) -> Vec<Finding> {
+    let first = written.iter().filter(|file| file.name == CERTIFICATE);
+    let rest = written.iter().filter(|file| file.name != CERTIFICATE);
+    first.chain(rest).map(|file| compared(stored, file, proof, checked)).collect()
+}
+
+fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> Finding {
+    let name = file.name.as_str();
+    let refused = |text: &str| Finding::refused(&stored.folder, name, text);
+    let Some(bytes) = stored.get(name) else {
+        return Finding::fails(
+            &stored.folder,
+            name,
+            Error::new(ErrorKind::Io, "this file is missing; `groebot derive` writes it"),
+        );
+    };
+    if name == PAGE && !has_mark(bytes) {
+        return match is_by_hand(bytes, &file.bytes) {
+            true => Finding::not_checked(name, "a page that groebot did not write"),
+            false => refused(&format!(
+                "the page lacks what follows from the proof, and `{MARK}`; `groebot derive` writes it"
+            )),
+        };
+    }
+    let equal = if bytes == file.bytes { "" } else { ", equal up to rounding" };
+    match differing(bytes, file) {
+        Some(line) => {
+            let text = "this line is not what the certificate proves; `groebot derive` writes the right one";
+            let error = Error::new(ErrorKind::Certificate, text).at_line(line);
+            Finding::fails(&stored.folder, name, error)
+        }
+        None if name == CERTIFICATE => Finding::holds(name, proof),
+        None if name == CHECKS => Finding::holds(name, check_words(checked) + equal),
+        None => Finding::holds(name, format!("follows from the proof{equal}")),
+    }
+}
+
+/// The first line in which a stored file differs from what is written; none where it does not.
+fn differing(stored: &[u8], file: &Written) -> Option<usize> {
+    if stored == file.bytes {
+        return None;
+    }
+    let (proved, measured) = file.bytes.split_at(file.proved);
+    let same = stored.iter().zip(&file.bytes).take_while(|(a, b)| a == b).count();
+    let lines = |bytes: &[u8]| bytes.iter().filter(|byte| **byte == b'\n').count();
+    if same < proved.len() || measured.is_empty() {
+        return Some(lines(&stored[..same]) + 1);
+    }
+    let Ok(own) = std::str::from_utf8(&stored[proved.len()..]) else { return Some(lines(proved) + 1) };
+    let differs = if file.name == CHECKS { table_differs } else { page_differs };
+    differs(own, &String::from_utf8_lossy(measured)).map(|line| lines(proved) + line)
+}
+
+/// Whether a page without our mark is somebody's own: it says something, and none of our longer lines.
+fn is_by_hand(stored: &[u8], ours: &[u8]) -> bool {
+    let (stored, ours) = (String::from_utf8_lossy(stored), String::from_utf8_lossy(ours));
+    let telling = |line: &&str| line.len() >= TELLING;
+    let own: BTreeSet<&str> = ours.lines().filter(telling).collect();
+    !stored.trim().is_empty() && !stored.lines().any(|line| own.contains(line))
+}
+
+/// The files of a folder that are not `known`: those of names that groebot gives fail, printed solvers of another name have to follow from the
+/// program, others are not checked.
+fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) -> Vec<Finding> {
+    let ours: BTreeSet<&str> = stored.written().collect();
+    let names = stored.files.keys().chain(&stored.others).filter(|name| !known.contains(*name));
+    let finding = |name: &String| {
+        if !ours.contains(name.as_str()) {
+            return Finding::not_checked(name, "no file of groebot's");
+        }
+        let bytes = stored.get(name).unwrap_or_default();
+        match program {
+            Some(program) if is_printed_solver(bytes) && prints(program, name, bytes) => {
+                Finding::holds(name, "follows from the proof")
+            }
+            Some(_) => {
+                let text = "nothing proves this file: this derivation does not write it; move it away";
+                Finding::refused(&stored.folder, name, text)
+            }
+            None => Finding::refused(&stored.folder, name, "nothing proves this file: no certificate does"),
+        }
+    };
+    names.map(finding).collect()
+}
+
+/// Whether `groebot derive` or `groebot codegen`, without further options, prints these bytes of `program` into a file `name`.
+fn prints(program: &Program, name: &str, bytes: &[u8]) -> bool {
+    let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
+    let is = |text: String| text.as_bytes() == bytes;
+    match end {
+        "h" => is(Pair::new(program, stem).header),
+        "c" => is(Pair::new(program, stem).source) || is(single_file::c(program, name, false)),
+        "rs" => is(rust::emit(program)) || is(single_file::rust(program)),
+        _ => {
+            let alone = ikfast::Options { file: Some(name.to_owned()), ..ikfast::Options::default() };
+            let beside = stem.strip_suffix(names::IKFAST_END).unwrap_or(stem);
+            let printed =
+                [ikfast::emit(program, &alone), ikfast::emit_beside(program, &ikfast::Options::default(), beside)];
+            printed.into_iter().flatten().any(is)
+        }
+    }
+}
+
+/// The files that a derivation reads: they are what it is about.
+fn inputs(source: &Source) -> impl Iterator<Item = &str> {
+    [source.name, TASK_NAME].into_iter().chain(source.beside())
+}
+
+fn described(source: &Source) -> String {
+    match (source.chain_by_steps(), &source.system, &source.coupled) {
+        (None, Some(system), _) => format!("{} equations in {}", system.equations.len(), system.order.join(", ")),
+        (None, None, Some(coupled)) => {
+            format!("{} chains on {} actuators", coupled.chains().len(), coupled.actuators().len())
+        }
+        (chain, ..) => format!("a chain of {} joints", chain.map_or(0, |chain| chain.joints().len())),
+    }
+}
+
+fn check_words(checked: &Report) -> String {
+    let summary = checked.summary();
+    match summary.failed {
+        0 => format!("{} targets solved again and right", summary.rows),
+        lost => format!(
+            "{} targets solved again; at {lost} of them, singular or next to such, answers are lost",
+            summary.rows
+        ),
+    }
+}

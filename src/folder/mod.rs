@@ -1,0 +1,17 @@
+//! A mechanism's folder: the one list of the files that `derive` and `dynamics --symbolic` write ([`derived`], [`motion`]), and the check of a stored
+//! folder against that list ([`check`]). The writer and the check share the list, so that no file is written that nothing checks.
+
+mod check;
+mod finding;
+mod measured;
+pub mod motion;
+mod names;
+mod stored;
+mod words;
+mod written;
+
+pub use check::{Checked, check, compare, prove};
+pub use finding::{Finding, Verdict};
+pub use names::{CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, is_printed_solver, is_written_name};
+pub use stored::Stored;
+pub use written::{Written, derived, printed_solvers};
