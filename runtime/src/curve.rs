@@ -25,6 +25,8 @@ const RANK: f64 = 1e-3;
 const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
 /// The most steps of a walk in one direction.
 const PACES: usize = 400;
+/// How near to a step a start is on the same curve (rad, or relative to the length scale).
+const PASSED: f64 = 1e-2;
 /// A step leads to no other curve where it ends no farther from the line of the step before than this share of its length.
 const STRAIGHT: f64 = 0.5;
 /// The square of the least cosine between what two places next to each other miss.
@@ -77,8 +79,7 @@ impl<M: Mechanism> Clone for Place<M> {
 impl<M: Mechanism> Place<M> {
     /// What is missed in the direction of what another place misses, times the length of that.
     fn along(&self, other: &Place<M>) -> f64 {
-        let both = self.miss.as_ref().iter().zip(other.miss.as_ref());
-        both.fold(0.0, |sum, (a, b)| sum + a * b)
+        product(self.miss.as_ref(), other.miss.as_ref())
     }
 
     /// Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked.
@@ -107,10 +108,17 @@ impl<M: Mechanism> Starts<M> {
         self.count += 1;
     }
 
-    /// Forgets those that a walk passes.
-    fn pass(&mut self, facts: &Facts<'_>, at: &Joints<M>) {
+    /// Forgets those that a step passes.
+    fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
+        let way = differences::<M>(facts, to, from);
         for start in &mut self.list[..self.count] {
-            let is_passed = |(_, q): &(Found, Joints<M>)| facts.farthest(q.as_ref(), at.as_ref()) <= PACE[2];
+            let is_passed = |(_, q): &(Found, Joints<M>)| {
+                let aside = differences::<M>(facts, q, from);
+                let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
+                let share = f64::min(f64::max(share, 0.0), 1.0);
+                let nearest = beyond::<M>(facts, to, from, -share);
+                facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
+            };
             if start.as_ref().is_some_and(is_passed) {
                 *start = None;
             }
@@ -177,7 +185,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.change(&walk.found, &before, &at);
         for _ in 0..PACES {
             let facts = self.problem.facts();
-            starts.pass(&facts, &at.q);
+            starts.pass(&facts, &before.q, &at.q);
             walk.pass(&at);
             let way = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
             is_away |= way > 3.0 * PACE[2];
@@ -358,6 +366,11 @@ impl<M: Mechanism> Problem<'_, M> {
         let side = usize::from(way >= 0.0);
         Some((side, self.between(least, &sides[side], way.abs() / lengths[side])?))
     }
+}
+
+/// The scalar product.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }
 
 /// The place of the entry with the greatest magnitude, the first of equals.

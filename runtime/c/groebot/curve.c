@@ -9,6 +9,7 @@
 #define GB_CURVE_BOUND R(0.5)
 #define GB_CURVE_SETTLED GB_EITHER(1e-8, 1e-3)
 #define GB_CURVE_PACES 400
+#define GB_CURVE_PASSED R(1e-2)
 #define GB_CURVE_STRAIGHT R(0.5)
 #define GB_CURVE_NARROWED 24
 #define GB_CURVE_PARABOLAS 12
@@ -56,14 +57,19 @@ static size_t gb_farthest_joint(const gb_mechanism *m, const gb_real *a, const g
     return gb_greatest(way, m->joints);
 }
 
+static gb_real gb_scalar_product(const gb_real *a, const gb_real *b, size_t count)
+{
+    gb_real sum = R(0.0);
+    for (size_t i = 0; i < count; i++) {
+        sum = sum + a[i] * b[i];
+    }
+    return sum;
+}
+
 /* What a place misses in the direction of what another one misses, times the length of that. */
 static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_spot *b)
 {
-    gb_real sum = R(0.0);
-    for (size_t i = 0; i < m->equations; i++) {
-        sum = sum + a->miss[i] * b->miss[i];
-    }
-    return sum;
+    return gb_scalar_product(a->miss, b->miss, m->equations);
 }
 
 /* Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked. */
@@ -278,11 +284,22 @@ static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
-/* Takes in a place that a walk passes, and forgets the starts next to it. */
-static void gb_pass(const gb_mechanism *m, gb_starts *starts, gb_curve *curve, const gb_spot *at)
+/* Whether joints are next to a step of a walk. */
+static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real *from, const gb_real *to)
+{
+    gb_real way[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
+    gb_differences(m, to, from, way);
+    gb_differences(m, q, from, aside);
+    const gb_real share = gb_scalar_product(aside, way, m->joints) / gb_scalar_product(way, way, m->joints);
+    gb_beyond(m, to, from, -gb_smaller(gb_larger(share, R(0.0)), R(1.0)), nearest);
+    return gb_farthest(m, q, nearest) <= GB_CURVE_PASSED;
+}
+
+/* Takes in a place that a walk comes to from the one before, and forgets the starts next to the step. */
+static void gb_pass(const gb_mechanism *m, gb_starts *starts, gb_curve *curve, const gb_spot *before, const gb_spot *at)
 {
     for (size_t k = 0; k < starts->count; k++) {
-        starts->is_open[k] = starts->is_open[k] && !(gb_farthest(m, starts->q[k], at->q) <= gb_curve_pace[2]);
+        starts->is_open[k] = starts->is_open[k] && !gb_is_passed(m, starts->q[k], before->q, at->q);
     }
     curve->most = gb_larger(curve->most, at->most);
     curve->best = at->most < curve->best.most ? *at : curve->best;
@@ -297,7 +314,7 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
     bool is_away = false;
     gb_keep_change(all, &curve->found, &before, &at);
     for (int k = 0; k < GB_CURVE_PACES; k++) {
-        gb_pass(m, starts, curve, &at);
+        gb_pass(m, starts, curve, &before, &at);
         const gb_real way = gb_farthest(m, at.q, curve->home.q);
         is_away |= way > R(3.0) * gb_curve_pace[2];
         if (is_away && way <= gb_curve_pace[2]) {
