@@ -15,7 +15,7 @@ use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch, witness};
 
 /// The longest stage file that is read, in bytes.
-const LIMIT: u64 = 256_000_000;
+const LIMIT: u64 = crate::limits::STAGE_BYTES;
 const PROGRAM: &str = "5_program.json";
 
 /// Proves a stored derivation again, without the Groebner engine

@@ -51,7 +51,12 @@ pub fn print(text: &str) -> Outcome {
 
 /// Writes what of the input was ignored to standard error.
 pub fn tell(notes: &[String]) {
-    notes.iter().for_each(|note| eprintln!("note: {note}"));
+    notes.iter().for_each(|note| line("note", note));
+}
+
+/// Writes a line to standard error, where there may be no one left to read it.
+pub fn line(kind: &str, text: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {text}");
 }
 
 /// What a failed write to standard output means.

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::output::{Force, Kind};
 use super::{Outcome, console, moving};
 use crate::document::{TEXT_LIMIT, read_text};
-use crate::files::write_atomically;
 use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
 
@@ -54,10 +54,15 @@ pub struct Arguments {
     /// Where it goes; standard output without it
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Writes the robot or the scene.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let read = [Some(&arguments.input), arguments.robot.as_ref()];
+    let output =
+        arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([arguments.out.as_ref()])?;
     let bytes = match arguments.to {
         Format::Urdf | Format::Mjcf => arguments.robot()?.into_bytes(),
         Format::Glb if arguments.out.is_none() => {
@@ -68,8 +73,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Format::Wrl => arguments.scene()?.to_wrl()?.into_bytes(),
     };
     match &arguments.out {
-        Some(file) => Ok(write_atomically(file, &bytes)?),
+        Some(file) => output.write(file, arguments.to.kind(), &bytes),
         None => console::print(&String::from_utf8_lossy(&bytes)),
+    }
+}
+
+impl Format {
+    fn kind(self) -> Kind {
+        match self {
+            Format::Glb => Kind::Plain,
+            Format::Wrl => Kind::Vrml,
+            Format::X3d | Format::Urdf | Format::Mjcf => Kind::Markup,
+        }
     }
 }
 
@@ -109,7 +124,7 @@ impl Arguments {
         };
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
         let scene = scene.map_err(|error| error.in_file(file))?;
-        scene.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+        scene.notes.iter().for_each(|note| console::line("warning", note));
         Ok(scene)
     }
 }

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::moving::described;
+use super::output::{Force, Kind};
 use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};
-use crate::files::write_atomically;
 use crate::motion::StateTable;
 use crate::{Error, ErrorKind, Result};
 
@@ -42,6 +42,8 @@ pub struct Arguments {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 #[derive(Serialize)]
@@ -71,6 +73,8 @@ struct Row<'a> {
 
 /// Reads the log and tells.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.robot.as_path(), arguments.log.as_path()]);
+    let output = output.expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations =
@@ -80,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let names = equations.parameter_names();
     let report = Report { notes: &robot.parts().notes, ..report(&found, log.len(), equations.joints(), &names) };
     if let Some(file) = &arguments.out {
-        write_atomically(file, table(&report).as_bytes())?;
+        output.write(file, Kind::Plain, table(&report))?;
     }
     if arguments.json {
         return console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"));

@@ -32,6 +32,7 @@ mod info;
 mod json;
 mod moving;
 mod navigate;
+mod output;
 mod page;
 mod part;
 mod path;
@@ -156,9 +157,13 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(usage) => {
-            // Help and version are "errors" here; nothing is left to do when they cannot be printed.
-            let _ = usage.print();
-            return u8::try_from(usage.exit_code()).unwrap_or(2);
+            // Help and version are "errors" here, which go to standard output.
+            let printed =
+                usage.print().and_then(|()| std::io::stdout().flush()).map_err(|error| console::unwritten(&error));
+            return match printed {
+                Err(halt) if !usage.use_stderr() => status(&Err(halt)),
+                _ => u8::try_from(usage.exit_code()).unwrap_or(2),
+            };
         }
     };
     let outcome = match &cli.command {
@@ -185,13 +190,18 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::View(arguments) => view::run(arguments),
     };
+    status(&outcome)
+}
+
+/// The exit status of a command; an error is reported.
+fn status(outcome: &Outcome) -> u8 {
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => 0,
         Err(Halt::WeakSpots) => WEAK,
         Err(Halt::NoWay) => NO_WAY,
         Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {
-            tell(&error);
+            tell(error);
             if error.kind() == ErrorKind::Cancelled { 130 } else { 1 }
         }
     }

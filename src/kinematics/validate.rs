@@ -7,14 +7,15 @@ use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST, show};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
+use crate::limits;
 use crate::model::is_plain;
 use crate::number::{BigInt, BigRational};
 use crate::spatial::exact::vector::{cosine, sine};
 use crate::{Error, ErrorKind};
 
-const MAX_JOINTS: usize = 12;
+const MAX_JOINTS: usize = limits::CHAIN_JOINTS;
 const MAX_NAME: usize = 64;
-const MAX_TEXT: usize = 2000;
+const MAX_TEXT: usize = limits::TEXT_CHARACTERS;
 const MAX_SYMBOL: usize = 16;
 
 /// The part of a chain that a fault is about.

@@ -4,10 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Actuator, Fault, Joint, JointType, Link, Part, RobotParts};
 use crate::document::{did_you_mean, shown};
+use crate::escape::is_hidden;
+use crate::limits;
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
-const MAX_NAME: usize = 200;
 /// How many joints may follow in turn.
 const MAX_FOLLOWERS: usize = 100;
 /// How many names a message lists.
@@ -29,7 +30,7 @@ pub(crate) fn some_among<'n>(name: &str, allowed: impl Iterator<Item = &'n str>)
 
 /// Whether `text` has at most `limit` characters and no control characters but line ends and tabs.
 pub(crate) fn is_plain(text: &str, limit: usize) -> bool {
-    text.chars().count() <= limit && !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t')
+    text.chars().count() <= limit && !text.chars().any(|c| is_hidden(c) && c != '\n' && c != '\t')
 }
 
 /// Checks all but how the links hang together; the places of the parent and the child link of each joint. What is wrong with a single joint or actuator is
@@ -97,12 +98,7 @@ fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &[Joint]) ->
 }
 
 fn check_name(name: &str, line: Option<usize>, what: &str) -> Result<()> {
-    if is_plain(name, MAX_NAME) && !name.trim().is_empty() && !name.contains(['\n', '\t']) {
-        return Ok(());
-    }
-    let message = format!("the {what}'s name is `{}`; give 1 to {MAX_NAME} visible characters", shown(name));
-    let error = Error::new(ErrorKind::BadValue, message);
-    Err(if let Some(line) = line { error.at_line(line) } else { error })
+    limits::check_name(what, name).map_err(|error| if let Some(line) = line { error.at_line(line) } else { error })
 }
 
 fn index_links(links: &[Link]) -> Result<HashMap<&str, usize>> {

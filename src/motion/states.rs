@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use crate::document::{read_text, shown, unix_lines};
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest table, in bytes.
-const STATES_LIMIT: u64 = 1 << 30;
+const STATES_LIMIT: u64 = limits::STATES_BYTES;
 
 /// States of a robot, a row each.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,8 +90,7 @@ fn row(
         return Err(format!("{} cells stand in the row; the first one has {} names", found.len(), names.len()));
     }
     let number = |column: usize| {
-        let fault = || format!("column `{}`: `{}` is no number", names[column], shown(found[column]));
-        found[column].parse::<f64>().map_err(|_| fault())
+        limits::number(found[column]).map_err(|fault| format!("column `{}`: {fault}", shown(names[column])))
     };
     let list = |columns: &Vec<usize>| {
         columns.iter().map(|column| number(*column)).collect::<std::result::Result<Vec<f64>, String>>()

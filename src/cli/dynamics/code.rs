@@ -4,8 +4,9 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::Arguments;
-use crate::cli::codegen::write_generated;
+use crate::cli::codegen::{refuse_run_time, write_pair};
 use crate::cli::moving::described;
+use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::{Base, Equations};
@@ -47,6 +48,7 @@ pub fn functions() -> impl TypedValueParser<Value = Function> {
 
 /// Prints the code, or writes it to files.
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
+    let output = arguments.output(None).expects([arguments.out.as_ref()])?;
     let (described, _) = described(&arguments.robot)?;
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;
@@ -72,12 +74,11 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let fault = |error: Error| error.in_file(&arguments.robot);
     match (language, &arguments.out) {
         (Language::Rust, None) => console::print(&printed.rust().map_err(fault)?),
-        (Language::Rust, Some(file)) => Ok(write_generated(file, &printed.rust().map_err(fault)?)?),
+        (Language::Rust, Some(file)) => output.write(file, Kind::Plain, printed.rust().map_err(fault)?),
         (Language::C, Some(file)) if file.extension().is_some_and(|end| end == "c") => {
+            refuse_run_time(file)?;
             let stem = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("dynamics");
-            let [header, source] = printed.c99(stem).map_err(fault)?;
-            write_generated(&file.with_extension("h"), &header)?;
-            Ok(write_generated(file, &source)?)
+            Ok(write_pair(&output, file, printed.c99(stem).map_err(fault)?)?)
         }
         (Language::C, _) => {
             let text = "C goes into two files: give the name of the source file by -o NAME.c";

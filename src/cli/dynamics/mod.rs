@@ -4,9 +4,10 @@ mod code;
 mod states;
 mod symbolic;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::Outcome;
+use super::output::{Force, Output};
 use super::part::PartArguments;
 use crate::codegen::dynamics::Function;
 
@@ -80,6 +81,15 @@ pub struct Arguments {
     /// JSON in place of the table
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
+}
+
+impl Arguments {
+    /// The writer, which replaces neither the robot nor `states`.
+    fn output(&self, states: Option<&Path>) -> Output {
+        self.force.output(std::iter::once(self.robot.as_path()).chain(states))
+    }
 }
 
 /// Prints what is requested.

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use super::Arguments;
 use crate::cli::ends::TipLink;
-use crate::cli::files::{DYNAMICS, refuse_overwriting, source_files};
+use crate::cli::files::{DYNAMICS, source_files, write_set};
 use crate::cli::{Outcome, console};
 use crate::derive::explain::{Document, Line, Part};
 use crate::derive::input::{Description, InputFile};
 use crate::derive::{Ends, Source};
 use crate::document::read_text;
 use crate::dynamics::exact::{Certificate, ExactModel, MOST_TERMS, Masses, Proof, Symbolic, masses};
-use crate::files::write_folder_atomically;
 use crate::kinematics::Chain;
+use crate::limits;
 use crate::model::Robot;
 use crate::number::BigRational;
 use crate::robots;
@@ -23,7 +23,7 @@ const TEXT: &str = "7_dynamics.txt";
 /// The most joints of equations as polynomials.
 const MOST_JOINTS: usize = 7;
 /// The longest file that is read again, in bytes.
-const LIMIT: u64 = 64_000_000;
+const LIMIT: u64 = limits::PROGRAM_BYTES;
 
 /// Tells the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
@@ -46,8 +46,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let own = [(TEXT, text), (DYNAMICS, certificate.to_json())];
     let mut files = asked.files(folder)?;
     files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
-    refuse_overwriting(folder, &files)?;
-    write_folder_atomically(folder, &files, &Watch::none())?;
+    write_set(folder, &files, || Ok(Vec::new()), arguments.force, &Watch::none())?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     console::print(&format!(
         "{}{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
