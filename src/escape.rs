@@ -1,4 +1,4 @@
-//! Text of others, fit to be shown: on a terminal, in messages, in JSON and in Markdown.
+//! Text of others, fit to be shown: on a terminal, in messages and in Markdown.
 
 use std::borrow::Cow;
 
@@ -15,29 +15,24 @@ pub fn is_hidden(c: char) -> bool {
     c.is_control() || is_direction || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
 }
 
-/// `text` with its hidden characters, but line ends and tabs, as `\u{1b}`.
+/// `text` with its hidden characters, but line ends and tabs, as `\u001b`: in JSON they then mean the same.
 pub fn page(text: &str) -> Cow<'_, str> {
-    replaced(text, |c| is_hidden(c) && c != '\n' && c != '\t', |c| c.escape_default().collect())
+    replaced(text, |c| is_hidden(c) && c != '\n' && c != '\t')
 }
 
 /// `text` on one line: also line ends and tabs are written as escapes.
 pub fn line(text: &str) -> Cow<'_, str> {
-    replaced(text, is_hidden, |c| c.escape_default().collect())
+    replaced(text, is_hidden)
 }
 
-/// JSON whose strings have no hidden character: `\u202e`.
-pub fn json(text: &str) -> Cow<'_, str> {
-    // Line ends stand between values only; all that is hidden is in the basic plane.
-    replaced(text, |c| is_hidden(c) && c != '\n', |c| format!("\\u{:04x}", u32::from(c)))
-}
-
-fn replaced(text: &str, is_bad: impl Fn(char) -> bool, escape: impl Fn(char) -> String) -> Cow<'_, str> {
+/// All that is hidden is in the basic plane: four digits hold it.
+fn replaced(text: &str, is_bad: impl Fn(char) -> bool) -> Cow<'_, str> {
     if !text.contains(&is_bad) {
         return Cow::Borrowed(text);
     }
     let mut whole = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        if is_bad(c) { whole += &escape(c) } else { whole.push(c) }
+        if is_bad(c) { whole += &format!("\\u{:04x}", u32::from(c)) } else { whole.push(c) }
     }
     Cow::Owned(whole)
 }

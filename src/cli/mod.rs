@@ -57,7 +57,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{Error, ErrorKind};
+use crate::{Error, ErrorKind, escape};
 use console::Paint;
 
 const EXAMPLES: &str = "Examples:
@@ -157,15 +157,11 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(usage) => {
-            // Help and version are "errors" here, which go to standard output.
-            let printed =
-                usage.print().and_then(|()| std::io::stdout().flush()).map_err(|error| console::unwritten(&error));
-            return match printed {
-                Err(halt) if !usage.use_stderr() => status(&Err(halt)),
-                _ => u8::try_from(usage.exit_code()).unwrap_or(2),
-            };
+            return report_usage(&usage);
         }
     };
+    // What cannot be caught ends the process as usual.
+    let _ = progress::interrupted();
     let outcome = match &cli.command {
         Command::Derive(arguments) => derive::run(arguments),
         Command::Solve(arguments) => solve::run(arguments),
@@ -191,6 +187,18 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::View(arguments) => view::run(arguments),
     };
     status(&outcome)
+}
+
+/// Prints help, the version or what is wrong with the arguments: the exit status.
+fn report_usage(usage: &clap::Error) -> u8 {
+    let code = u8::try_from(usage.exit_code()).unwrap_or(2);
+    if usage.use_stderr() {
+        // There is no one left to tell about a closed standard error.
+        let _ = std::io::stderr().write_all(escape::message(&usage.render().to_string()).as_bytes());
+        return code;
+    }
+    let printed = usage.print().and_then(|()| std::io::stdout().flush());
+    printed.map_or_else(|error| status(&Err(console::unwritten(&error))), |()| code)
 }
 
 /// The exit status of a command; an error is reported.

@@ -72,7 +72,11 @@ impl<'d> Unfinished<'d> {
         let note = folder.join(UNFINISHED);
         let (before, now) = (listed(&note), names.collect());
         let unfinished = Unfinished { disk, note, before, now };
-        unfinished.put(&unfinished.before | &unfinished.now)?;
+        if let Err(error) = unfinished.put(&unfinished.before | &unfinished.now) {
+            // Nothing has changed yet. Where the note cannot be taken back either, it refuses what is still whole.
+            let _ = unfinished.undone();
+            return Err(error);
+        }
         Ok(unfinished)
     }
 

@@ -7,6 +7,7 @@ mod own;
 mod staged;
 
 use std::path::Path;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use tempfile::NamedTempFile;
 
@@ -15,6 +16,21 @@ pub use self::lock::refuse_unfinished;
 pub use self::own::{MARK, Target, is_marked, refuse_foreign, write_into};
 pub use self::staged::StagedFolder;
 use crate::{Error, Result, Watch};
+
+/// Held for reading by each writer from its first temporary file to its last step, so that the end of the process can wait for it.
+static WRITERS: RwLock<()> = RwLock::new(());
+
+/// A writer at work.
+type Writing = RwLockReadGuard<'static, ()>;
+
+fn writing() -> Writing {
+    WRITERS.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits until no file of this process is half-written, and lets no writer begin while the guard lives: for who is about to end the process.
+pub fn stop_writers() -> RwLockWriteGuard<'static, ()> {
+    WRITERS.write().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Replaces the content of `path` by `bytes`: readers see the old file or the new one, nothing between.
 ///
@@ -34,6 +50,7 @@ pub fn write_atomically_on(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result
     if Target::of(path)? == Target::Stream {
         return write_into(path, bytes).map_err(|error| Error::io(path, &error));
     }
+    let _writing = writing();
     rename_onto(disk, write_beside(disk, path, bytes)?, path)?;
     disk.sync_folder(parent(path)).map_err(|error| Error::io(path, &error))
 }

@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 
 use super::disk::{Disk, System};
 use super::lock::{FolderLock, Unfinished};
-use super::{parent, rename_onto, write_beside};
+use super::{Writing, parent, rename_onto, write_beside, writing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// A set of files that is complete on the disk but still under temporary names, in a folder that no other process writes a set into.
@@ -21,8 +21,9 @@ pub struct StagedFolder<'d> {
     changes: Vec<Change>,
     // After `changes`: fields drop in order, and a folder is removed only once it is empty.
     folders: NewFolders,
-    // Last: nobody else comes in before the folder is as it was.
+    // Last: nobody else comes in, and the process does not end, before the folder is as it was.
     _lock: FolderLock,
+    _writing: Writing,
 }
 
 /// One file that is replaced, created or removed.
@@ -55,7 +56,7 @@ impl<'d> StagedFolder<'d> {
     pub fn stage_on(disk: &'d dyn Disk, folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<Self> {
         check_names(folder, files)?;
         let (folders, lock) = open(folder, watch)?;
-        let mut staged = StagedFolder { disk, changes: Vec::new(), folders, _lock: lock };
+        let mut staged = StagedFolder { disk, changes: Vec::new(), folders, _lock: lock, _writing: writing() };
         for (name, bytes) in files {
             watch.check()?;
             let change = Change::write(disk, folder.join(name), bytes)?;
@@ -84,7 +85,7 @@ impl<'d> StagedFolder<'d> {
     /// # Errors
     /// [`ErrorKind::Io`], about the file that could not be replaced or taken back.
     pub fn commit(self) -> Result<()> {
-        let StagedFolder { disk, changes, folders, _lock } = self;
+        let StagedFolder { disk, changes, folders, _lock, _writing } = self;
         let names = changes.iter().filter_map(|change| change.target.file_name());
         let unfinished =
             Unfinished::begin(disk, &folders.folder, names.map(|name| name.to_string_lossy().into_owned()))?;

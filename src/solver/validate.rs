@@ -60,9 +60,9 @@ impl Program {
             .map(|joint| joint.name.as_str())
             .chain(self.inputs.iter().map(|input| input.name.as_str()));
         let names = names.chain(self.unknowns.iter().map(String::as_str)).chain(words);
-        names
-            .chain(self.parameters.iter().map(|own| own.name.as_str()))
-            .try_for_each(|name| check_name("malformed program: a joint, input or link", name))?;
+        names.chain(self.parameters.iter().map(|own| own.name.as_str())).try_for_each(|name| {
+            check_name("joint, input or link", name).map_err(|error| error.with_context("malformed program"))
+        })?;
         let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
         ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
         ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;

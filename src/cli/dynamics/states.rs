@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use serde::Serialize;
 
 use super::Arguments;
-use crate::cli::output::Kind;
 use crate::cli::moving::described;
+use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
 use crate::model::Robot;
