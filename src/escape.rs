@@ -43,43 +43,62 @@ pub fn shown(text: &str) -> String {
     text.chars().take(MOST_SHOWN).flat_map(char::escape_debug).chain(dots.chars()).collect()
 }
 
-/// A message in which each quotation has at most [`MOST_ECHOED`] characters and none is hidden. A quotation begins after a space or a bracket with one of
-/// the signs `` ` ``, `"` and `'`, and ends with the same one.
+/// A message in which each quotation and each word has at most [`MOST_ECHOED`] characters and none is hidden. A quotation begins after a space or a bracket
+/// with one of the signs `` ` ``, `"` and `'`, and ends with the same one.
 pub fn message(text: &str) -> String {
-    let mut whole = String::with_capacity(text.len());
+    let mut whole = String::with_capacity(text.len().min(1 << 12));
     let (mut rest, mut before) = (&*page(text), ' ');
-    while let Some(first) = rest.chars().next() {
-        let length = if before.is_alphanumeric() { None } else { quotation(rest, first) };
-        let (piece, behind) = rest.split_at(length.unwrap_or(first.len_utf8()));
+    while !rest.is_empty() {
+        let (piece, behind) = rest.split_at(quotation(rest, before).unwrap_or_else(|| word(rest)));
         whole += &cut(piece);
-        (rest, before) = (behind, piece.chars().next_back().unwrap_or(first));
+        before = piece.chars().next_back().unwrap_or(before);
+        rest = behind;
     }
     whole
 }
 
+const SIGNS: [char; 3] = ['`', '"', '\''];
+
 /// How long the quotation is that `text` begins with, in bytes, if it does. One that does not end is as long as the text.
-fn quotation(text: &str, first: char) -> Option<usize> {
-    if !matches!(first, '`' | '"' | '\'') {
-        return None;
-    }
-    let end = text[1..].find(first).map(|at| at + 2);
+fn quotation(text: &str, before: char) -> Option<usize> {
+    let sign = text.chars().next().filter(|sign| SIGNS.contains(sign) && !before.is_alphanumeric())?;
+    let end = text[1..].find(sign).map(|at| at + 2);
     // An apostrophe ends what it does not begin.
-    end.or((first != '\'').then_some(text.len()))
+    end.or((sign != '\'').then_some(text.len()))
+}
+
+/// How long the word or the blank is that `text` begins with, in bytes.
+fn word(text: &str) -> usize {
+    let mut before = ' ';
+    let is_end = |c: char| {
+        let ends = c.is_whitespace() || SIGNS.contains(&c) && !before.is_alphanumeric();
+        before = c;
+        ends
+    };
+    let first = text.chars().next().map_or(0, char::len_utf8);
+    if text.starts_with(char::is_whitespace) {
+        first
+    } else {
+        text[first..].find(is_end).map_or(text.len(), |at| at + first)
+    }
 }
 
 fn cut(piece: &str) -> String {
-    let count = piece.chars().count();
-    if count <= MOST_ECHOED + 2 {
+    if piece.chars().nth(MOST_ECHOED + 2).is_none() {
         return piece.to_owned();
     }
-    let end = piece.chars().next_back().filter(|c| piece.starts_with(*c)).map_or(String::new(), String::from);
+    let end = piece
+        .chars()
+        .next_back()
+        .filter(|c| SIGNS.contains(c) && piece.starts_with(*c))
+        .map_or(String::new(), String::from);
     piece.chars().take(MOST_ECHOED + 1).chain("...".chars()).chain(end.chars()).collect()
 }
 
 /// `text` as words of Markdown on one line: neither HTML nor a link, a list, a heading or a command of a shell.
 pub fn markdown(text: &str) -> String {
-    let text = line(text);
-    let text = text.trim();
+    let text = text.replace(['\n', '\t'], " ");
+    let text = line(text.trim());
     let mut whole = String::with_capacity(text.len() + 8);
     let mut before = None;
     let mut letters = text.chars().peekable();

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::files::{CERTIFICATE, DYNAMICS, is_json};
-use super::solve::PROGRAM_NAME;
+use super::moving::ends;
 use super::{Halt, Outcome};
+use crate::derive::stages::STAGES;
 use crate::document::is_stdin;
 use crate::files::{MARK, Target, is_marked, refuse_foreign, write_atomically, write_into};
 use crate::{Error, ErrorKind, Result};
@@ -52,7 +52,7 @@ impl Force {
 fn within(path: &Path) -> Vec<PathBuf> {
     let is_read = |file: &PathBuf| {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        name.starts_with("0_") || [PROGRAM_NAME, CERTIFICATE, DYNAMICS].contains(&&*name)
+        name.starts_with("0_") || STAGES.contains(&&*name) || name == "7_dynamics.json"
     };
     match path.read_dir() {
         Ok(entries) => entries.flatten().map(|entry| entry.path()).filter(is_read).collect(),
@@ -117,7 +117,7 @@ impl Output {
 impl Kind {
     /// That of a motion or a map: JSON by its name, else a table.
     pub fn of_motion(file: &Path) -> Self {
-        if is_json(file) { Kind::Json } else { Kind::Plain }
+        if ends(file, "json") { Kind::Json } else { Kind::Plain }
     }
 
     /// The content with the mark by which [`refuse_foreign`] knows it.

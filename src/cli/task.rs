@@ -146,7 +146,8 @@ impl Arguments {
 
     fn changes(&self, room: &Room) -> Result<Vec<Change>> {
         let change = |told: &String| {
-            let wrong = || bad(format!("--then {told}: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS"));
+            let wrong =
+                || bad(format!("--then `{}`: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS", shown(told)));
             let (what, after) = told.rsplit_once('@').ok_or_else(wrong)?;
             let after = after.parse().map_err(|_| wrong())?;
             let what = match what.strip_prefix("goal=") {

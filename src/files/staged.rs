@@ -72,9 +72,8 @@ impl<'d> StagedFolder<'d> {
     pub fn without(mut self, name: &str) -> Result<Self> {
         check_name(name).map_err(|error| error.in_file(&self.folders.folder))?;
         let target = self.folders.folder.join(name);
-        if let Some(old) = old_content(self.disk, &target)? {
-            self.changes.push(Change { target, new: None, old: Some(old) });
-        }
+        let old = old_content(self.disk, &target)?;
+        self.changes.push(Change { target, new: None, old });
         Ok(self)
     }
 
@@ -128,6 +127,8 @@ impl Change {
         let Change { target, new, old } = self;
         match new {
             Some(new) => rename_onto(disk, new, &target)?,
+            // It is gone already.
+            None if old.is_none() => return Ok(()),
             None => disk.remove(&target).map_err(|error| Error::io(&target, &error))?,
         }
         done.push((target, old));

@@ -94,14 +94,17 @@ fn a_page_has_no_html_no_link_and_no_command() {
     fs::write(&file, format!("{}{named}{}", &arm[..start], &arm[end..])).unwrap();
     succeed(&["derive", text(&file), "--tip", "foot", "--task", "position", "--quiet", "--out", text(&out)]);
     let page = fs::read_to_string(out.join("README.md")).unwrap();
-    for word in ["<img", " $(", "](j", " &lt"] {
-        assert!(!page.replace('>', " ").contains(word), "{word}: {page}");
+    // What an escape stands before is a letter.
+    let bare =
+        |text: &str| ["\\<", "\\$", "\\]", "\\&"].iter().fold(text.to_owned(), |text, escape| text.replace(escape, ""));
+    for word in ["<img", "$(", "](j", "&lt"] {
+        assert!(!bare(&page).contains(word), "{word}: {page}");
     }
     let command = page.lines().find(|line| line.contains("groebot solve derivations/")).unwrap();
     let allowed = |c: char| c.is_ascii_alphanumeric() || " /_-.,".contains(c);
     assert!(command.chars().all(allowed), "{command}");
     let explained = succeed(&["explain", text(&out)]);
-    assert!(!explained.contains("<img") && !explained.contains("](j"), "{explained}");
+    assert!(!bare(&explained).contains("<img") && !bare(&explained).contains("](j"), "{explained}");
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn markdown_is_words() {
         ("&lt;", "\\&lt;"),
         ("# a", "\\# a"),
         ("_a_", "\\_a\\_"),
-        ("a\n\nb", "a\\u000a\\u000ab"),
+        ("a\n<b>", "a \\<b\\>"),
         ("`a`", "\\`a\\`"),
     ];
     cases.into_iter().for_each(|(text, words)| assert_eq!(markdown(text), words));
