@@ -9,7 +9,7 @@
 //! | a trajectory, a table of states, footsteps | [`TABLE_BYTES`], [`STATES_BYTES`], [`FOOTSTEPS_BYTES`] |
 //! | a line of a table on standard input, and its rows | [`LINE_BYTES`], [`ROWS`] |
 //! | poses to follow, samples of a trajectory, footsteps, steps of a control law | [`POSES`], [`SAMPLES`], [`FOOTSTEPS`], [`CONTROL_STEPS`] |
-//! | rows of a log to identify | [`LOG_ROWS`] |
+//! | entries of the regressor of a log to identify | [`LOG_ENTRIES`] |
 //! | a name, a description of some lines | [`NAME_CHARACTERS`], [`TEXT_CHARACTERS`] |
 //! | a number of a description | [`DIGITS`] digits, [`EXPONENT`] as exponent |
 //! | a number of a table, a target or an option | [`LARGEST`] |
@@ -58,8 +58,8 @@ pub const SAMPLES: usize = 10_000_000;
 pub const FOOTSTEPS: usize = 10_000;
 /// Steps for which a control law holds its torques.
 pub const CONTROL_STEPS: usize = 1_000_000;
-/// Rows of a log.
-pub const LOG_ROWS: usize = 1_000_000;
+/// Entries of the regressor of a log: rows times joints times ten parameters a joint.
+pub const LOG_ENTRIES: usize = 100_000_000;
 
 /// Characters of a name.
 pub const NAME_CHARACTERS: usize = 200;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::output::{Force, Kind};
 use super::{Outcome, console, moving};
 use crate::document::{TEXT_LIMIT, read_text};
+use crate::model::Robot;
 use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
 
@@ -104,7 +105,13 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
-        Ok(if self.to == Format::Urdf { robot.to_urdf() } else { robot.to_mjcf(&meshes) })
+        if self.to == Format::Mjcf {
+            return Ok(robot.to_mjcf(&meshes));
+        }
+        let text = robot.to_urdf();
+        let again = Robot::from_urdf(&text).and_then(|again| again.check());
+        again.map_err(|error| error.with_context("what is written cannot be read back").in_file(&self.input))?;
+        Ok(text)
     }
 
     fn scene(&self) -> Result<Scene> {

@@ -10,7 +10,7 @@ use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::dynamics::{Base, CONFIDENT, Consistency, Equations, Estimate, Identification, Logged};
 use crate::motion::StateTable;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, limits};
 
 const EXAMPLES: &str = "Examples:
   groebot identify ur5.urdf log.csv
@@ -95,6 +95,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 fn read(arguments: &Arguments) -> Result<Vec<Logged>> {
     let table = StateTable::read_csv(&arguments.log)?;
+    let entries = table.rows.len().saturating_mul(10 * table.coordinates * table.coordinates);
+    limits::check_count("entries of the regressor (rows times joints times parameters)", entries, limits::LOG_ENTRIES)
+        .map_err(|error| error.in_file(&arguments.log))?;
     let whole = table.rows.into_iter().map(|row| {
         Some(Logged { q: row.q, velocity: row.velocity?, acceleration: row.acceleration?, torques: row.torques? })
     });

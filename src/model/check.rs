@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::finite;
 use super::{Actuator, Fault, Joint, JointType, Link, Part, RobotParts};
 use crate::document::{did_you_mean, shown};
 use crate::escape::is_hidden;
@@ -47,8 +48,14 @@ pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
         let motion = if known.contains(&part) { Ok(()) } else { check_motion(joint) };
         let mimic = check_mimic(joint, &parts.joints, &joints);
         lost.extend(mimic.is_err().then_some(place));
-        let found = [motion, mimic].into_iter().filter_map(Result::err);
+        let numbers = if known.contains(&part) { Ok(()) } else { finite::check_joint(joint) };
+        let found = [motion, mimic, numbers].into_iter().filter_map(Result::err);
         faults.extend(found.map(|error| Fault { part: part.clone(), error }));
+    }
+    for link in &parts.links {
+        let part = Part::Link(link.name.clone());
+        let found = if known.contains(&part) { None } else { finite::check_link(link).err() };
+        faults.extend(found.map(|error| Fault { part, error }));
     }
     lost.into_iter().for_each(|place| parts.joints[place].mimic = None);
     let mut actuators = Vec::new();

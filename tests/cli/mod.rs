@@ -2,6 +2,7 @@
 
 mod asked;
 mod basis;
+mod budgets;
 mod check;
 mod codegen;
 mod committed;

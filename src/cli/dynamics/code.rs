@@ -10,7 +10,7 @@ use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::{Base, Equations};
-use crate::{Error, ErrorKind};
+use crate::{Error, ErrorKind, limits};
 
 /// What is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -52,6 +52,12 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let (described, _) = described(&arguments.robot)?;
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;
+    let masses = || robot.links().iter().any(|link| link.mass.is_some());
+    limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)
+        .and_then(|()| {
+            if masses() { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses")) }
+        })
+        .map_err(|error| error.in_file(&arguments.robot))?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let new = if arguments.as_told { Equations::as_told } else { Equations::new };
     let equations = new(&robot, base).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
