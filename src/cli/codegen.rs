@@ -201,5 +201,9 @@ pub(super) fn write_pair(output: &Output, source: &Path, texts: [String; 2]) -> 
         name.map(|name| (name, content)).ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(source))
     };
     let files: Vec<(String, Vec<u8>)> = files.into_iter().map(named).collect::<Result<_>>()?;
-    write_folder_atomically(source.parent().unwrap_or(Path::new("")), &files, &Watch::none())
+    let folder = source.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(Error::new(ErrorKind::Io, "there is no such folder; make it first").in_file(folder));
+    }
+    write_folder_atomically(folder, &files, &Watch::none())
 }

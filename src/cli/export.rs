@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::output::{Force, Kind};
 use super::{Outcome, console, moving};
-use crate::document::{TEXT_LIMIT, read_text};
+use crate::document::{TEXT_LIMIT, read_text, shown};
 use crate::model::Robot;
 use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
@@ -79,6 +79,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
+/// Tells what the reader left out of the links.
+fn tell_left_out(robot: &Robot) {
+    let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
+    notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));
+}
+
 impl Format {
     fn kind(self) -> Kind {
         match self {
@@ -105,6 +111,7 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
+        tell_left_out(&robot);
         if self.to == Format::Mjcf {
             return Ok(robot.to_mjcf(&meshes));
         }
@@ -129,6 +136,7 @@ impl Arguments {
             Some(motion) => moving::robot_of(motion, self.robot.as_deref()).map_err(|error| error.in_file(file))?,
             None => moving::robot(file)?,
         };
+        tell_left_out(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
         let scene = scene.map_err(|error| error.in_file(file))?;
         scene.notes.iter().for_each(|note| console::line("warning", note));

@@ -100,17 +100,32 @@ pub fn write_derivation(
     force: Force,
     watch: &Watch,
 ) -> Result<()> {
-    let is_kept = |name: &str| {
-        files.iter().any(|(new, _)| new == name)
-            || is_same_file(&source.path.with_file_name(name), &folder.join(name))
-            || name == TASK_NAME && keeps_task(source, folder)
+    let is_input = |name: &str| is_same_file(&source.path.with_file_name(name), &folder.join(name));
+    let is_stale = |name: &&str| match *name {
+        name if files.iter().any(|(new, _)| new == name) => false,
+        TASK_NAME => !is_input(TASK_NAME) && !keeps_task(source, folder),
+        // Printed solvers, with their marks.
+        name => refuse_foreign(&folder.join(name), &[]).is_ok(),
     };
     let stale = || {
+        refuse_input(source, folder, files)?;
         refuse_other_input(source, folder)?;
         let known = if is_derived(folder) { &STALE[..] } else { &[] };
-        Ok(known.iter().copied().filter(|name| !is_kept(name)).collect())
+        Ok(known.iter().copied().filter(is_stale).collect())
     };
     write_set(folder, files, stale, force, watch)
+}
+
+/// Fails where a file of `files` would take the place of the description that they come from.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] with the description.
+pub fn refuse_input(source: &Source, folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    if !files.iter().any(|(name, _)| is_same_file(&source.path, &folder.join(name))) {
+        return Ok(());
+    }
+    let text = "this is the input, and has the name of a file that is written; give another folder by --out";
+    Err(Error::new(ErrorKind::BadValue, text).in_file(&source.path))
 }
 
 /// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder

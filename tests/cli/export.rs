@@ -186,7 +186,11 @@ fn numbers_beyond_doubles_are_not_exported() {
         succeed(&["export", text(&file), "--to", format, "-o", text(&out), "--force"]);
     }
     fs::remove_file(&out).unwrap();
-    for place in 0..4 {
+    // A shape is left out, with a note.
+    fs::write(&file, robot("1", "1e400", "1", "1")).unwrap();
+    let ran = run(&["export", text(&file), "--to", "mjcf"]);
+    assert!(ran.code == 0 && !ran.out.contains("inf") && ran.err.contains("1e400 is not finite"), "{}", ran.err);
+    for place in [0, 2, 3] {
         let at = |own: usize| if own == place { "1e400" } else { "1" };
         fs::write(&file, robot(at(0), at(1), at(2), at(3))).unwrap();
         for format in ["urdf", "mjcf", "glb"] {

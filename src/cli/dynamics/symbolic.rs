@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Arguments;
 use crate::cli::ends::TipLink;
-use crate::cli::files::{DYNAMICS, source_files, write_set};
+use crate::cli::files::{DYNAMICS, refuse_input, source_files, write_set};
 use crate::cli::{Outcome, console};
 use crate::derive::explain::{Document, Line, Part};
 use crate::derive::input::{Description, InputFile};
@@ -46,7 +46,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let own = [(TEXT, text), (DYNAMICS, certificate.to_json())];
     let mut files = asked.files(folder)?;
     files.extend(own.map(|(name, text)| (name.to_owned(), text.into_bytes())));
-    write_set(folder, &files, || Ok(Vec::new()), arguments.force, &Watch::none())?;
+    let refuse = || match &asked.source {
+        Some(source) => refuse_input(source, folder, &files).map(|()| Vec::new()),
+        None => Ok(Vec::new()),
+    };
+    write_set(folder, &files, refuse, arguments.force, &Watch::none())?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     console::print(&format!(
         "{}{} joints, {} terms of M, C and N, proved; written to {}: {}\n",
