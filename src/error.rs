@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::escape;
+
 /// What went wrong, coarsely; match on it with a wildcard arm.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -116,11 +118,11 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.place.file {
-            write!(f, "{}: ", file.display())?;
+            write!(f, "{}: ", escape::line(&file.to_string_lossy()))?;
         }
         if let Some(line) = self.place.line {
             write!(f, "line {line}: ")?;
         }
-        f.write_str(&self.message)
+        f.write_str(&escape::message(&self.message))
     }
 }

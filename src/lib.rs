@@ -34,7 +34,9 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub mod error;
+pub mod escape;
 pub mod files;
+pub mod limits;
 pub mod watch;
 
 pub mod number;

@@ -7,15 +7,14 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::basis_answer::Answer;
 use super::basis_question::Question;
 use super::console;
+use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
 use super::{Outcome, basis_cover};
-use crate::files::write_atomically;
 use crate::poly::Order;
 use crate::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
-use crate::{Error, ErrorKind, Result, Watch};
+use crate::{Error, ErrorKind, Result};
 
 const STDIN: &str = "<stdin>";
 
@@ -66,6 +65,8 @@ pub struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     budget: Budget,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// A format, or none: the content shows it.
@@ -87,14 +88,28 @@ fn order(text: &str) -> std::result::Result<Order, String> {
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(arguments.budget.limits())?;
     let start = Instant::now();
+    let proof_file = arguments.proof_file()?;
+    let output = arguments.force.output([arguments.file.as_path()]);
+    let output = output.expects([arguments.out.as_ref(), proof_file.as_ref()])?;
     if arguments.cover {
-        return tell_cover(arguments, &session, start);
+        return tell_cover(arguments, &output, &session, start);
     }
     let question = arguments.question().map_err(|error| error.in_file(shown(&arguments.file)))?;
-    let proof_file = arguments.proof_file()?;
     let answer = question.answer(&session.watch).map_err(|error| in_file(error, &arguments.file))?;
     let text = answer.text.clone();
-    write_files(&arguments.files(&answer, proof_file), &session.watch)?;
+    let basis = match question.format {
+        Format::Plain => Kind::Lines("#"),
+        Format::Singular => Kind::Lines("//"),
+        Format::Msolve => Kind::Plain,
+    };
+    // An interruption is heeded before the first file.
+    session.watch.check()?;
+    if let (Some(file), Some(proof)) = (&proof_file, &answer.certificate) {
+        output.write(file, Kind::Json, proof)?;
+    }
+    if let Some(file) = &arguments.out {
+        output.write(file, basis, &text)?;
+    }
     drop(session);
     if arguments.out.is_none() {
         console::print(&text)?;
@@ -107,7 +122,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Computes the cover, writes it, and tells about it.
-fn tell_cover(arguments: &Arguments, session: &Session, start: Instant) -> Outcome {
+fn tell_cover(arguments: &Arguments, output: &Output, session: &Session, start: Instant) -> Outcome {
     let tell = || {
         let (system, _) = arguments.system()?;
         let order = arguments.order.clone().unwrap_or_else(|| system.heading.order.clone());
@@ -116,7 +131,10 @@ fn tell_cover(arguments: &Arguments, session: &Session, start: Instant) -> Outco
     };
     let (text, summary) = tell().map_err(|error| in_file(error, &arguments.file))?;
     match &arguments.out {
-        Some(path) => write_files(&[(path.clone(), text)], &session.watch)?,
+        Some(path) => {
+            session.watch.check()?;
+            output.write(path, Kind::Lines("#"), text)?;
+        }
         None => console::print(&text)?,
     }
     if !arguments.budget.quiet {
@@ -161,13 +179,6 @@ impl Arguments {
         }
         Ok(Some(path))
     }
-
-    /// The files to write, each with its content.
-    fn files(&self, answer: &Answer, proof_file: Option<PathBuf>) -> Vec<(PathBuf, String)> {
-        let proof = proof_file.zip(answer.certificate.clone());
-        let basis = self.out.clone().map(|path| (path, answer.text.clone()));
-        proof.into_iter().chain(basis).collect()
-    }
 }
 
 /// At most one byte more than the longest system.
@@ -192,10 +203,4 @@ fn in_file(error: Error, path: &Path) -> Error {
         ErrorKind::Cancelled => error,
         _ => error.in_file(shown(path)),
     }
-}
-
-/// Replaces each file whole; an interruption is heeded before the first.
-fn write_files(files: &[(PathBuf, String)], watch: &Watch) -> Result<()> {
-    watch.check()?;
-    files.iter().try_for_each(|(path, text)| write_atomically(path, text.as_bytes()))
 }

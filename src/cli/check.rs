@@ -12,7 +12,7 @@ use crate::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict
 use crate::{Result, Watch};
 
 /// The longest certificate that is read, in bytes.
-const LIMIT: u64 = 256_000_000;
+const LIMIT: u64 = crate::limits::STAGE_BYTES;
 
 /// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with what is proved
 ///

@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
 use super::{Halt, Outcome};
-use crate::Error;
+use crate::{Error, escape};
 
 /// Whether text is painted.
 #[derive(Clone, Copy)]
@@ -41,17 +41,37 @@ impl Paint {
     fn with(self, code: &str, text: &str) -> String {
         if self.0 { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
     }
+
+    /// The text without hidden characters but those of [`Paint`].
+    fn safe(self, text: &str) -> String {
+        let mut pieces = text.split('\x1b');
+        let first = escape::page(pieces.next().unwrap_or_default()).into_owned();
+        pieces.fold(first, |whole, piece| {
+            let own = CODES.iter().find(|code| self.0 && piece.starts_with(**code)).copied().unwrap_or_default();
+            let sign = if own.is_empty() { "\\u001b" } else { "\x1b" };
+            whole + sign + own + &escape::page(&piece[own.len()..])
+        })
+    }
 }
+
+/// What [`Paint`] puts behind an escape character.
+const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
 /// Writes `text` to standard output.
 pub fn print(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
+    let text = Paint::of(&out).safe(text);
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))
 }
 
 /// Writes what of the input was ignored to standard error.
 pub fn tell(notes: &[String]) {
-    notes.iter().for_each(|note| eprintln!("note: {note}"));
+    notes.iter().for_each(|note| line("note", note));
+}
+
+/// Writes a line to standard error, where there may be no one left to read it.
+pub fn line(kind: &str, text: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {}", escape::message(text));
 }
 
 /// What a failed write to standard output means.

@@ -6,16 +6,17 @@ use std::time::{Duration, Instant};
 use super::answers::exact;
 use super::console::{self, Paint};
 use super::ends::{IdealEndArguments, TipLink};
-use super::files::{assemble_files, destination, refuse_overwriting};
+use super::files::{assemble_files, destination, write_derivation};
 use super::info::near_words;
 use super::json::{self, Told};
+use super::output::Force;
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use super::{Halt, Outcome};
+use crate::derive::ends::solver_name;
 use crate::derive::planner::{Choice, fitting_task};
 use crate::derive::{Ends, Proved, Source};
 use crate::document::shown;
-use crate::files::write_folder_atomically;
 use crate::witness;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -51,7 +52,7 @@ pub struct Arguments {
     #[arg(long)]
     quiet: bool,
     /// The name of the solver: its files are NAME.c, NAME.h, NAME.rs and NAME_ikfast.cpp
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = name)]
     name: Option<String>,
     /// JSON instead of the report
     #[arg(long)]
@@ -59,6 +60,12 @@ pub struct Arguments {
     /// Refuse a solver whose answers are wrong or missing at one target of the numeric check, singular ones too
     #[arg(long)]
     strict: bool,
+    #[command(flatten)]
+    force: Force,
+}
+
+fn name(text: &str) -> std::result::Result<String, String> {
+    solver_name(text).map_err(|error| error.message().to_owned())
 }
 
 /// Derives, writes the files, then tells about it.
@@ -77,9 +84,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     refuse_failures(&source, &derivation, &checked, arguments.strict)?;
     clock.lap("check numerically");
     let files = assemble_files(&source, &derivation, &checked, &folder)?;
-    refuse_overwriting(&folder, &files)?;
     clock.lap("print the stages");
-    write_folder_atomically(&folder, &files, &session.watch)?;
+    write_derivation(&source, &folder, &files, arguments.force, &session.watch)?;
     clock.lap("write");
     drop(session);
     if arguments.quiet {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use super::ends::{EndArguments, TipLink};
 use super::files::is_derived;
+use super::output::{Force, Kind};
 use super::{Outcome, check, console};
 use crate::Watch;
 use crate::derive::explain::{Document, explain};
 use crate::derive::{Ends, Proved, Source};
-use crate::files::write_atomically;
 
 const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma
@@ -32,10 +32,13 @@ pub struct Arguments {
     /// The file to write to, instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.input.as_path()]).expects([arguments.output.as_ref()])?;
     let (source, mut document) = told(&arguments.input, &arguments.ends.ends()?)?;
     console::tell(&source.notes);
     // A stored proof is of its own tip link.
@@ -44,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
     match &arguments.output {
         None => console::print(&text),
-        Some(path) => Ok(write_atomically(path, text.as_bytes())?),
+        Some(path) => output.write(path, if arguments.latex { Kind::Lines("%") } else { Kind::Markup }, text),
     }
 }
 

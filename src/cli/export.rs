@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use super::output::{Force, Kind};
 use super::{Outcome, console, moving};
-use crate::document::{TEXT_LIMIT, read_text};
-use crate::files::write_atomically;
+use crate::document::{TEXT_LIMIT, read_text, shown};
+use crate::model::Robot;
 use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
 
@@ -54,10 +55,15 @@ pub struct Arguments {
     /// Where it goes; standard output without it
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Writes the robot or the scene.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let read = [Some(&arguments.input), arguments.robot.as_ref()];
+    let output =
+        arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([arguments.out.as_ref()])?;
     let bytes = match arguments.to {
         Format::Urdf | Format::Mjcf => arguments.robot()?.into_bytes(),
         Format::Glb if arguments.out.is_none() => {
@@ -68,8 +74,24 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Format::Wrl => arguments.scene()?.to_wrl()?.into_bytes(),
     };
     match &arguments.out {
-        Some(file) => Ok(write_atomically(file, &bytes)?),
+        Some(file) => output.write(file, arguments.to.kind(), &bytes),
         None => console::print(&String::from_utf8_lossy(&bytes)),
+    }
+}
+
+/// Tells what the reader left out of the links.
+fn tell_left_out(robot: &Robot) {
+    let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
+    notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));
+}
+
+impl Format {
+    fn kind(self) -> Kind {
+        match self {
+            Format::Glb => Kind::Plain,
+            Format::Wrl => Kind::Vrml,
+            Format::X3d | Format::Urdf | Format::Mjcf => Kind::Markup,
+        }
     }
 }
 
@@ -89,7 +111,14 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
-        Ok(if self.to == Format::Urdf { robot.to_urdf() } else { robot.to_mjcf(&meshes) })
+        tell_left_out(&robot);
+        if self.to == Format::Mjcf {
+            return Ok(robot.to_mjcf(&meshes));
+        }
+        let text = robot.to_urdf();
+        let again = Robot::from_urdf(&text).and_then(|again| again.check());
+        again.map_err(|error| error.with_context("what is written cannot be read back").in_file(&self.input))?;
+        Ok(text)
     }
 
     fn scene(&self) -> Result<Scene> {
@@ -107,9 +136,10 @@ impl Arguments {
             Some(motion) => moving::robot_of(motion, self.robot.as_deref()).map_err(|error| error.in_file(file))?,
             None => moving::robot(file)?,
         };
+        tell_left_out(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
         let scene = scene.map_err(|error| error.in_file(file))?;
-        scene.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+        scene.notes.iter().for_each(|note| console::line("warning", note));
         Ok(scene)
     }
 }

@@ -4,15 +4,17 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use super::output::{Force, is_same_file};
 use crate::codegen;
 use crate::derive::ends::TASK_NAME;
 use crate::derive::input::INPUT_NAMES;
 use crate::derive::{Ends, Proved, Source, stages};
 use crate::document::{TEXT_LIMIT, is_stdin, read_text};
+use crate::files::{StagedFolder, refuse_foreign, refuse_unfinished};
 use crate::folder::{CERTIFICATE, DYNAMICS, Written, derived};
 use crate::solver::Program;
 use crate::witness::Report;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, Watch};
 
 /// So many bytes of a certificate tell that it is one of ours.
 const HEAD: usize = 200;
@@ -33,19 +35,90 @@ pub fn is_derived(folder: &Path) -> bool {
     })
 }
 
-/// Fails where a file of `files` would take the place of one that groebot did not write: in a folder that nothing was derived into.
+/// What a derivation may have, and another one in the same folder not.
+const STALE: [&str; 5] = [TASK_NAME, "5_solver.c", "5_solver.h", "5_solver.rs", "5_ikfast.cpp"];
+
+/// The ends of the names of printed solvers: somebody's code may have such a name, also in a folder of a derivation.
+const CODE: [&str; 4] = ["c", "h", "rs", "cpp"];
+
+/// Fails where a file of `files` would take the place of one that groebot did not write. In a folder that groebot derived into, the files of a derivation
+/// are its own, but printed solvers only with their mark; elsewhere [`refuse_foreign`] decides.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the folder and the file's name.
-pub fn refuse_overwriting(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
-    if is_derived(folder) {
+fn refuse_overwriting(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    let is_derived = is_derived(folder);
+    let is_code = |path: &Path| CODE.iter().any(|end| path.extension().is_some_and(|own| own == *end));
+    let is_foreign = |(name, bytes): &&(String, Vec<u8>)| {
+        let path = folder.join(name);
+        let is_own = is_derived && !is_code(&path) || refuse_unfinished(&path).is_err();
+        !is_own && refuse_foreign(&path, bytes).is_err()
+    };
+    let Some((name, _)) = files.iter().find(is_foreign) else { return Ok(()) };
+    let text = format!(
+        "this folder has a `{name}` that groebot did not write; give another folder by --out, move it away, or --force to replace it"
+    );
+    Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
+}
+
+/// Replaces `files` in `folder` together, and removes those that `stale` lists. `stale` is asked, and whether the files may be replaced is decided, while no
+/// other process writes there.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for a foreign file without `force`; as `stale`, [`StagedFolder::stage`] and [`StagedFolder::commit`].
+pub fn write_set<'n>(
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+    stale: impl FnOnce() -> Result<Vec<&'n str>>,
+    force: Force,
+    watch: &Watch,
+) -> Result<()> {
+    let staged = StagedFolder::stage(folder, files, watch)?;
+    let stale = stale()?;
+    if !force.force {
+        refuse_overwriting(folder, files)?;
+    }
+    watch.check()?;
+    stale.into_iter().try_fold(staged, StagedFolder::without)?.commit()
+}
+
+/// Writes the files of a derivation of `source`; those that an earlier derivation left and this one does not have go.
+///
+/// # Errors
+/// As [`write_set`]; [`ErrorKind::BadValue`] where another process wrote an input of another kind meanwhile.
+pub fn write_derivation(
+    source: &Source,
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+    force: Force,
+    watch: &Watch,
+) -> Result<()> {
+    let is_input = |name: &str| is_same_file(&source.path.with_file_name(name), &folder.join(name));
+    let is_stale = |name: &&str| match *name {
+        name if files.iter().any(|(new, _)| new == name) => false,
+        TASK_NAME => !is_input(TASK_NAME) && !keeps_task(source, folder),
+        // Printed solvers, with their marks.
+        name => refuse_foreign(&folder.join(name), &[]).is_ok(),
+    };
+    let stale = || {
+        refuse_input(source, folder, files)?;
+        refuse_other_input(source, folder)?;
+        let known = if is_derived(folder) { &STALE[..] } else { &[] };
+        Ok(known.iter().copied().filter(is_stale).collect())
+    };
+    write_set(folder, files, stale, force, watch)
+}
+
+/// Fails where a file of `files` would take the place of the description that they come from.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] with the description.
+pub fn refuse_input(source: &Source, folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    if !files.iter().any(|(name, _)| is_same_file(&source.path, &folder.join(name))) {
         return Ok(());
     }
-    let is_another = |(name, bytes): &&(String, Vec<u8>)| fs::read(folder.join(name)).is_ok_and(|old| old != *bytes);
-    let Some((name, _)) = files.iter().find(is_another) else { return Ok(()) };
-    let text =
-        format!("this folder has a `{name}` that groebot did not write; give another folder by --out, or move it away");
-    Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
+    let text = "this is the input, and has the name of a file that is written; give another folder by --out";
+    Err(Error::new(ErrorKind::BadValue, text).in_file(&source.path))
 }
 
 /// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
@@ -70,15 +143,21 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
         }
     };
+    refuse_other_input(source, &folder)?;
+    Ok(folder)
+}
+
+/// Fails where `folder` has an input that is not `source`.
+fn refuse_other_input(source: &Source, folder: &Path) -> Result<()> {
     let other = INPUT_NAMES.iter().find(|name| **name != source.name && folder.join(name).exists());
     let refusal = match other {
         Some(other) => format!("this folder has a `{other}`, and would get a `{}`", source.name),
-        None if holds_another(&folder, source) => {
+        None if holds_another(folder, source) => {
             format!("this folder has another `{}`, which nothing has been derived from", source.name)
         }
-        None => return Ok(folder),
+        None => return Ok(()),
     };
-    Err(Error::new(ErrorKind::BadValue, format!("{refusal}; give another one by --out")).in_file(&folder))
+    Err(Error::new(ErrorKind::BadValue, format!("{refusal}; give another one by --out")).in_file(folder))
 }
 
 /// Whether `folder` has a description that differs from `source`, and nothing derived from it: somebody wrote it there.
@@ -140,8 +219,4 @@ fn keeps_task(source: &Source, folder: &Path) -> bool {
 pub fn without_ikfast(program: &Program) -> Option<String> {
     let refusal = codegen::ikfast::emit_beside(program, &codegen::ikfast::Options::default(), "").err()?;
     Some(format!("no file for IKFast: {}", refusal.message()))
-}
-
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }

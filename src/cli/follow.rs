@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 
 use super::columns::{Columns, Field, Measure};
 use super::ends::{IdealEndArguments, TipLink};
+use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
 use crate::derive::{Description, InputFile, Proved};
 use crate::document::is_stdin;
 use crate::dynamics::{Clearance, Model};
-use crate::files::write_atomically;
 use crate::kinematics::{Chain, LengthUnit};
+use crate::limits;
 use crate::model::Robot;
 use crate::motion::table::pose_of;
 use crate::motion::{Followed, Pace, follow};
@@ -61,10 +62,14 @@ pub struct Arguments {
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Follows the poses and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.input.as_path(), arguments.poses.as_path()]);
+    let output = output.expects([arguments.out.as_ref(), arguments.json.as_ref()])?;
     let input = InputFile::read(&arguments.input)?;
     let ends = arguments.ends.ends()?.or(&input.ends);
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
@@ -89,10 +94,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return Err(Error::new(ErrorKind::BadValue, text).in_file(&arguments.poses).into());
     }
     if let Some(file) = &arguments.out {
-        write_atomically(file, followed.trajectory.to_csv().as_bytes())?;
+        output.write(file, Kind::Plain, followed.trajectory.to_csv())?;
     }
     if let Some(file) = &arguments.json {
-        write_atomically(file, (followed.trajectory.to_json().to_string() + "\n").as_bytes())?;
+        output.write(file, Kind::Json, followed.trajectory.to_json().to_string() + "\n")?;
     }
     if arguments.quiet {
         return Ok(());
@@ -146,6 +151,7 @@ fn read_from(input: impl BufRead, file: &Path, chain: &Chain) -> Result<(Vec<Pos
             8 => (Some(row.target[0]), &row.target[1..]),
             _ => (None, &row.target[..]),
         };
+        limits::check_count("poses", poses.len() + 1, limits::POSES)?;
         poses.push(pose(numbers).map_err(|error| error.at_line(row.line))?);
         times.extend(time);
     }

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::moving::described;
+use super::output::{Force, Kind};
 use super::part::PartArguments;
 use super::{Halt, Outcome, console};
 use crate::document::shown;
 use crate::dynamics::{Base, Consistency, Equations, Estimate, Finding, Identification, Logged};
-use crate::files::write_atomically;
 use crate::motion::StateTable;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, limits};
 
 const EXAMPLES: &str = "Examples:
   groebot identify ur5.urdf log.csv
@@ -48,6 +48,8 @@ pub struct Arguments {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 #[derive(Serialize)]
@@ -95,6 +97,8 @@ struct Found<'a> {
 
 /// Reads the log and tells.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.robot.as_path(), arguments.log.as_path()]);
+    let output = output.expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations =
@@ -105,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let notes = [&robot.parts().notes[..], equations.notes()].concat();
     let report = Report { notes, ..report(&found, log.len(), equations.joints(), &names) };
     if let Some(file) = &arguments.out {
-        write_atomically(file, table(&report).as_bytes())?;
+        output.write(file, Kind::Plain, table(&report))?;
     }
     if arguments.json {
         console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"))?;
@@ -119,6 +123,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
 fn read(arguments: &Arguments, equations: &Equations) -> Result<Vec<Logged>> {
     let table = StateTable::read_csv(&arguments.log)?;
     let table = table.in_order_of(equations.joints()).map_err(|error| error.in_file(&arguments.log))?;
+    let entries = table.rows.len().saturating_mul(10 * table.coordinates * table.coordinates);
+    limits::check_count("entries of the regressor (rows times joints times parameters)", entries, limits::LOG_ENTRIES)
+        .map_err(|error| error.in_file(&arguments.log))?;
     let whole = table.rows.into_iter().map(|row| {
         Some(Logged { q: row.q, velocity: row.velocity?, acceleration: row.acceleration?, torques: row.torques? })
     });

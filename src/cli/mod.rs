@@ -32,6 +32,7 @@ mod info;
 mod json;
 mod moving;
 mod navigate;
+mod output;
 mod page;
 mod part;
 mod path;
@@ -56,7 +57,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{Error, ErrorKind};
+use crate::{Error, ErrorKind, escape};
 use console::Paint;
 
 const EXAMPLES: &str = "Examples:
@@ -158,11 +159,11 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(usage) => {
-            // Help and version are "errors" here; nothing is left to do when they cannot be printed.
-            let _ = usage.print();
-            return u8::try_from(usage.exit_code()).unwrap_or(2);
+            return report_usage(&usage);
         }
     };
+    // What cannot be caught ends the process as usual.
+    let _ = progress::interrupted();
     let outcome = match &cli.command {
         Command::Derive(arguments) => derive::run(arguments),
         Command::Solve(arguments) => solve::run(arguments),
@@ -187,13 +188,30 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::View(arguments) => view::run(arguments),
     };
+    status(&outcome)
+}
+
+/// Prints help, the version or what is wrong with the arguments: the exit status.
+fn report_usage(usage: &clap::Error) -> u8 {
+    let code = u8::try_from(usage.exit_code()).unwrap_or(2);
+    if usage.use_stderr() {
+        // There is no one left to tell about a closed standard error.
+        let _ = std::io::stderr().write_all(escape::message(&usage.render().to_string()).as_bytes());
+        return code;
+    }
+    let printed = usage.print().and_then(|()| std::io::stdout().flush());
+    printed.map_or_else(|error| status(&Err(console::unwritten(&error))), |()| code)
+}
+
+/// The exit status of a command; an error is reported.
+fn status(outcome: &Outcome) -> u8 {
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => 0,
         Err(Halt::WeakSpots | Halt::BadData) => WEAK,
         Err(Halt::NoWay) => NO_WAY,
         Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {
-            tell(&error);
+            tell(error);
             if error.kind() == ErrorKind::Cancelled { 130 } else { 1 }
         }
     }

@@ -1,6 +1,6 @@
 //! `groebot navigate`: a humanoid plans its path over a map, step by step.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use super::files::is_json;
 use super::floor::{self, FloorArguments, PlaceArguments};
 use super::json::FORMAT;
+use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
-use crate::files::write_atomically;
 use crate::gait::{Footstep, Summary, Usual};
 use crate::robots::Outline;
 use crate::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
@@ -70,6 +70,8 @@ pub struct Arguments {
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -86,6 +88,7 @@ pub(super) enum MethodName {
 
 /// Plans the journey and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
     let notes = named.robot.parts().notes.clone();
@@ -99,10 +102,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
     match &found {
-        Ok(plan) => arguments.write(&pilot, &floor, plan)?,
+        Ok(plan) => arguments.write(&output, &pilot, &floor, plan)?,
         Err(blocked) => {
             if let Some(file) = &arguments.plot {
-                write_atomically(file, blocked.to_svg(&floor, &start.point(), &goal.place).as_bytes())?;
+                output.write(file, Kind::Markup, blocked.to_svg(&floor, &start.point(), &goal.place))?;
             }
         }
     }
@@ -120,7 +123,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             console::print(&format!("{plan}  planned in       {milliseconds:.1} ms\n"))
         }
         Err(blocked) => {
-            eprintln!("error: {blocked}");
+            console::line("error", &blocked.to_string());
             Err(Halt::NoWay)
         }
     }
@@ -137,14 +140,20 @@ impl Arguments {
         Pilot::new(named.walker, usual, body, !self.crouched, watch)
     }
 
-    fn write(&self, pilot: &Pilot, floor: &Floor, plan: &Plan) -> Result<()> {
+    /// The writer, which replaces neither the robot nor the map.
+    fn output(&self) -> Result<Output> {
+        let output = self.force.output([Path::new(&self.robot), self.map.as_path()]);
+        output.expects([self.out.as_ref(), self.plot.as_ref()])
+    }
+
+    fn write(&self, output: &Output, pilot: &Pilot, floor: &Floor, plan: &Plan) -> Outcome {
         let biped = &pilot.walker().biped;
         if let Some(file) = &self.out {
             let text = if is_json(file) { plan.walk.to_json(biped) } else { plan.walk.to_csv(biped) };
-            write_atomically(file, text.as_bytes())?;
+            output.write(file, Kind::of_motion(file), text)?;
         }
         match &self.plot {
-            Some(file) => write_atomically(file, plan.to_svg(pilot, floor).as_bytes()),
+            Some(file) => output.write(file, Kind::Markup, plan.to_svg(pilot, floor)),
             None => Ok(()),
         }
     }

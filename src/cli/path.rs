@@ -9,9 +9,9 @@ use serde_json::{Value, json};
 
 use super::floor::{self, FloorArguments};
 use super::json::FORMAT;
+use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::{Halt, Outcome, console};
-use crate::files::write_atomically;
 use crate::nav::{Enclosure, Field, Forces, Guide, Map, Method, Potential, Way};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -57,6 +57,8 @@ pub struct Arguments {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -93,6 +95,7 @@ struct Found {
 
 /// Finds the way and tells it.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.map.as_path()]).expects([arguments.out.as_ref()])?;
     let session = Session::start(Limits::default())?;
     let (map, _) = arguments.floor.map(&arguments.map)?;
     let map = if arguments.radius == 0.0 { map } else { for_radius(map, arguments.radius)? };
@@ -106,7 +109,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     drop(session);
     if let (Some(file), Ok(way)) = (&arguments.out, &found.way) {
         let rows: String = way.points.iter().map(|point| format!("{},{}\n", point.x, point.y)).collect();
-        write_atomically(file, format!("x,y\n{rows}").as_bytes())?;
+        output.write(file, Kind::Plain, format!("x,y\n{rows}"))?;
     }
     let text = if arguments.json {
         super::json::text(&arguments.json(&map, &found, milliseconds))

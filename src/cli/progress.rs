@@ -1,12 +1,13 @@
 //! A [`Watch`] that a person follows and stops: a spinner on a terminal, Ctrl-C, a budget.
 
 use std::io::{IsTerminal, stderr};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::Duration;
+use std::sync::{Arc, OnceLock, Weak};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::files::stop_writers;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest time budget: about thirty years.
@@ -51,33 +52,26 @@ pub struct Session {
     /// What the work asks.
     pub watch: Watch,
     spinner: Option<ProgressBar>,
+    /// The guard of the budgets lives as long as this.
+    _alive: Arc<()>,
 }
 
 impl Session {
     /// Starts to listen for Ctrl-C and to show progress.
     pub fn start(limits: Limits) -> Result<Session> {
-        let cancel = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&cancel);
-        let interrupt = move || {
-            // The work ends at its next look at the watch; who cannot wait for that asks twice. Staging looks before each file,
-            // so that the second time finds nothing half-written.
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        };
-        ctrlc::set_handler(interrupt)
-            .map_err(|error| Error::new(ErrorKind::Io, format!("Ctrl-C cannot be caught: {error}")))?;
-        let mut watch = Watch::none().with_cancel(cancel);
+        let mut watch = Watch::none().with_cancel(interrupted()?);
         if let Some(time) = limits.time {
             watch = watch.with_time(time);
         }
         if let Some(terms) = limits.terms {
             watch = watch.with_terms(terms);
         }
+        let (alive, mut most) = (Arc::new(()), None);
         if let Some(bytes) = limits.memory {
             watch = watch.with_memory(bytes);
-            if let Some(meter) = meter() {
-                watch = watch.with_meter(meter);
+            if let Some(meter) = meter(&alive) {
+                watch = watch.with_meter(Arc::clone(&meter));
+                most = Some((meter, bytes + bytes / 4));
             }
         }
         let spinner = (!limits.quiet && stderr().is_terminal()).then(spinner);
@@ -86,7 +80,8 @@ impl Session {
                 bar.set_message(progress.to_string());
             });
         }
-        Ok(Session { watch, spinner })
+        guard(watch.clone(), Arc::downgrade(&alive), most, spinner.clone());
+        Ok(Session { watch, spinner, _alive: alive })
     }
 }
 
@@ -98,18 +93,74 @@ impl Drop for Session {
     }
 }
 
-/// How often the memory in use is measured.
-const METER_PERIOD: Duration = Duration::from_millis(20);
+/// How often budgets are looked at from outside the work.
+const PERIOD: Duration = Duration::from_millis(20);
+/// How long work may go on that should have stopped: most of it looks at its watch more often.
+const GRACE: Duration = Duration::from_secs(1);
 
-/// The bytes that this process has in memory, kept up to date; `None` where the system does not tell.
-fn meter() -> Option<Arc<AtomicUsize>> {
-    let meter = Arc::new(AtomicUsize::new(resident_bytes()?));
-    let kept = Arc::downgrade(&meter);
+/// Ends the process where the work goes on for more than [`GRACE`] though the watch says stop, as it does in steps that do not ask it; at once where more
+/// memory is in use than `most`.
+fn guard(watch: Watch, alive: Weak<()>, most: Option<(Arc<AtomicUsize>, usize)>, spinner: Option<ProgressBar>) {
+    let is_urgent = move || most.as_ref().is_some_and(|(meter, most)| meter.load(Ordering::Relaxed) > *most);
     std::thread::spawn(move || {
-        while let (Some(meter), Some(bytes)) = (kept.upgrade(), resident_bytes()) {
-            meter.store(bytes, Ordering::Relaxed);
-            drop(meter);
-            std::thread::sleep(METER_PERIOD);
+        let mut late = None;
+        while alive.strong_count() > 0 {
+            match watch.check() {
+                Ok(()) => late = None,
+                Err(error) => {
+                    let since = *late.get_or_insert_with(Instant::now);
+                    if (since.elapsed() > GRACE || is_urgent()) && alive.strong_count() > 0 {
+                        spinner.iter().for_each(ProgressBar::finish_and_clear);
+                        end(&error);
+                    }
+                }
+            }
+            std::thread::sleep(PERIOD);
+        }
+    });
+}
+
+/// Reports the error and ends the process, when no file is half-written.
+fn end(error: &Error) -> ! {
+    let _stopped = stop_writers();
+    std::process::exit(i32::from(super::status(&Err(super::Halt::Error(error.clone())))))
+}
+
+/// The flag that Ctrl-C sets. Work ends at its next look at it; where none does, the process ends after [`GRACE`], and at once when Ctrl-C is pressed again.
+///
+/// # Errors
+/// [`ErrorKind::Io`] where the system does not let it be caught.
+pub fn interrupted() -> Result<Arc<AtomicBool>> {
+    static FLAG: OnceLock<Result<Arc<AtomicBool>>> = OnceLock::new();
+    FLAG.get_or_init(|| {
+        let flag = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&flag);
+        let cancelled = || Error::new(ErrorKind::Cancelled, "interrupted");
+        let interrupt = move || {
+            // The flag is held here and by its cell; where nobody else holds it, nobody looks at it.
+            if seen.swap(true, Ordering::Relaxed) || Arc::strong_count(&seen) == 2 {
+                end(&cancelled());
+            }
+            std::thread::spawn(move || {
+                std::thread::sleep(GRACE);
+                end(&cancelled());
+            });
+        };
+        let caught = ctrlc::set_handler(interrupt);
+        caught.map_err(|error| Error::new(ErrorKind::Io, format!("Ctrl-C cannot be caught: {error}")))?;
+        Ok(flag)
+    })
+    .clone()
+}
+
+/// The bytes that this process has in memory, kept up to date as long as `alive` is; `None` where the system does not tell.
+fn meter(alive: &Arc<()>) -> Option<Arc<AtomicUsize>> {
+    let meter = Arc::new(AtomicUsize::new(resident_bytes()?));
+    let (kept, alive) = (Arc::clone(&meter), Arc::downgrade(alive));
+    std::thread::spawn(move || {
+        while let (true, Some(bytes)) = (alive.strong_count() > 0, resident_bytes()) {
+            kept.store(bytes, Ordering::Relaxed);
+            std::thread::sleep(PERIOD);
         }
     });
     Some(meter)

@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 use nalgebra::Point3;
 
 use super::moving::ends;
+use super::output::{Force, Kind};
 use super::progress::{Budget, Session};
 use super::solve::read_program;
 use super::{Outcome, console};
 use crate::derive::{Ends, InputFile};
 use crate::document::shown;
-use crate::files::write_atomically;
 use crate::kinematics::{Chain, Joint, JointKind};
 use crate::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
 use crate::solver::Program;
@@ -71,6 +71,8 @@ pub struct Arguments {
     across: Option<String>,
     #[command(flatten)]
     budget: Budget,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Makes the map.
@@ -80,6 +82,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let text = "a map is written as JSON or CSV; end its name in .json or .csv";
         return Err(Error::new(ErrorKind::BadValue, text).in_file(out).into());
     }
+    let output = arguments.force.output([file.as_path()]);
+    let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
     let (program, chain) = (read_program(file)?, chain(file)?);
     let ask = arguments.ask(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;
     let session = Session::start(arguments.budget.limits())?;
@@ -90,11 +94,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     drop(session);
     if let Some(out) = &arguments.out {
         let text = if ends(out, "csv") { map.to_csv() } else { map.to_json() };
-        write_atomically(out, text.as_bytes())?;
+        output.write(out, Kind::of_motion(out), text)?;
     }
     if let Some(plot) = &arguments.plot {
         let across = arguments.across.as_deref().and_then(|name| ["x", "y", "z"].iter().position(|own| *own == name));
-        write_atomically(plot, map.to_svg(across).as_bytes())?;
+        output.write(plot, Kind::Markup, map.to_svg(across))?;
     }
     if arguments.budget.quiet { Ok(()) } else { console::print(&summary(&map, start.elapsed())) }
 }

@@ -7,11 +7,11 @@ use serde_json::json;
 use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion, described};
+use super::output::{Force, Kind, Output};
 use super::physics::{Case, Stage, Told, whole};
 use super::progress::{Limits, Session, seconds};
 use super::{Halt, Outcome, console};
 use crate::document::shown;
-use crate::files::write_atomically;
 use crate::model::Robot;
 use crate::motion::Trajectory;
 use crate::sim::{Comparison, Quantity, soles};
@@ -94,10 +94,13 @@ pub struct Arguments {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Plays, compares and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.output()?;
     let (plan, robot, meshes) = arguments.read()?;
     let notes = &robot.parts().notes;
     if !arguments.json {
@@ -116,7 +119,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (answer, told) = stage.play(&nominal, &session.watch)?;
     drop(session);
     let compared = Comparison::of(&plan, &answer, told.stiffness / nominal.mass)?;
-    arguments.write(&plan, &answer, &legs)?;
+    arguments.write(&output, &plan, &answer, &legs)?;
     if arguments.json {
         let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared, "notes": notes });
         console::print(&super::json::text(&value))?;
@@ -190,16 +193,22 @@ impl Arguments {
         })
     }
 
-    fn write(&self, plan: &Trajectory, answer: &Trajectory, legs: &[Vec<String>; 2]) -> Result<()> {
+    /// The writer, which replaces neither the walk nor the model.
+    fn output(&self) -> Result<Output> {
+        let output = self.force.output(std::iter::once(self.walk.as_path()).chain(self.model.as_deref()));
+        output.expects([&self.out, &self.plot, &self.plot_rates, &self.plot_torques].map(Option::as_ref))
+    }
+
+    fn write(&self, output: &Output, plan: &Trajectory, answer: &Trajectory, legs: &[Vec<String>; 2]) -> Outcome {
         if let Some(file) = &self.out {
             let text = if is_json(file) { answer.to_json().to_string() + "\n" } else { answer.to_csv() };
-            write_atomically(file, text.as_bytes())?;
+            output.write(file, Kind::of_motion(file), text)?;
         }
         let pictures =
             [(&self.plot, Quantity::Angle), (&self.plot_rates, Quantity::Rate), (&self.plot_torques, Quantity::Torque)];
         for (file, quantity) in pictures {
             if let Some(file) = file {
-                write_atomically(file, quantity.picture(plan, answer, legs).as_bytes())?;
+                output.write(file, Kind::Markup, quantity.picture(plan, answer, legs))?;
             }
         }
         Ok(())

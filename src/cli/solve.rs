@@ -12,11 +12,12 @@ use super::{Outcome, console};
 use crate::derive::input::COUPLED_NAME;
 use crate::derive::{Proved, Source};
 use crate::document::read_text;
+use crate::limits;
 use crate::solver::{Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The longest program that is read, in bytes.
-pub(super) const PROGRAM_LIMIT: u64 = 64_000_000;
+pub(super) const PROGRAM_LIMIT: u64 = limits::PROGRAM_BYTES;
 pub(super) const PROGRAM_NAME: &str = "5_program.json";
 
 const EXAMPLES: &str = "Examples:

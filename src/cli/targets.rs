@@ -7,6 +7,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{Columns, Found};
 use crate::document::is_stdin;
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// How errors call standard input.
@@ -14,7 +15,7 @@ pub const STDIN: &str = "<stdin>";
 /// The longest piece of a cell that an error shows.
 const SHOWN: usize = 40;
 /// The longest line, in bytes.
-const LONGEST: usize = 1_000_000;
+const LONGEST: usize = limits::LINE_BYTES;
 
 /// The numbers of `60,150`, which stand for `names`; how many there must be is left to who uses them.
 ///
@@ -31,15 +32,17 @@ fn numbers<'t>(names: &[&str], cells: impl Iterator<Item = &'t str>) -> Result<V
 
 /// The number of a cell: that of `name`, where it has one.
 fn number(name: &str, index: usize, cell: &str) -> Result<f64> {
-    cell.parse().map_err(|_| {
-        let name = if name.is_empty() { String::new() } else { format!(" (`{name}`)") };
-        let text = format!(
-            "cell {}{name} is `{}`, which is no number; give a decimal number such as 12.5 or -3e2",
-            index + 1,
-            shown(cell)
-        );
-        Error::new(ErrorKind::BadValue, text)
-    })
+    let name = || if name.is_empty() { String::new() } else { format!(" (`{}`)", shown(name)) };
+    let fail = |text: String| Error::new(ErrorKind::BadValue, format!("cell {}{} is {text}", index + 1, name()));
+    match cell.parse::<f64>() {
+        // What takes the numbers refuses those that are not finite, by their names.
+        Ok(value) if value.is_finite() => limits::number(cell).map_err(fail),
+        Ok(value) => Ok(value),
+        Err(_) => {
+            let text = format!("`{}`, which is no number; give a decimal number such as 12.5 or -3e2", shown(cell));
+            Err(fail(text))
+        }
+    }
 }
 
 /// The start of `text`, control characters escaped.

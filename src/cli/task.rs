@@ -1,6 +1,6 @@
 //! `groebot task`: a robot gets through a furnished room, and all of it is checked.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 use super::floor::{self, goal_at, moved, read_room, refurnished, start_at};
 use super::json::FORMAT;
 use super::navigate::MethodName;
+use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::view::soles;
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::document::{one_among, shown};
-use crate::files::write_atomically;
 use crate::gait::{Footprint, Summary};
 use crate::nav::Room;
 use crate::robots::Outline;
@@ -78,10 +78,14 @@ pub struct Arguments {
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Does the task and writes what is asked for.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([Path::new(&arguments.robot), arguments.room.as_path()]);
+    let output = output.expects([arguments.out.as_ref(), arguments.view.as_ref(), arguments.plot.as_ref()])?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
     let room = refurnished(read_room(&arguments.room)?, &arguments.furniture)?;
@@ -99,11 +103,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
     drop(session);
     let (mut told, notes) = (told(&performed, &checks), named.robot.parts().notes.clone());
-    arguments.write(&named, &performed, &told)?;
+    arguments.write(&output, &named, &performed, &told)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
         let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
         let floor = Floor::new(&last.room.map()?, arguments.apart)?;
-        write_atomically(file, plan.to_svg(&pilot, &floor).as_bytes())?;
+        output.write(file, Kind::Markup, plan.to_svg(&pilot, &floor))?;
     }
     if arguments.json {
         (told["format"], told["holds"]) = (FORMAT.into(), checks.hold().into());
@@ -142,7 +146,8 @@ impl Arguments {
 
     fn changes(&self, room: &Room) -> Result<Vec<Change>> {
         let change = |told: &String| {
-            let wrong = || bad(format!("--then {told}: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS"));
+            let wrong =
+                || bad(format!("--then `{}`: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS", shown(told)));
             let (what, after) = told.rsplit_once('@').ok_or_else(wrong)?;
             let after = after.parse().map_err(|_| wrong())?;
             let what = match what.strip_prefix("goal=") {
@@ -166,11 +171,11 @@ impl Arguments {
             let told = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure, "notes": notes });
             console::print(&super::json::text(&told))?;
         }
-        eprintln!("error: {blocked}");
+        console::line("error", &blocked.to_string());
         Err(Halt::NoWay)
     }
 
-    fn write(&self, named: &Named, performed: &Performed, told: &Value) -> Result<()> {
+    fn write(&self, output: &Output, named: &Named, performed: &Performed, told: &Value) -> Outcome {
         if self.out.is_none() && self.view.is_none() {
             return Ok(());
         }
@@ -181,11 +186,11 @@ impl Arguments {
             let record = WalkRecord::deserialize(&value["walk"]).expect("a record is what was just written");
             let page = Page::of_robot(&named.robot, None)?.titled(&format!("{}: the full task", biped.name));
             let page = page.with_motion(&trajectory, Some(&record), &soles(named.robot.name())?)?;
-            write_atomically(file, page.with_task(performed.record()).to_html().as_bytes())?;
+            output.write(file, Kind::Markup, page.with_task(performed.record()).to_html())?;
         }
         if let Some(file) = &self.out {
             value["task"] = told.clone();
-            write_atomically(file, (value.to_string() + "\n").as_bytes())?;
+            output.write(file, Kind::Json, value.to_string() + "\n")?;
         }
         Ok(())
     }

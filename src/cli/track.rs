@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::moving::described;
+use super::output::{Force, Kind};
 use super::part::PartArguments;
 use super::{Outcome, console};
 use crate::control::{
@@ -12,7 +13,6 @@ use crate::control::{
     Sample, Trajectory, WorkSpace, errors_and_torques,
 };
 use crate::dynamics::{Base, Equations, State, Workspace};
-use crate::files::write_atomically;
 use crate::model::Robot;
 use crate::motion::StateTable;
 use crate::number::{BigRational, parse_rational};
@@ -87,6 +87,8 @@ pub struct Arguments {
     /// JSON instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -140,6 +142,8 @@ struct JointSummary {
 
 /// Follows and tells.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let output = arguments.force.output([arguments.robot.as_path(), arguments.trajectory.as_path()]);
+    let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let equations = |robot: &Robot| -> Result<Equations> {
@@ -161,10 +165,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let q: Vec<f64> = q.iter().map(|q| q + arguments.error).collect();
     let samples = closed.run([&q, &velocity], end - begin, desired, &Watch::none())?;
     if let Some(file) = &arguments.out {
-        write_atomically(file, table(&samples, begin).as_bytes())?;
+        output.write(file, Kind::Plain, table(&samples, begin))?;
     }
     if let Some(file) = &arguments.plot {
-        write_atomically(file, errors_and_torques(&samples, known.joints()).as_bytes())?;
+        output.write(file, Kind::Markup, errors_and_torques(&samples, known.joints()))?;
     }
     let summary = Summary { notes: robot.parts().notes.clone(), ..summary(&samples, known.joints(), &efforts) };
     if arguments.json {

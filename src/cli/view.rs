@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::floor::{PlaceArguments, room_text};
 use super::moving::{self, Motion};
+use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
 use super::{Outcome, console};
 use crate::derive::{Ends, InputFile, Proved};
 use crate::document::{read_text, shown};
-use crate::files::write_atomically;
 use crate::folder::CERTIFICATE;
 use crate::gait::{Footprint, Side};
 use crate::model::Robot;
@@ -66,12 +66,17 @@ pub struct Arguments {
     /// Where the page goes
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Writes the page.
 pub fn run(arguments: &Arguments) -> Outcome {
+    let read = [Some(&arguments.shown), arguments.robot.as_ref(), arguments.reach.as_ref(), arguments.room.as_ref()];
+    let output =
+        arguments.force.output(read.into_iter().flatten().map(PathBuf::as_path)).expects([Some(&arguments.out)])?;
     let page = arguments.reached(arguments.page()?)?;
-    write_atomically(&arguments.out, page.to_html().as_bytes())?;
+    output.write(&arguments.out, Kind::Markup, page.to_html())?;
     console::print(&format!("{}\n", arguments.out.display()))
 }
 

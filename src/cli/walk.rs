@@ -1,24 +1,25 @@
 //! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use nalgebra::Point2;
 
 use super::files::is_json;
+use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::walker::{self, GaitName, SoleArguments};
 use super::{Outcome, console};
 use crate::document::read_text;
-use crate::files::write_atomically;
 use crate::gait::{
     Biped, Chains, Difference, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk,
     Walker, plan_at, words,
 };
+use crate::limits;
 use crate::robots::Outline;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file of footsteps, in bytes.
-const FOOTSTEPS_LIMIT: u64 = 4_000_000;
+const FOOTSTEPS_LIMIT: u64 = limits::FOOTSTEPS_BYTES;
 
 const EXAMPLES: &str = "Examples:
   groebot walk nao --steps 8 -o walk.csv --plot walk.svg
@@ -169,6 +170,8 @@ pub struct Arguments {
     /// No progress and no summary
     #[arg(long)]
     quiet: bool,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Plans the walk and writes what is asked for.
@@ -177,6 +180,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         SoleName::Measured => Outline::Measured,
         SoleName::Seed => Outline::Seed,
     };
+    let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let walker = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?.walker;
     let usual = arguments.usual(&walker)?;
@@ -186,7 +190,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     drop(session);
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
-    arguments.write(biped, &walk, forces.as_deref(), chains.as_deref())?;
+    arguments.write(&output, biped, &walk, (forces.as_deref(), chains.as_deref()))?;
     if arguments.quiet {
         return Ok(());
     }
@@ -302,7 +306,19 @@ impl Arguments {
         Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
-    fn write(&self, biped: &Biped, walk: &Walk, forces: Option<&[Forces]>, chains: Option<&[Chains]>) -> Result<()> {
+    /// The writer, which replaces neither the robot nor the footsteps.
+    fn output(&self) -> Result<Output> {
+        let output = self.force.output(std::iter::once(Path::new(&self.robot)).chain(self.footsteps.as_deref()));
+        output.expects([&self.out, &self.json, &self.thesis, &self.plot].map(Option::as_ref))
+    }
+
+    fn write(
+        &self,
+        output: &Output,
+        biped: &Biped,
+        walk: &Walk,
+        (forces, chains): (Option<&[Forces]>, Option<&[Chains]>),
+    ) -> Outcome {
         let mut trajectory =
             forces.map_or_else(|| walk.trajectory(biped), |forces| walk.trajectory_with_forces(biped, forces));
         if let Some(chains) = chains {
@@ -310,16 +326,16 @@ impl Arguments {
         }
         if let Some(file) = &self.out {
             let text = if is_json(file) { walk.json_of(biped, &trajectory) } else { trajectory.to_csv() };
-            write_atomically(file, text.as_bytes())?;
+            output.write(file, Kind::of_motion(file), text)?;
         }
         if let Some(file) = &self.json {
-            write_atomically(file, walk.json_of(biped, &trajectory).as_bytes())?;
+            output.write(file, Kind::Json, walk.json_of(biped, &trajectory))?;
         }
         if let Some(file) = &self.thesis {
-            write_atomically(file, walk.to_thesis_csv(biped)?.as_bytes())?;
+            output.write(file, Kind::Plain, walk.to_thesis_csv(biped)?)?;
         }
         if let Some(file) = &self.plot {
-            write_atomically(file, walk.to_svg(biped).as_bytes())?;
+            output.write(file, Kind::Markup, walk.to_svg(biped))?;
         }
         Ok(())
     }

@@ -7,24 +7,12 @@ use super::joined::Declaration;
 use super::language::{Expressions, number};
 use super::outline::Outline;
 use super::printer::{INDENT, spread};
+use super::reserved::is_reserved;
 use crate::solver::Program;
 use crate::solver::eigenvalue::SixAxes;
 
 const HEADER: &str = include_str!("skeleton/robot.h.txt");
 const SOURCE: &str = include_str!("skeleton/robot.c.txt");
-
-const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
-    long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
-    bool true false asm typeof \
-    and and_eq bitand bitor catch char16_t char32_t char8_t class compl concept const_cast consteval constinit co_await co_return \
-    co_yield decltype delete dynamic_cast explicit export friend mutable namespace new not not_eq operator or or_eq private \
-    protected public reinterpret_cast requires static_cast template this throw try typeid typename using virtual xor xor_eq std UNITS IkReal \
-    alignas alignof constexpr nullptr static_assert thread_local noreturn \
-    size_t ptrdiff_t wchar_t NULL offsetof NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL DECIMAL_DIG errno complex imaginary I \
-    float_t double_t math_errhandling signgam linux unix i386 T R GROEBOT_H \
-    sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
-
-const RESERVED_PREFIXES: [&str; 10] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__", "gb_", "GB_", "all"];
 
 const NUMBERS: Declaration = Declaration { head: "const T ", glue: ", " };
 
@@ -69,8 +57,7 @@ pub(super) const WORDS: C = C { kind: Kind::Any };
 
 impl Expressions for C {
     fn is_reserved(&self, word: &str) -> bool {
-        RESERVED.split_whitespace().any(|reserved| reserved == word)
-            || RESERVED_PREFIXES.iter().any(|prefix| word.starts_with(prefix))
+        is_reserved(word) || word.starts_with("all")
     }
 
     fn call(&self, function: &str, argument: &str) -> String {

@@ -8,8 +8,9 @@ use super::c99::WORDS;
 use super::language::{Expressions, number};
 use super::names::is_word;
 use super::outline::Outline;
+use super::reserved::prefix;
 use super::single_file;
-use crate::document::word;
+use crate::document::shown;
 use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
 use crate::{Error, ErrorKind, Result};
 
@@ -65,12 +66,15 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
     if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || WORDS.is_reserved(name)) {
         return Err(Error::new(
             ErrorKind::BadValue,
-            format!("namespace `{name}`: give a word of letters, digits and `_`"),
+            format!(
+                "namespace `{}`: give a word of letters, digits and `_` that C++ does not keep for itself",
+                shown(name)
+            ),
         ));
     }
     let mut outline = super::c99::outline(program);
     stem.unwrap_or_default().clone_into(&mut outline.stem);
-    let own = format!("{}_ikfast.cpp", word(&program.name));
+    let own = format!("{}_ikfast.cpp", prefix(&program.name));
     let own = options.file.as_deref().unwrap_or(&own);
     let is_kept = |line: &&str| !line.starts_with("#include <");
     let bare = |text: String| text.lines().filter(is_kept).map(|line| format!("{line}\n")).collect::<String>();
@@ -272,7 +276,7 @@ impl<'a> File<'a> {
         File {
             solver,
             file,
-            engine_name: format!("{}_solver", word(&program.name)),
+            engine_name: format!("{}_solver", prefix(&program.name)),
             namespace: options.namespace.as_deref(),
             single: options.single,
             kind: KindText {

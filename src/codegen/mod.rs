@@ -19,11 +19,13 @@ mod language;
 mod names;
 mod outline;
 mod printer;
+mod reserved;
 mod samples;
 mod six_axes;
 mod walk;
 
 pub use names::is_word;
+pub use reserved::is_run_time;
 
 use serde::Serialize;
 

@@ -7,10 +7,10 @@ use super::body::Scene;
 use super::dialect::Dialect;
 use super::language::Expressions;
 use super::names::{Names, remark};
+use super::reserved::prefix;
 use super::samples::Table;
 use super::six_axes;
 use super::walk::{self, Function, reads};
-use crate::document::word;
 use crate::solver::{
     Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit,
 };
@@ -137,8 +137,8 @@ impl Outline {
             is_led_to_rarely: function.is_led_to_rarely,
         };
         Outline {
-            name: word(&program.name),
-            stem: word(&program.name),
+            name: prefix(&program.name),
+            stem: prefix(&program.name),
             degree: program.degree(),
             scale: dialect.literal(program.scale),
             version: env!("CARGO_PKG_VERSION"),

@@ -33,7 +33,7 @@ pub fn rust(program: &Program) -> String {
 /// be `single`. The text includes itself by the name `file`, or by another one that `GB_FILE` is defined as. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
 pub fn c(program: &Program, file: &str, single: bool) -> String {
     let Pair { header, source } = Pair::new(program, "");
-    let name = crate::document::word(&program.name).to_ascii_uppercase();
+    let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
     let six_axes = super::has_six_axes(program);
     let parts = [
         without_comments(&whole(C_HEADER)),

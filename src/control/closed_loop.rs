@@ -2,6 +2,7 @@
 
 use super::{Desired, Law};
 use crate::dynamics::{Equations, State, Workspace};
+use crate::limits::{CONTROL_STEPS, check_count};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// What a law does not know of a robot.
@@ -66,7 +67,9 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
         watch: &Watch,
     ) -> Result<Vec<Sample>> {
         let [mut q, mut velocity] = start.map(<[f64]>::to_vec);
+        // A quotient beyond the integers is the greatest one.
         let steps = (duration / self.step).round() as usize;
+        check_count("steps of the law", steps, CONTROL_STEPS)?;
         let mut samples: Vec<Sample> = Vec::with_capacity(steps + 1);
         let mut noise = Noise(self.disturbance.seed);
         for number in 0..=steps {

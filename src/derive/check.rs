@@ -7,6 +7,7 @@ use super::system_parts::{
     Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS, Parameter,
     ParameterSource, Quantity, SystemParts, are_partners, complement, is_circle,
 };
+use crate::limits::is_name;
 use crate::poly::{Expression, is_identifier};
 use crate::{Error, ErrorKind};
 
@@ -83,11 +84,12 @@ impl<'a> Names<'a> {
 }
 
 fn check_identifier(name: &str, part: Part, meaning: &str) -> Checked {
-    if is_identifier(name) {
+    if is_identifier(name) && is_name(name) {
         return Ok(());
     }
     let shown: String = name.chars().take(40).collect();
-    let text = format!("`{shown}` cannot name {meaning}; give letters, digits and `_` that start with no digit");
+    let text =
+        format!("`{shown}` cannot name {meaning}; give up to 200 letters, digits and `_` that start with no digit");
     Err(mistake(part, ErrorKind::BadValue, text))
 }
 

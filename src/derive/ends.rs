@@ -19,10 +19,11 @@ use std::path::Path;
 
 use num_traits::ToPrimitive;
 
-use crate::document::{Document, TEXT_LIMIT, read_text};
+use crate::document::{Document, TEXT_LIMIT, read_text, shown, word};
 use crate::kinematics::chain_toml::{read_given, read_task};
 use crate::kinematics::ideal::{Report, TOLERANCE};
 use crate::kinematics::{Chain, ChainParts, ExactVector, Plane, Task};
+use crate::limits::{RUN_TIME_FILES, check_name};
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
@@ -73,7 +74,10 @@ impl Ends {
         root.deny_unknown(&["base", "tip", "given", "name", "snap", "task"])?;
         let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
         let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
-        ends.name = name("name")?;
+        ends.name = root
+            .optional("name")
+            .map(|node| solver_name(node.text()?).map_err(|error| node.place(error)))
+            .transpose()?;
         ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
         if let Some(node) = root.optional("task") {
             let table = node.table()?;
@@ -165,4 +169,17 @@ impl Ends {
         let given = if self.given.is_empty() { chain.parts().given.clone() } else { self.given.clone() };
         chain.with_task(task, direction, given)
     }
+}
+
+/// The name of a solver and its files.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] as [`check_name`], and for a name of the run time.
+pub fn solver_name(name: &str) -> Result<String> {
+    check_name("solver", name)?;
+    if RUN_TIME_FILES.iter().any(|own| word(name).eq_ignore_ascii_case(own)) {
+        let text = format!("the run time has files called `{}`; give the solver another name", shown(name));
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    Ok(name.to_owned())
 }

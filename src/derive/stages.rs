@@ -10,6 +10,8 @@ use super::tree::{Node, Outcome, Solved};
 use super::triangular::presented;
 use super::{JointKindUnknown, certificate};
 use crate::Result;
+use crate::document::word;
+use crate::escape::markdown;
 use crate::groebner::Basis;
 
 /// The file names of the stages, in order.
@@ -127,13 +129,13 @@ impl Derivation {
 
     fn readme(&self) -> String {
         let system = &self.system;
-        let names = |list: Vec<&str>| list.join(", ");
-        let inputs = names(system.inputs.iter().map(|input| input.name.as_str()).collect());
-        let joints = names(system.joints.iter().map(|joint| joint.name.as_str()).collect());
-        let mut text = format!("# {}\n\n", system.name);
+        let names = |list: Vec<String>| list.join(", ");
+        let inputs = names(system.inputs.iter().map(|input| markdown(&input.name)).collect());
+        let joints = names(system.joints.iter().map(|joint| markdown(&joint.name)).collect());
+        let mut text = format!("# {}\n\n", markdown(&system.name));
         for line in [&system.description, &system.source] {
             if !line.is_empty() {
-                let _ = writeln!(text, "{line}\n");
+                let _ = writeln!(text, "{}\n", markdown(line));
             }
         }
         let _ = writeln!(
@@ -152,7 +154,7 @@ impl Derivation {
         text += MARK;
         text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; system.inputs.len()].join(",");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", system.name);
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", word(&system.name));
         text
     }
 }

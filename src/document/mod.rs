@@ -21,9 +21,11 @@ use num_traits::ToPrimitive;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
+use crate::limits;
 use crate::number::{BigInt, BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
+pub use crate::escape::shown;
 pub(crate) use certificate::{Certificate, Proves, head_of};
 pub(crate) use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
@@ -32,7 +34,7 @@ pub use text::{is_stdin, read_text, read_xml, unix_lines};
 pub(crate) use text::{read_bytes, text_of};
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
-pub const TEXT_LIMIT: u64 = 1_000_000;
+pub const TEXT_LIMIT: u64 = limits::DESCRIPTION_BYTES;
 
 /// A parsed TOML document, borrowing its text.
 #[derive(Clone, Debug)]
@@ -321,12 +323,6 @@ impl<'d> Node<'d> {
         };
         self.error(ErrorKind::BadValue, format!("{found} is not allowed here; give {wanted}"))
     }
-}
-
-/// `text` fit for a message: at most 40 characters, control characters escaped.
-pub fn shown(text: &str) -> String {
-    let dots = if text.chars().nth(40).is_some() { "..." } else { "" };
-    text.chars().take(40).flat_map(char::escape_debug).chain(dots.chars()).collect()
 }
 
 /// The end of a message about an unknown `name`: the nearest of `allowed`, if near, and all of them.

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use super::content::refuse_binary;
 use super::encoding::{XmlText, decode_xml, empty, line_at};
+use crate::files::refuse_unfinished;
 use crate::{Error, ErrorKind, Result};
 
 /// Whether `path` is `-`: standard input, in place of a file.
@@ -50,6 +51,7 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
             );
         }
     } else {
+        refuse_unfinished(path)?;
         let file = File::open(path).map_err(io)?;
         if file.metadata().map_err(io)?.is_dir() {
             return fail(ErrorKind::Io, "this is a directory; give a text file".into());

@@ -3,11 +3,12 @@
 use nalgebra::{Point2, Rotation2, UnitQuaternion, Vector2, Vector3};
 
 use crate::document::unix_lines;
+use crate::limits;
 use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result};
 
 /// The most steps of a route.
-pub const MAX_STEPS: usize = 10_000;
+pub const MAX_STEPS: usize = limits::FOOTSTEPS;
 /// The farthest coordinate of a footprint \[m\].
 const MAX_COORDINATE: f64 = 1e4;
 

@@ -7,14 +7,15 @@ use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST, show};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
+use crate::limits;
 use crate::model::is_plain;
 use crate::number::{BigInt, BigRational};
 use crate::spatial::exact::vector::{cosine, sine};
 use crate::{Error, ErrorKind};
 
-const MAX_JOINTS: usize = 12;
-const MAX_NAME: usize = 64;
-const MAX_TEXT: usize = 2000;
+const MAX_JOINTS: usize = limits::CHAIN_JOINTS;
+const MAX_NAME: usize = limits::NAME_CHARACTERS;
+const MAX_TEXT: usize = limits::TEXT_CHARACTERS;
 const MAX_SYMBOL: usize = 16;
 
 /// The part of a chain that a fault is about.
@@ -72,12 +73,8 @@ pub fn joint_message(name: &str, message: &str) -> String {
     format!("joint `{}`: {message}", shown(name))
 }
 
-fn is_name(text: &str) -> bool {
-    is_plain(text, MAX_NAME) && !text.trim().is_empty() && !text.contains(['\n', '\t'])
-}
-
 fn check_texts(parts: &ChainParts) -> Checked {
-    if !is_name(&parts.name) {
+    if !limits::is_name(&parts.name) {
         let message =
             format!("the chain's name is `{}`; give {MAX_NAME} visible characters at most", shown(&parts.name));
         return Err(fault(Part::Chain, "name", ErrorKind::BadValue, message));
@@ -104,7 +101,7 @@ fn check_joint(index: usize, joint: &Joint) -> Checked {
     let bad = |key, message: String| Err(joint_fault(index, joint, key, ErrorKind::BadValue, &message));
     let is_symbol =
         (1..=MAX_SYMBOL).contains(&joint.symbol.len()) && joint.symbol.bytes().all(|b| b.is_ascii_alphanumeric());
-    if !is_name(&joint.name) {
+    if !limits::is_name(&joint.name) {
         return bad("name", format!("not a name; give 1 to {MAX_NAME} visible characters"));
     }
     if !is_symbol {

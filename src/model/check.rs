@@ -2,12 +2,14 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::finite;
 use super::{Actuator, Fault, Joint, JointType, Link, Part, RobotParts};
 use crate::document::{did_you_mean, shown};
+use crate::escape::is_hidden;
+use crate::limits;
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
-const MAX_NAME: usize = 200;
 /// How many joints may follow in turn.
 const MAX_FOLLOWERS: usize = 100;
 /// How many names a message lists.
@@ -29,7 +31,7 @@ pub(crate) fn some_among<'n>(name: &str, allowed: impl Iterator<Item = &'n str>)
 
 /// Whether `text` has at most `limit` characters and no control characters but line ends and tabs.
 pub(crate) fn is_plain(text: &str, limit: usize) -> bool {
-    text.chars().count() <= limit && !text.chars().any(|c| c.is_control() && c != '\n' && c != '\t')
+    text.chars().count() <= limit && !text.chars().any(|c| is_hidden(c) && c != '\n' && c != '\t')
 }
 
 /// Checks all but how the links hang together; the places of the parent and the child link of each joint. What is wrong with a single joint or actuator is
@@ -46,8 +48,14 @@ pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
         let motion = if known.contains(&part) { Ok(()) } else { check_motion(joint) };
         let mimic = check_mimic(joint, &parts.joints, &joints);
         lost.extend(mimic.is_err().then_some(place));
-        let found = [motion, mimic].into_iter().filter_map(Result::err);
+        let numbers = if known.contains(&part) { Ok(()) } else { finite::check_joint(joint) };
+        let found = [motion, mimic, numbers].into_iter().filter_map(Result::err);
         faults.extend(found.map(|error| Fault { part: part.clone(), error }));
+    }
+    for link in &parts.links {
+        let part = Part::Link(link.name.clone());
+        let found = if known.contains(&part) { None } else { finite::check_link(link).err() };
+        faults.extend(found.map(|error| Fault { part, error }));
     }
     lost.into_iter().for_each(|place| parts.joints[place].mimic = None);
     let mut actuators = Vec::new();
@@ -97,12 +105,7 @@ fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &[Joint]) ->
 }
 
 fn check_name(name: &str, line: Option<usize>, what: &str) -> Result<()> {
-    if is_plain(name, MAX_NAME) && !name.trim().is_empty() && !name.contains(['\n', '\t']) {
-        return Ok(());
-    }
-    let message = format!("the {what}'s name is `{}`; give 1 to {MAX_NAME} visible characters", shown(name));
-    let error = Error::new(ErrorKind::BadValue, message);
-    Err(if let Some(line) = line { error.at_line(line) } else { error })
+    limits::check_name(what, name).map_err(|error| if let Some(line) = line { error.at_line(line) } else { error })
 }
 
 fn index_links(links: &[Link]) -> Result<HashMap<&str, usize>> {

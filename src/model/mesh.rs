@@ -7,10 +7,11 @@ use nalgebra::Point3;
 
 use super::Solid;
 use crate::document::shown;
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file that is read, in bytes.
-pub const MESH_LIMIT: u64 = 100_000_000;
+pub const MESH_LIMIT: u64 = limits::MESH_BYTES;
 
 /// The triangles of a mesh, as places among its points.
 #[derive(Clone, Debug, PartialEq)]

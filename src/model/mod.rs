@@ -8,6 +8,7 @@
 mod attributes;
 mod check;
 mod fault;
+mod finite;
 mod joint;
 mod link;
 mod mesh;

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use crate::document::{read_text, shown, unix_lines};
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest table, in bytes.
-const STATES_LIMIT: u64 = 1 << 30;
-/// The greatest size of a cell but a time: sums of squares of such numbers, and products with masses, are far within doubles.
-pub const MOST: f64 = 1e12;
+const STATES_LIMIT: u64 = limits::STATES_BYTES;
 /// The lists of numbers: configuration, velocity, acceleration, torques.
 const LISTS: [&str; 4] = ["q", "v", "a", "tau"];
 
@@ -146,14 +145,16 @@ impl<'a> Header<'a> {
                 self.names.len()
             ));
         }
-        let number = |column: usize, most: f64| number(self.names[column], found[column], most);
+        let number = |column: usize| {
+            limits::number(found[column]).map_err(|fault| format!("column `{}`: {fault}", shown(self.names[column])))
+        };
         let list = |columns: &Vec<usize>| {
-            columns.iter().map(|column| number(*column, MOST)).collect::<std::result::Result<Vec<f64>, String>>()
+            columns.iter().map(|column| number(*column)).collect::<std::result::Result<Vec<f64>, String>>()
         };
         let optional = |columns: &Vec<usize>| if columns.is_empty() { Ok(None) } else { list(columns).map(Some) };
         let [q, velocity, acceleration, torques] = &self.lists;
         Ok(StateRow {
-            time: self.time.map(|column| number(column, f64::MAX)).transpose()?,
+            time: self.time.map(number).transpose()?,
             q: list(q)?,
             velocity: optional(velocity)?,
             acceleration: optional(acceleration)?,
@@ -172,14 +173,4 @@ fn columns(names: &[&str], list: &str, joints: &[&str]) -> Vec<usize> {
     let numbered = (0..).map_while(|index| place(format!("{list}{index}"))).map(Some);
     let named = joints.iter().map(|joint| place(format!("{list}:{joint}")));
     numbered.chain(named).collect::<Option<_>>().unwrap_or_default()
-}
-
-/// The number of a cell.
-fn number(name: &str, cell: &str, most: f64) -> std::result::Result<f64, String> {
-    let name = shown(name);
-    let value: f64 = cell.parse().map_err(|_| format!("column `{name}`: `{}` is no number", shown(cell)))?;
-    if value.abs() <= most {
-        return Ok(value);
-    }
-    Err(format!("column `{name}`: {} is out of range; give a finite number of at most {most:e} in size", shown(cell)))
 }

@@ -20,6 +20,7 @@ use nalgebra::{Point3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{Contact, Figure, JointTrack, Track, Trajectory};
 use crate::document::{read_text, shown, unix_lines};
+use crate::limits;
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
@@ -28,7 +29,7 @@ const MARK: &str = "# groebot trajectory ";
 /// The version of the format.
 const FORMAT: u32 = 1;
 /// The longest file that is read, in bytes.
-pub const TABLE_LIMIT: u64 = 1_000_000_000;
+pub const TABLE_LIMIT: u64 = limits::TABLE_BYTES;
 /// How far from one the length of a quaternion may be that is written with nine decimals.
 pub(super) const ROUNDING: f64 = 1e-6;
 /// The ends of the columns of a pose, with their units.

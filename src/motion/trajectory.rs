@@ -3,11 +3,12 @@
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
+use crate::limits::check_name;
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
 /// The most samples of a trajectory.
-pub const MOST_SAMPLES: usize = 10_000_000;
+pub const MOST_SAMPLES: usize = crate::limits::SAMPLES;
 
 /// A joint of a trajectory: its name, its kind and what bounds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -128,7 +129,10 @@ impl Trajectory {
         let others =
             others.chain(self.points.iter().map(|own| &own.name)).chain(self.figures.iter().map(|own| &own.name));
         let others: Vec<&str> = others.map(String::as_str).collect();
+        check_name("trajectory", &self.robot)
+            .or_else(|error| if self.robot.is_empty() { Ok(()) } else { Err(error) })?;
         for names in [joints, others] {
+            names.iter().try_for_each(|name| check_name("track", name))?;
             let twice = names.iter().enumerate().find(|(place, name)| names[..*place].contains(name));
             if let Some((_, name)) = twice {
                 let text = format!("`{}` is given twice; give each its own name", crate::document::shown(name));

@@ -8,12 +8,13 @@ use super::map::{Cell, Map};
 use super::meaning::{Meaning, Mode};
 use super::room::Room;
 use crate::document::{TEXT_LIMIT, read_text, shown};
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest description of an image, in bytes.
 const DESCRIPTION_LIMIT: u64 = 100_000;
 /// The longest image or text, in bytes.
-const IMAGE_LIMIT: u64 = 1 << 30;
+const IMAGE_LIMIT: u64 = limits::IMAGE_BYTES;
 
 impl Map {
     /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` or `.png` with pixels of this side \[m\], text (`.txt`, `.map`) with such cells, or a [`Room`] (`.toml`).

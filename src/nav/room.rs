@@ -5,6 +5,7 @@ use nalgebra::{Point2, Vector2};
 use super::map::Map;
 use super::shape::Shape;
 use crate::document::{Document, Node, Table, one_among, shown};
+use crate::limits::check_name;
 use crate::{Error, ErrorKind, Result};
 
 /// A piece of furniture, or another thing that stands on the floor or makes it slow.
@@ -201,6 +202,8 @@ fn piece(table: &Table<'_>, more: &[&str]) -> Result<Piece> {
     if !(height.is_finite() && height > 0.0) {
         return Err(table.error(ErrorKind::BadValue, format!("a height of {height} m; give a positive number")));
     }
-    let name = table.required("name")?.text()?.to_owned();
+    let node = table.required("name")?;
+    let name = node.text()?.to_owned();
+    check_name("piece", &name).map_err(|error| node.place(error))?;
     Ok(Piece { name, outline, place: Point2::new(x, y), yaw, height })
 }

@@ -4,10 +4,11 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Pow;
 
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The largest exponent and digit count that a number may have.
-const MAX_EXPONENT: i64 = 4096;
+const MAX_EXPONENT: i64 = limits::EXPONENT;
 
 /// Reads `-12`, `3/4`, `0.1029`, `.5` or `1.5e-3` as an exact rational.
 ///
@@ -44,7 +45,7 @@ fn parse_decimal(text: &str) -> Option<BigRational> {
     let digits = format!("{whole}{fraction}");
     let plain = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
     let shift = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
-    if !plain || shift.abs() > MAX_EXPONENT || digits.len() > MAX_EXPONENT as usize {
+    if !plain || shift.abs() > MAX_EXPONENT || digits.len() > limits::DIGITS {
         return None;
     }
     let value = BigRational::from_integer(digits.parse::<BigInt>().ok()?);

@@ -4,13 +4,14 @@ use std::fmt;
 
 use super::Expression;
 use super::token::{Kind, Token, syntax};
+use crate::limits;
 use crate::number::parse_rational;
 use crate::{Error, Result};
 
 /// The deepest nesting of parentheses, fractions and signs that is read.
-pub const MAX_DEPTH: usize = 200;
+pub const MAX_DEPTH: usize = limits::EXPRESSION_DEPTH;
 /// The largest exponent that is read.
-pub const MAX_EXPONENT: u32 = 1000;
+pub const MAX_EXPONENT: u32 = limits::EXPRESSION_EXPONENT;
 
 /// The two ways to write an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest text that is read, in bytes.
-pub const MAX_LENGTH: usize = 400_000;
+pub const MAX_LENGTH: usize = limits::EXPRESSION_CHARACTERS;
 
 /// A word of the text and where it starts.
 pub(super) struct Token<'a> {

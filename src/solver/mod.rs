@@ -42,4 +42,4 @@ pub use groebot_runtime::tolerances::{
     STEEP, STIFF, TINY, TURN, TWIN, TWINS_AT,
 };
 /// The most joints that a program may have.
-pub const MAX_JOINTS: usize = 16;
+pub const MAX_JOINTS: usize = crate::limits::SOLVER_JOINTS;

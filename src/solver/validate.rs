@@ -6,6 +6,7 @@ use super::program::{Block, Case, Checks, Condition, Described, Program, Short, 
 use super::rule::Rule;
 use super::{MAX_JOINTS, Unit};
 use crate::kinematics::Mimic;
+use crate::limits::{check_name, is_name};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
@@ -44,7 +45,7 @@ impl Program {
             let rest = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
             rest && name.bytes().next().is_some_and(|b| !b.is_ascii_digit())
         };
-        ensure(word(&self.name), "name: letters, digits and `_` are allowed")?;
+        ensure(word(&self.name) && is_name(&self.name), "name: 1 to 200 letters, digits and `_` are allowed")?;
         ensure((1..=MAX_JOINTS).contains(&self.joints.len()), &format!("joints: 1 to {MAX_JOINTS} are allowed"))?;
         ensure(self.unknowns.len() <= MOST_UNKNOWNS, &format!("unknowns: at most {MOST_UNKNOWNS} are allowed"))?;
         ensure((1..=MOST_BLOCKS).contains(&self.blocks.len()), &format!("blocks: 1 to {MOST_BLOCKS} are allowed"))?;
@@ -52,6 +53,16 @@ impl Program {
         for joint in &self.joints {
             ensure(self.has_unknowns(joint.value), &format!("joint `{}`", joint.name))?;
         }
+        let words = self.about.iter().flat_map(|about| about.base.iter().chain(&about.tip)).map(String::as_str);
+        let names = self
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str())
+            .chain(self.inputs.iter().map(|input| input.name.as_str()));
+        let names = names.chain(self.unknowns.iter().map(String::as_str)).chain(words);
+        names.chain(self.parameters.iter().map(|own| own.name.as_str())).try_for_each(|name| {
+            check_name("joint, input or link", name).map_err(|error| error.with_context("malformed program"))
+        })?;
         let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
         ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
         ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;

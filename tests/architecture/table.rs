@@ -1,7 +1,7 @@
 //! Who may use whom.
 
 /// Modules at the root of the crate that every module may use. They use only one another.
-const ROOT: [&str; 3] = ["error", "watch", "files"];
+const ROOT: [&str; 5] = ["error", "escape", "limits", "watch", "files"];
 
 /// The reader of input files: every module below it may use it.
 const DOCUMENT: &str = "document";

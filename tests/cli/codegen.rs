@@ -75,7 +75,7 @@ fn a_file_of_somebody_else_is_left_alone_unless_forced() {
     let printed = content(folder.path());
     assert_eq!(printed.keys().collect::<Vec<_>>(), ["puma.c", "puma.h"], "no temporary file stays");
     assert_eq!(succeed(&arguments), "", "its own files are replaced");
-    for (name, foreign) in [("puma.c", "int main(void) { return 0; }\n"), ("puma.h", "")] {
+    for (name, foreign) in [("puma.c", "int main(void) { return 0; }\n"), ("puma.h", "/* mine */\n")] {
         let file = folder.path().join(name);
         fs::write(&file, foreign).unwrap();
         let told = refused(&arguments);

@@ -113,7 +113,7 @@ fn what_is_no_table_of_states_is_refused() {
     assert!(refuse("q0,q2\n0,0\n").contains("each list whole"));
     assert!(refuse("q0,q1,q2\n0,0,0\n").contains("the robot has 2 independent joints (shoulder, elbow)"));
     assert!(refuse("q0,q1\n0,zero\n").contains("`zero` is no number"));
-    assert!(refuse("q0,q1\n0,inf\n").contains("column `q1`: inf is out of range"));
+    assert!(refuse("q0,q1\n0,inf\n").contains("line 2: column `q1`: `inf` is too large"));
     assert!(refuse("q0,q1\n0\n").contains("states.csv"));
     assert!(refuse("q0,q1,v0\n0,0,1\n").contains("velocity: 1 numbers are given, the robot has 2"));
     let files = files(ARM, "q0,q1\n0,0\n");

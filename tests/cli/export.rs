@@ -167,3 +167,36 @@ fn scenes_are_read_by_other_programs() {
     ];
     node_tests(&["export"], &tools);
 }
+
+/// 1e400 is a decimal number, and no double.
+#[test]
+fn numbers_beyond_doubles_are_not_exported() {
+    let folder = tempdir().unwrap();
+    let (file, out) = (folder.path().join("robot.urdf"), folder.path().join("out"));
+    let robot = |mass: &str, size: &str, place: &str, limit: &str| {
+        format!(
+            "<robot name='r'><link name='a'/><link name='b'><inertial><mass value='{mass}'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
+             izz='1'/></inertial><visual><geometry><box size='1 1 {size}'/></geometry></visual></link><joint name='j' type='revolute'><parent \
+             link='a'/><child link='b'/><origin xyz='0 0 {place}'/><axis xyz='0 0 1'/><limit lower='-1' upper='{limit}' effort='1' \
+             velocity='1'/></joint></robot>"
+        )
+    };
+    fs::write(&file, robot("1", "1", "1", "1")).unwrap();
+    for format in ["urdf", "mjcf", "glb"] {
+        succeed(&["export", text(&file), "--to", format, "-o", text(&out), "--force"]);
+    }
+    fs::remove_file(&out).unwrap();
+    // A shape is left out, with a note.
+    fs::write(&file, robot("1", "1e400", "1", "1")).unwrap();
+    let ran = run(&["export", text(&file), "--to", "mjcf"]);
+    assert!(ran.code == 0 && !ran.out.contains("inf") && ran.err.contains("1e400 is not finite"), "{}", ran.err);
+    for place in [0, 2, 3] {
+        let at = |own: usize| if own == place { "1e400" } else { "1" };
+        fs::write(&file, robot(at(0), at(1), at(2), at(3))).unwrap();
+        for format in ["urdf", "mjcf", "glb"] {
+            let error = refused(&["export", text(&file), "--to", format, "-o", text(&out)]);
+            assert!(error.contains("robot.urdf") && !out.exists(), "{error}");
+            assert!(error.contains("finite") || error.contains("double"), "{error}");
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 mod asked;
 mod basis;
+mod budgets;
 mod check;
 mod codegen;
 mod committed;
@@ -19,10 +20,12 @@ mod ik;
 mod info;
 mod interrupted;
 mod navigate;
+mod output;
 mod pipes;
 mod plan;
 mod reach;
 mod refused;
+mod shown;
 mod simulate;
 mod solve;
 mod task;

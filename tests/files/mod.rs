@@ -1,5 +1,8 @@
 //! A file or a set of files is replaced as a whole or not at all, and nothing temporary stays.
 
+mod faults;
+mod own;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

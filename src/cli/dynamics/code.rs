@@ -4,12 +4,13 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::Arguments;
-use crate::cli::codegen::write_generated;
+use crate::cli::codegen::{refuse_run_time, write_pair};
 use crate::cli::moving::described;
+use crate::cli::output::{Kind, Output};
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::Base;
-use crate::{Error, ErrorKind};
+use crate::{Error, ErrorKind, limits};
 
 /// What is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -47,9 +48,16 @@ pub fn functions() -> impl TypedValueParser<Value = Function> {
 
 /// Prints the code, or writes it to files.
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
+    let output = arguments.output(None).expects([arguments.out.as_ref()])?;
     let (described, _) = described(&arguments.robot)?;
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;
+    let masses = || robot.links().iter().any(|link| link.mass.is_some());
+    limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)
+        .and_then(|()| {
+            if masses() { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses")) }
+        })
+        .map_err(|error| error.in_file(&arguments.robot))?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let equations = arguments.equations(&robot, base)?.with_gravity(gravity);
     let mut remarks =
@@ -68,7 +76,7 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let left_out = if arguments.functions.is_empty() { choose_functions(&mut printed) } else { None };
     let notes = [&robot.parts().notes[..], equations.notes(), left_out.as_slice()].concat();
     console::tell(&notes);
-    write(arguments, language, &printed)
+    write(arguments, &output, language, &printed)
 }
 
 /// Takes all functions but forward dynamics where bodies without mass would have to move; tells that here and in the code.
@@ -81,16 +89,15 @@ fn choose_functions(printed: &mut Printed<'_>) -> Option<String> {
     Some(note)
 }
 
-fn write(arguments: &Arguments, language: Language, printed: &Printed<'_>) -> Outcome {
+fn write(arguments: &Arguments, output: &Output, language: Language, printed: &Printed<'_>) -> Outcome {
     let fault = |error: Error| error.in_file(&arguments.robot);
     match (language, &arguments.out) {
         (Language::Rust, None) => console::print(&printed.rust().map_err(fault)?),
-        (Language::Rust, Some(file)) => Ok(write_generated(file, &printed.rust().map_err(fault)?)?),
+        (Language::Rust, Some(file)) => output.write(file, Kind::Plain, printed.rust().map_err(fault)?),
         (Language::C, Some(file)) if file.extension().is_some_and(|end| end == "c") => {
+            refuse_run_time(file)?;
             let stem = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("dynamics");
-            let [header, source] = printed.c99(stem).map_err(fault)?;
-            write_generated(&file.with_extension("h"), &header)?;
-            Ok(write_generated(file, &source)?)
+            Ok(write_pair(output, file, printed.c99(stem).map_err(fault)?)?)
         }
         (Language::C, _) => {
             let text = "C goes into two files: give the name of the source file by -o NAME.c";

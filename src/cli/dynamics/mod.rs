@@ -5,9 +5,10 @@ mod reading;
 mod states;
 mod symbolic;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::Outcome;
+use super::output::{Force, Output};
 use super::part::PartArguments;
 use crate::codegen::dynamics::Function;
 use crate::dynamics::{Base, Equations};
@@ -84,6 +85,15 @@ pub struct Arguments {
     /// JSON in place of the table
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    force: Force,
+}
+
+impl Arguments {
+    /// The writer, which replaces neither the robot nor `states`.
+    fn output(&self, states: Option<&Path>) -> Output {
+        self.force.output(std::iter::once(self.robot.as_path()).chain(states))
+    }
 }
 
 impl Arguments {

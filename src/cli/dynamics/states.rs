@@ -8,9 +8,9 @@ use serde::Serialize;
 use super::Arguments;
 use super::reading::Reading;
 use crate::cli::moving::described;
+use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
 use crate::dynamics::{Base, Equations, State, Workspace};
-use crate::files::write_atomically;
 use crate::model::Robot;
 use crate::motion::{StateRow, StateTable};
 use crate::{Error, Result};
@@ -42,6 +42,7 @@ struct Answer {
 
 /// Reads the states and writes what is asked of them.
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
+    let output = arguments.output(Some(states)).expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
     let table = StateTable::read_csv(states)?;
@@ -51,7 +52,7 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
         console::tell(&report.notes);
     }
     match &arguments.out {
-        Some(file) => Ok(write_atomically(file, text.as_bytes())?),
+        Some(file) => output.write(file, if arguments.json { Kind::Json } else { Kind::Plain }, text),
         None => console::print(&text),
     }
 }

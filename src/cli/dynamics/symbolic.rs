@@ -4,13 +4,12 @@ use std::path::Path;
 
 use super::Arguments;
 use crate::cli::ends::TipLink;
-use crate::cli::files::{refuse_overwriting, source_files};
+use crate::cli::files::{refuse_input, source_files, write_set};
 use crate::cli::{Outcome, console};
 use crate::derive::explain::{Document, Line, Part};
 use crate::derive::input::InputFile;
 use crate::derive::{Ends, Source};
 use crate::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
-use crate::files::write_folder_atomically;
 use crate::folder::motion::{self, Moving};
 use crate::kinematics::Chain;
 use crate::robots;
@@ -36,8 +35,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let mut files = asked.files(folder)?;
     files.extend(motion::files(chain, &symbolic, told, gravity)?);
-    refuse_overwriting(folder, &files)?;
-    write_folder_atomically(folder, &files, &Watch::none())?;
+    let refuse = || match &asked.source {
+        Some(source) => refuse_input(source, folder, &files).map(|()| Vec::new()),
+        None => Ok(Vec::new()),
+    };
+    write_set(folder, &files, refuse, arguments.force, &Watch::none())?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     console::print(&format!(
         "{}{} joints, {} terms of M, C and N, proved; written to {}: {}\n",

@@ -19,7 +19,7 @@ use self::recursive::Recursive;
 use self::tape::{Recorded, Tape};
 use super::names::remark;
 use super::printer::Printer;
-use crate::document::word;
+use super::reserved::prefix;
 use crate::dynamics::{Equations, FormalState, Freedom, Place, Value};
 use crate::solver::{Demand, Instruction, Operand};
 use crate::{Error, ErrorKind, Result};
@@ -102,7 +102,7 @@ impl Printed<'_> {
         let base = |coordinates: &str| -> Vec<String> {
             if self.equations.is_floating() { coordinates.split(' ').map(str::to_owned).collect() } else { Vec::new() }
         };
-        let prefix = word(self.name);
+        let prefix = prefix(self.name);
         Ok(Outline {
             version: env!("CARGO_PKG_VERSION"),
             name: remark(self.name),

@@ -7,6 +7,8 @@ use crate::Result;
 use crate::derive::closure::Mechanism;
 use crate::derive::sequential::{joint_unknowns, name as name_of};
 use crate::derive::stages::{MARK, PAGE, STAGES};
+use crate::document::word;
+use crate::escape::markdown;
 use crate::number::{Ring, Style};
 
 impl DerivedCoupled {
@@ -107,13 +109,13 @@ impl DerivedCoupled {
 
     fn readme(&self) -> Result<String> {
         let parts = self.coupled.parts();
-        let mut text = format!("# {}\n\n", parts.name);
+        let mut text = format!("# {}\n\n", markdown(&parts.name));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
-            let _ = writeln!(text, "{line}\n");
+            let _ = writeln!(text, "{}\n", markdown(line));
         }
         let unit = self.coupled.chains()[0].chain.length_unit().symbol();
-        let inputs: Vec<&str> = self.program.inputs.iter().map(|input| input.name.as_str()).collect();
-        let joints: Vec<&str> = self.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let inputs: Vec<String> = self.program.inputs.iter().map(|input| markdown(&input.name)).collect();
+        let joints: Vec<String> = self.program.joints.iter().map(|joint| markdown(&joint.name)).collect();
         let (inputs_list, joints_list) = (inputs.join(", "), joints.join(", "));
         let _ = writeln!(text, "Lengths in {unit}, angles in rad. Target: {inputs_list}. Joints: {joints_list}.\n");
         let _ = writeln!(
@@ -126,17 +128,17 @@ impl DerivedCoupled {
         text += &self.shared_page()?;
         for stage in &self.stages {
             let chain = &stage.derived.chain;
-            let _ = writeln!(text, "## {}\n", capitalised(&self.title(stage)));
+            let _ = writeln!(text, "## {}\n", markdown(&capitalised(&self.title(stage))));
             for line in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
-                let _ = writeln!(text, "{line}\n");
+                let _ = writeln!(text, "{}\n", markdown(line));
             }
-            let _ = writeln!(text, "Task: {}.\n", chain.asked());
+            let _ = writeln!(text, "Task: {}.\n", markdown(&chain.asked()));
             let _ = writeln!(text, "{}", stage.derived.steps_text(&Mechanism::new(chain)?));
         }
         text += MARK;
         text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; inputs.len()].join(",");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", parts.name);
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", word(&parts.name));
         Ok(text)
     }
 }

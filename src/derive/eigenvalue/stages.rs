@@ -6,6 +6,8 @@ use super::DerivedSixAxes;
 use super::rank::Determinant;
 use crate::derive::explain::Document;
 use crate::derive::stages::{MARK, PAGE, STAGES};
+use crate::document::word;
+use crate::escape::markdown;
 use crate::kinematics::JointKind;
 use crate::solver::eigenvalue::Formulation;
 
@@ -134,9 +136,9 @@ impl DerivedSixAxes {
 
     fn readme(&self) -> String {
         let parts = self.chain.parts();
-        let mut text = format!("# {}\n\n", self.chain.name());
+        let mut text = format!("# {}\n\n", markdown(self.chain.name()));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
-            let _ = writeln!(text, "{line}\n");
+            let _ = writeln!(text, "{}\n", markdown(line));
         }
         let _ = writeln!(
             text,
@@ -147,12 +149,17 @@ impl DerivedSixAxes {
         if let Some((_, report)) = &self.truth {
             let _ = writeln!(text, "{}", report.paragraph());
         }
-        for line in self.given().map(|line| line + "\n").into_iter().chain(self.choices()) {
+        for line in self
+            .given()
+            .map(|line| markdown(&line) + "\n")
+            .into_iter()
+            .chain(self.choices().iter().map(|line| markdown(line)))
+        {
             let _ = writeln!(text, "{line}");
         }
         let inputs = vec!["..."; self.program.inputs.len()].join(",");
         let _ = writeln!(text, "\n{MARK}; `groebot check` proves it again from `certificate.json`. Solve with\n");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", self.chain.name());
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", word(self.chain.name()));
         text
     }
 

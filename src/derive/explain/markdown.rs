@@ -1,5 +1,7 @@
 //! A [`Document`] as Markdown that is read as easily on a terminal: formulas are plain text.
 
+use crate::escape::markdown;
+
 use super::document::{Document, Line, Part, Span, broken};
 
 /// The longest line of a formula that stands alone, in characters.
@@ -58,7 +60,8 @@ fn code(text: &str) -> String {
     if text.contains('`') { format!("`` {text} ``") } else { format!("`{text}`") }
 }
 
+/// Spaces at the ends belong to the line.
 fn escaped(text: &str) -> String {
-    let escape = |c: char| if "\\`*_<>[]#".contains(c) { vec!['\\', c] } else { vec![c] };
-    text.chars().flat_map(escape).collect()
+    let trimmed = text.trim();
+    text.replacen(trimmed, &markdown(trimmed), 1)
 }

@@ -13,6 +13,8 @@ use crate::derive::describe;
 use crate::derive::stages::{MARK, PAGE, STAGES};
 use crate::derive::tree::{Node, Outcome};
 use crate::derive::triangular::presented;
+use crate::document::word;
+use crate::escape::markdown;
 use crate::number::{Ring, Style};
 
 /// The most terms of an equation that are written out.
@@ -149,12 +151,12 @@ impl Derived {
 
     fn readme(&self, mechanism: &Mechanism) -> String {
         let parts = self.chain.parts();
-        let mut text = format!("# {}\n\n", self.chain.name());
+        let mut text = format!("# {}\n\n", markdown(self.chain.name()));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
-            let _ = writeln!(text, "{line}\n");
+            let _ = writeln!(text, "{}\n", markdown(line));
         }
-        let inputs: Vec<&str> = self.program.inputs.iter().map(|input| input.name.as_str()).collect();
-        let joints: Vec<&str> = self.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let inputs: Vec<String> = self.program.inputs.iter().map(|input| markdown(&input.name)).collect();
+        let joints: Vec<String> = self.program.joints.iter().map(|joint| markdown(&joint.name)).collect();
         let _ = writeln!(
             text,
             "Lengths in {}, angles in rad. Target: {}. Joints: {}.\n",
@@ -177,7 +179,7 @@ impl Derived {
         text += MARK;
         text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; inputs.len()].join(",");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", self.chain.name());
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", word(self.chain.name()));
         text
     }
 
@@ -187,7 +189,8 @@ impl Derived {
         let _ = writeln!(text, "Up to {} solutions. The joints are found one at a time:\n", self.plan.dimension);
         for (index, step) in self.steps.iter().enumerate() {
             let form = step.shape.form;
-            let _ = writeln!(text, "{}. **{}**: {}.", index + 1, mechanism.joints()[step.joint].name, why(form));
+            let _ =
+                writeln!(text, "{}. **{}**: {}.", index + 1, markdown(&mechanism.joints()[step.joint].name), why(form));
             for relation in &step.relations {
                 let _ = writeln!(text, "   `{relation}`: {}.", relation.meaning(mechanism));
             }

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::meeting::gatherings;
 use super::{SAME, line, size, turn};
+use crate::escape::markdown;
 use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
 use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
 
@@ -203,7 +204,7 @@ impl Report {
             "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
              described, and measured on it. What was taken to be meant:\n\n{}\n",
             self.tolerance,
-            self.lines().iter().map(|line| format!("* {line}\n")).collect::<String>()
+            self.lines().iter().map(|line| format!("* {}\n", markdown(line))).collect::<String>()
         )
     }
 

@@ -14,6 +14,7 @@ use std::path::Path;
 
 use super::{Fault, Part, Robot, RobotParts};
 use crate::document::{did_you_mean, explained, read_xml};
+use crate::limits;
 use crate::{ErrorKind, Result};
 use joint::read_joint;
 use link::{colour_of, read_link};
@@ -21,7 +22,7 @@ use transmission::{add_rotors, read_transmission};
 use xml::Element;
 
 /// The longest file that is read, in bytes.
-pub const URDF_LIMIT: u64 = 4_000_000;
+pub const URDF_LIMIT: u64 = limits::XML_BYTES;
 
 impl Robot {
     /// The robot that the URDF file at `path` describes.

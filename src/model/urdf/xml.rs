@@ -6,6 +6,7 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Decoder, Reader};
 
 use crate::document::shown;
+use crate::limits;
 use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
 
@@ -14,7 +15,7 @@ const KEPT: usize = 5;
 /// The most bytes of an element's text.
 const MOST_TEXT: usize = 200;
 /// The deepest nesting.
-const DEEPEST: usize = 100;
+const DEEPEST: usize = limits::XML_DEPTH;
 
 /// What to do with xacro.
 pub const EXPAND: &str = "a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
@@ -237,6 +238,9 @@ fn is_mark(text: &[u8]) -> bool {
 fn attributes(start: &BytesStart<'_>, decoder: Decoder) -> Result<Vec<(String, String)>> {
     let mut attributes = Vec::new();
     for attribute in start.attributes() {
+        if attributes.len() >= limits::XML_ATTRIBUTES {
+            return Err(syntax(&format!("an element has more than {} attributes", limits::XML_ATTRIBUTES)));
+        }
         let attribute = attribute.map_err(|error: AttrError| syntax(&error.to_string()))?;
         let value = attribute.decode_and_unescape_value(decoder).map_err(|error| syntax(&error.to_string()))?;
         attributes.push((String::from_utf8_lossy(attribute.key.as_ref()).into_owned(), value.into_owned()));

@@ -2,16 +2,17 @@
 
 use super::words::At;
 use super::{Given, Heading, PolynomialSystem};
+use crate::limits;
 use crate::number::Field;
 use crate::poly::{Expression, Polynomial, PolynomialRing};
 use crate::{ErrorKind, Result, Watch};
 
 /// The most terms that the expansion of one polynomial may take.
-pub const MAX_TERMS: f64 = 1e6;
+pub const MAX_TERMS: f64 = limits::EXPANSION_TERMS;
 /// The most bits that a coefficient of an expanded summand may take.
-pub const MAX_BITS: f64 = 1e6;
+pub const MAX_BITS: f64 = limits::EXPANSION_BITS;
 /// The highest total degree of an expanded summand.
-pub const MAX_DEGREE: u64 = 30_000;
+pub const MAX_DEGREE: u64 = limits::EXPANSION_DEGREE;
 /// The highest degree of a summand in the parameters, numerator and denominator together.
 pub const MAX_PARAMETER_DEGREE: u64 = 100;
 /// The highest sum of the degrees of all denominators of one polynomial.

@@ -24,6 +24,7 @@ mod words;
 use std::fmt;
 
 use super::{Expression, Order};
+use crate::limits;
 use crate::number::Zp;
 use crate::{Error, ErrorKind, Result};
 use words::At;
@@ -31,7 +32,7 @@ use words::At;
 pub use order::parse_order;
 
 /// The longest system that is read, in bytes.
-pub const MAX_SYSTEM_LENGTH: usize = 16_000_000;
+pub const MAX_SYSTEM_LENGTH: usize = limits::SYSTEM_BYTES;
 /// The most words (numbers, names, signs) of one polynomial.
 pub const MAX_WORDS: usize = 1_000_000;
 /// The most variables and parameters together.

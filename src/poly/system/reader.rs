@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::words::{At, Words};
 use super::{Format, Given, MAX_NAMES, MAX_WORDS};
+use crate::limits::check_name;
 use crate::poly::grammar::{Dialect, Parser};
 use crate::poly::parse::equation_of;
 use crate::poly::token::{Kind, Token};
@@ -166,6 +167,7 @@ impl Names {
             let text = format!("more than {MAX_NAMES} variables and parameters; leave some out");
             return Err(at.error(ErrorKind::BadValue, text));
         }
+        check_name("variable", name).map_err(|error| at.error(error.kind(), error.message()))?;
         if !self.known.insert(name.to_owned()) {
             let text = format!("`{}` is declared already; each name stands for one thing", shown(name));
             return Err(at.error(ErrorKind::DuplicateName, text));

@@ -34,8 +34,8 @@ impl Scene {
         }
         let roots: Vec<usize> = (0..nodes.len()).filter(|place| self.nodes[*place].parent.is_none()).collect();
         let animations = file.animation(self)?;
+        let asset = json!({ "version": "2.0", "generator": concat!("groebot ", env!("CARGO_PKG_VERSION")) });
         let mut told = json!({
-            "asset": { "version": "2.0", "generator": concat!("groebot ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
             "scenes": [{ "name": self.title, "nodes": roots }],
             "nodes": nodes,
@@ -47,7 +47,9 @@ impl Scene {
             "buffers": if file.bytes.is_empty() { json!([]) } else { json!([{ "byteLength": file.bytes.len() }]) },
         });
         drop_empty(&mut told);
-        glb(told.to_string().into_bytes(), file.bytes)
+        // The generator is in the head of the file, where it is looked for before the file is replaced.
+        let rest = told.to_string();
+        glb(format!("{{\"asset\":{asset},{}", &rest[1..]).into_bytes(), file.bytes)
     }
 }
 

@@ -1,0 +1,121 @@
+//! One writer at a time in a folder, and the note that a set of files is incomplete.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::disk::Disk;
+use super::{parent, write_beside};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How often a lock is tried.
+const PAUSE: Duration = Duration::from_millis(10);
+/// The file that lists the names of a set while its files are replaced one after the other.
+const UNFINISHED: &str = ".groebot-unfinished";
+
+/// A folder that no other process of groebot writes a set of files into. The kernel releases it, also from a process that is killed.
+///
+/// On a file system without locks nothing is serialised.
+#[derive(Debug)]
+pub(super) struct FolderLock {
+    _file: File,
+}
+
+impl FolderLock {
+    /// Waits for the folder; `None` when it was removed or replaced meanwhile.
+    pub(super) fn take(folder: &Path, watch: &Watch) -> Result<Option<Self>> {
+        let Ok(file) = open(folder) else { return Ok(None) };
+        while let Err(TryLockError::WouldBlock) = file.try_lock() {
+            watch.check()?;
+            std::thread::sleep(PAUSE);
+        }
+        Ok(is_still(&file, folder).then_some(FolderLock { _file: file }))
+    }
+}
+
+#[cfg(unix)]
+fn open(folder: &Path) -> std::io::Result<File> {
+    File::open(folder)
+}
+
+#[cfg(unix)]
+fn is_still(file: &File, folder: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let id = |meta: fs::Metadata| (meta.dev(), meta.ino());
+    matches!((file.metadata().map(id), fs::metadata(folder).map(id)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Elsewhere a folder cannot be opened: a file in it is locked instead.
+#[cfg(not(unix))]
+fn open(folder: &Path) -> std::io::Result<File> {
+    fs::OpenOptions::new().create(true).write(true).truncate(false).open(folder.join(".groebot-lock"))
+}
+
+#[cfg(not(unix))]
+fn is_still(_: &File, folder: &Path) -> bool {
+    folder.is_dir()
+}
+
+/// The note of a folder that files of a set are being replaced. It is on the disk before the first file changes, and goes after the last.
+pub(super) struct Unfinished<'d> {
+    disk: &'d dyn Disk,
+    note: PathBuf,
+    /// What an earlier, interrupted writer left.
+    before: BTreeSet<String>,
+    now: BTreeSet<String>,
+}
+
+impl<'d> Unfinished<'d> {
+    /// Writes the note.
+    pub(super) fn begin(disk: &'d dyn Disk, folder: &Path, names: impl Iterator<Item = String>) -> Result<Self> {
+        let note = folder.join(UNFINISHED);
+        let (before, now) = (listed(&note), names.collect());
+        let unfinished = Unfinished { disk, note, before, now };
+        if let Err(error) = unfinished.put(&unfinished.before | &unfinished.now) {
+            // Nothing has changed yet. Where the note cannot be taken back either, it refuses what is still whole.
+            let _ = unfinished.undone();
+            return Err(error);
+        }
+        Ok(unfinished)
+    }
+
+    /// All files of the set are new: only those of an earlier set may be incomplete.
+    pub(super) fn done(self) -> Result<()> {
+        self.put(&self.before - &self.now)
+    }
+
+    /// All files of the set are as they were.
+    pub(super) fn undone(self) -> Result<()> {
+        self.put(self.before.clone())
+    }
+
+    fn put(&self, names: BTreeSet<String>) -> Result<()> {
+        let io = |error| Error::io(&self.note, &error);
+        if names.is_empty() {
+            return if self.note.exists() { self.disk.remove(&self.note).map_err(io) } else { Ok(()) };
+        }
+        let text: String = names.iter().map(|name| format!("{name}\n")).collect();
+        let file = write_beside(self.disk, &self.note, text.as_bytes())?;
+        self.disk.rename(file.path(), &self.note).map_err(io)?;
+        self.disk.sync_folder(parent(&self.note)).map_err(io)
+    }
+}
+
+/// The names in a note.
+fn listed(note: &Path) -> BTreeSet<String> {
+    fs::read_to_string(note).map_or_else(|_| BTreeSet::new(), |text| text.lines().map(str::to_owned).collect())
+}
+
+/// Fails for a file of a set that is being replaced, or whose replacement was interrupted: it may not belong to the files beside it.
+///
+/// # Errors
+/// [`ErrorKind::Io`] with the file.
+pub fn refuse_unfinished(path: &Path) -> Result<()> {
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return Ok(()) };
+    if !listed(&parent(path).join(UNFINISHED)).contains(name) {
+        return Ok(());
+    }
+    let text = "this file is one of a set whose writing was interrupted, or is going on; run the command that writes the set again";
+    Err(Error::new(ErrorKind::Io, text).in_file(path))
+}

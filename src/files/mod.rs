@@ -1,0 +1,93 @@
+//! The one writer. Files are never half-written: everything goes to temporary files beside their targets, is brought to the disk, and only then
+//! renamed. [`StagedFolder`] does it for a set of files at once; [`refuse_foreign`] decides which files may be replaced.
+
+mod disk;
+mod lock;
+mod own;
+mod staged;
+
+use std::path::Path;
+use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+use tempfile::NamedTempFile;
+
+pub use self::disk::{Disk, System};
+pub use self::lock::refuse_unfinished;
+pub use self::own::{MARK, Target, is_marked, refuse_foreign, write_into};
+pub use self::staged::StagedFolder;
+use crate::{Error, Result, Watch};
+
+/// Held for reading by each writer from its first temporary file to its last step, so that the end of the process can wait for it.
+static WRITERS: RwLock<()> = RwLock::new(());
+
+/// A writer at work.
+type Writing = RwLockReadGuard<'static, ()>;
+
+fn writing() -> Writing {
+    WRITERS.read().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits until no file of this process is half-written, and lets no writer begin while the guard lives: for who is about to end the process.
+pub fn stop_writers() -> RwLockWriteGuard<'static, ()> {
+    WRITERS.write().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Replaces the content of `path` by `bytes`: readers see the old file or the new one, nothing between.
+///
+/// The folder must exist. A symbolic link to a regular file is replaced, not followed. Into a device, a pipe or a socket the bytes are written.
+///
+/// # Errors
+/// As [`Target::of`]; [`ErrorKind::Io`](crate::ErrorKind::Io) when the disk refuses; the old file then stays.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    write_atomically_on(&System, path, bytes)
+}
+
+/// Same as [`write_atomically`], but on another `disk`.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_atomically_on(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<()> {
+    if Target::of(path)? == Target::Stream {
+        return write_into(path, bytes).map_err(|error| Error::io(path, &error));
+    }
+    let _writing = writing();
+    rename_onto(disk, write_beside(disk, path, bytes)?, path)?;
+    disk.sync_folder(parent(path)).map_err(|error| Error::io(path, &error))
+}
+
+/// Replaces or creates `files` (name, content) in `folder`, which is created when it is absent.
+///
+/// # Errors
+/// Those of [`StagedFolder::stage`] and [`StagedFolder::commit`].
+pub fn write_folder_atomically(folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<()> {
+    let staged = StagedFolder::stage(folder, files, watch)?;
+    watch.check()?;
+    staged.commit()
+}
+
+/// A temporary file in the folder of `path` that holds `bytes`, on the disk.
+fn write_beside(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<NamedTempFile> {
+    let write = || {
+        let mut file = disk.create(parent(path), path)?;
+        disk.write(file.as_file_mut(), bytes)?;
+        disk.sync(file.as_file())?;
+        Ok(file)
+    };
+    write().map_err(|error| Error::io(path, &error))
+}
+
+fn rename_onto(disk: &dyn Disk, file: NamedTempFile, target: &Path) -> Result<()> {
+    // Closed before it is renamed, as some systems require.
+    let mut path = file.into_temp_path();
+    disk.rename(&path, target).map_err(|error| Error::io(target, &error))?;
+    path.disable_cleanup(true);
+    Ok(())
+}
+
+/// The folder of a file.
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}

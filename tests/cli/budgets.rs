@@ -1,0 +1,106 @@
+//! Time, memory and Ctrl-C hold also in steps that never ask for them; what multiplies work is bounded.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use tempfile::tempdir;
+
+use super::{content, refused, root, run, text};
+
+/// A polynomial whose expansion takes minutes and gigabytes.
+const POWER: &str = "variables: x, y\n(x + y + 1)^1000\n";
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_expansion_keeps_the_budgets() {
+    let folder = tempdir().unwrap();
+    let (file, out) = (folder.path().join("power"), folder.path().join("out"));
+    fs::write(&file, POWER).unwrap();
+    for (option, value, word) in
+        [("--time", "0.5", "time budget of 0.5 s"), ("--memory", "60", "the budget allows 60.0")]
+    {
+        let begun = Instant::now();
+        let error = refused(&["basis", text(&file), "-o", text(&out), option, value]);
+        assert!(error.contains(word), "{error}");
+        assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
+        assert_eq!(content(folder.path()).len(), 1, "nothing is written");
+    }
+}
+
+/// Ends when it is interrupted: in a step that does not ask, and while it waits for standard input.
+#[test]
+#[cfg(target_os = "linux")]
+fn control_c_ends_every_command() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("power");
+    fs::write(&file, POWER).unwrap();
+    let leg = root("derivations/nao_leg_sagittal");
+    for arguments in [
+        &["basis", text(&file), "-o", text(&folder.path().join("out"))][..],
+        &["solve", text(&leg)],
+        &["fk", text(&leg)],
+    ] {
+        let mut child = super::groebot(arguments).spawn().unwrap();
+        let begun = Instant::now();
+        while !super::interrupted::catches_interrupts(child.id()) && begun.elapsed() < Duration::from_secs(20) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(200));
+        assert_eq!(child.try_wait().unwrap(), None, "{arguments:?}: it should still be at work");
+        let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(kill.success());
+        // Standard input stays open until the process has ended.
+        let stdin = child.stdin.take();
+        let output = child.wait_with_output().unwrap();
+        drop(stdin);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(
+            (output.status.code(), error.as_str()),
+            (Some(130), "error: interrupted; nothing was written\n"),
+            "{arguments:?}"
+        );
+        assert_eq!(content(folder.path()).len(), 1, "nothing is written");
+    }
+}
+
+#[test]
+fn options_that_multiply_work_are_bounded() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str, content: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, content).unwrap();
+        text(&path).to_owned()
+    };
+    let arm = text(&root("tests/corpus/dynamics/rrp.urdf")).to_owned();
+    let path = at("t.csv", "t,q0,q1,q2\n0,0,0,0\n1,0.1,0.1,0.1\n");
+    for step in ["1e-300", "1e-9"] {
+        let error = refused(&["track", &arm, "--law", "open-loop", "--trajectory", &path, "--step", step]);
+        assert!(error.contains("steps of the law are too many; give at most 1000000"), "{error}");
+    }
+    let log = at("log.csv", "q0,q1,q2,v0,v1,v2,a0,a1,a2,tau0,tau1,tau2\n0,0,0,0,0,1e160,0,0,0,0,0,0\n");
+    let error = refused(&["identify", &arm, &log]);
+    assert!(error.contains("line 2: column `v2`: `1e160` is too large; give at most 1e15"), "{error}");
+    let long: String = (1..600).map(|n| format!("<link name='l{n}'/><joint name='j{n}' type='revolute'><parent link='l{}'/><child link='l{n}'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>", n - 1)).collect();
+    let long = at("long.urdf", &format!("<robot name='long'><link name='l0'/>{long}</robot>"));
+    assert!(refused(&["dynamics", &long, "--lang", "rust"]).contains("599 joints are too many; give at most 500"));
+    let bare = at(
+        "bare.urdf",
+        "<robot name='bare'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>",
+    );
+    assert!(refused(&["dynamics", &bare, "--lang", "rust"]).contains("no link has a mass"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn endless_files_are_refused() {
+    for arguments in [
+        &["follow", text(&root("derivations/ur5")), "--poses", "/dev/zero"][..],
+        &["walk", "nao", "--footsteps", "/dev/zero"],
+        &["path", "/dev/zero", "--start", "0,0", "--goal", "1,1"],
+        &["derive", "/dev/zero", "--out", "x"],
+        &["basis", "/dev/zero"],
+    ] {
+        let ran = run(arguments);
+        assert!(ran.code == 1 && ran.err.lines().count() == 1, "{arguments:?}: {}", ran.err);
+    }
+}
