@@ -3,12 +3,12 @@
 use core::ops::Range;
 
 use crate::approach::{LANES, Ways};
-use crate::curve::Starts;
 use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Pairs, Solution};
+use crate::starts::Starts;
 use crate::steps::settle;
 use crate::storage::Array;
 use crate::strays::{Loners, Merged, Strays, Trails};

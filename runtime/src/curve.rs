@@ -7,12 +7,11 @@
 use crate::answers::Answers;
 use crate::counters::Phase;
 use crate::joints::{beyond, differences, is_in, moved, stepped};
-use crate::mechanism::{Equations, Facts, Found, Joints, Mechanism};
+use crate::mechanism::{Equations, Found, Joints, Mechanism};
 use crate::problem::Problem;
+use crate::starts::{Starts, product};
 use crate::tolerances::{ACCEPT, ALONE, MERGE, NEAR, ROUNDING};
 
-/// How many starts wait for their walk.
-const ROOM: usize = 32;
 /// The most least-squares steps across the curve.
 const ROUNDS: usize = 6;
 /// None of them moves a joint by more (rad, or relative to the length scale).
@@ -25,8 +24,6 @@ const RANK: f64 = 1e-3;
 const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
 /// The most steps of a walk in one direction.
 const PACES: usize = 400;
-/// How near to a step a start is on the same curve (rad, or relative to the length scale).
-const PASSED: f64 = 1e-2;
 /// A step leads to no other curve where it ends no farther from the line of the step before than this share of its length.
 const STRAIGHT: f64 = 0.5;
 /// The square of the least cosine between what two places next to each other miss.
@@ -64,12 +61,6 @@ struct Walk<M: Mechanism> {
     most: f64,
 }
 
-/// Where walks begin: the candidates, and joints on the curves next to them.
-pub(crate) struct Starts<M: Mechanism> {
-    list: [Option<(Found, Joints<M>)>; ROOM],
-    count: usize,
-}
-
 impl<M: Mechanism> Clone for Place<M> {
     fn clone(&self) -> Self {
         Place { q: self.q.clone(), miss: self.miss.clone(), most: self.most }
@@ -100,32 +91,6 @@ impl<M: Mechanism> Walk<M> {
     }
 }
 
-impl<M: Mechanism> Starts<M> {
-    const NONE: Self = Starts { list: [const { None }; ROOM], count: 0 };
-
-    fn add(&mut self, found: Found, q: Joints<M>) {
-        self.list[self.count] = Some((found, q));
-        self.count += 1;
-    }
-
-    /// Forgets those that a step passes.
-    fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
-        let way = differences::<M>(facts, to, from);
-        for start in &mut self.list[..self.count] {
-            let is_passed = |(_, q): &(Found, Joints<M>)| {
-                let aside = differences::<M>(facts, q, from);
-                let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
-                let share = f64::min(f64::max(share, 0.0), 1.0);
-                let nearest = beyond::<M>(facts, to, from, -share);
-                facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
-            };
-            if start.as_ref().is_some_and(is_passed) {
-                *start = None;
-            }
-        }
-    }
-}
-
 impl<M: Mechanism> Answers<'_, M> {
     /// Remembers a candidate next to which there is a curve, for [a walk](Answers::walk_curves) behind all candidates; whether there is one.
     #[cold]
@@ -135,7 +100,7 @@ impl<M: Mechanism> Answers<'_, M> {
         let place = if self.problem.facts().has_extras { None } else { self.problem.start(q, found.free) };
         let Some((start, held)) = place else { return false };
         let free = if is_in(found.free, held) { found.free } else { 0 };
-        if self.starts.as_ref().is_some_and(|starts| starts.count == ROOM) {
+        if self.starts.as_ref().is_some_and(Starts::is_full) {
             self.walk_curves();
         }
         self.starts.get_or_insert(Starts::NONE).add(Found { free, ..*found }, start.q);
@@ -366,11 +331,6 @@ impl<M: Mechanism> Problem<'_, M> {
         let side = usize::from(way >= 0.0);
         Some((side, self.between(least, &sides[side], way.abs() / lengths[side])?))
     }
-}
-
-/// The scalar product.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }
 
 /// The place of the entry with the greatest magnitude, the first of equals.

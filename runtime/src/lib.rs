@@ -43,6 +43,7 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 
+mod starts;
 mod steps;
 pub mod storage;
 mod strays;

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 35] = [
+pub const RUST: [(&str, &str); 36] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -32,6 +32,7 @@ pub const RUST: [(&str, &str); 35] = [
     ("singly", include_str!("singly.rs")),
     ("solution", include_str!("solution.rs")),
     ("solve", include_str!("solve.rs")),
+    ("starts", include_str!("starts.rs")),
     ("steps", include_str!("steps.rs")),
     ("storage", include_str!("storage.rs")),
     ("strays", include_str!("strays.rs")),

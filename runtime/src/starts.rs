@@ -1,0 +1,51 @@
+//! Where walks along curves begin: [`Starts`].
+
+use crate::joints::{beyond, differences};
+use crate::mechanism::{Facts, Found, Joints, Mechanism};
+
+/// How many starts wait for their walk.
+const ROOM: usize = 32;
+/// How near to a step a start is on the same curve (rad, or relative to the length scale).
+const PASSED: f64 = 1e-2;
+
+/// Where walks begin: the candidates, and joints on the curves next to them.
+pub(crate) struct Starts<M: Mechanism> {
+    pub list: [Option<(Found, Joints<M>)>; ROOM],
+    pub count: usize,
+}
+
+impl<M: Mechanism> Starts<M> {
+    pub const NONE: Self = Starts { list: [const { None }; ROOM], count: 0 };
+
+    pub fn is_full(&self) -> bool {
+        self.count == ROOM
+    }
+
+    /// Adds one, where there is [room](Starts::is_full).
+    pub fn add(&mut self, found: Found, q: Joints<M>) {
+        self.list[self.count] = Some((found, q));
+        self.count += 1;
+    }
+
+    /// Forgets those that a step passes.
+    pub fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
+        let way = differences::<M>(facts, to, from);
+        for start in &mut self.list[..self.count] {
+            let is_passed = |(_, q): &(Found, Joints<M>)| {
+                let aside = differences::<M>(facts, q, from);
+                let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
+                let share = f64::min(f64::max(share, 0.0), 1.0);
+                let nearest = beyond::<M>(facts, to, from, -share);
+                facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
+            };
+            if start.as_ref().is_some_and(is_passed) {
+                *start = None;
+            }
+        }
+    }
+}
+
+/// The scalar product.
+pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
+}
