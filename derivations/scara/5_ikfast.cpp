@@ -14,6 +14,9 @@
 // A target has 8 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
 // member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
 //
+// Where the steps of polishing that a target may take (GB_MOST_STEPS) are spent before all work is done, other solutions may be missing; IKFast has no place to
+// report that. Where none was found before, ComputeIk returns false.
+//
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
 #ifdef __FAST_MATH__

@@ -175,8 +175,7 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     // Without a tolerance, or with one that is too small, the robot is solved as it is described: six axes in any place.
     let out = tempdir().unwrap();
     let ran = run(&["derive", text(&file), "--quiet", "--out", text(out.path())]);
-    assert_eq!((ran.code, ran.err.as_str()), (3, ""), "derived, with weak spots");
-    assert!(fs::read_to_string(out.path().join("README.md")).unwrap().contains("## Weak spots"));
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     let plan = fs::read_to_string(out.path().join("2_plan.txt")).unwrap();
     assert!(plan.contains("16"), "{plan}");
     assert!(!succeed(&["info", text(&file), "--snap", "1e-9"]).contains("parallel axes"));
