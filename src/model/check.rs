@@ -45,11 +45,11 @@ pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
     let (mut faults, mut lost) = (Vec::new(), Vec::new());
     for (place, joint) in parts.joints.iter().enumerate() {
         let part = Part::Joint(joint.name.clone());
-        let motion = if known.contains(&part) { Ok(()) } else { check_motion(joint) };
+        let sound = || check_motion(joint).and_then(|()| finite::check_joint(joint));
+        let motion = if known.contains(&part) { Ok(()) } else { sound() };
         let mimic = check_mimic(joint, &parts.joints, &joints);
         lost.extend(mimic.is_err().then_some(place));
-        let numbers = if known.contains(&part) { Ok(()) } else { finite::check_joint(joint) };
-        let found = [motion, mimic, numbers].into_iter().filter_map(Result::err);
+        let found = [motion, mimic].into_iter().filter_map(Result::err);
         faults.extend(found.map(|error| Fault { part: part.clone(), error }));
     }
     for link in &parts.links {

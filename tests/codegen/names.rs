@@ -10,7 +10,10 @@ use groebot::solver::{Case, Checks, Joint, JointValue, Program, Rule, Step, Unit
 
 /// Every word of a printed file, comments included.
 fn words(text: &str) -> BTreeSet<String> {
-    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_owned).collect()
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect()
 }
 
 /// A program whose parameters and unknowns have these names, all of which the equation reads: `t + sum x_i - sum p_i = 0`.
