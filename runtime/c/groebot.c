@@ -39,7 +39,7 @@
 #define GB_BENT GB_EITHER(1e-4, 1e-2)
 #define GB_ARRIVED R(1e-3)
 #define GB_LEAPT R(0.1)
-#define GB_ASTRAY GB_EITHER(1e-5, 1e-3)
+#define GB_ASTRAY GB_EITHER(1e-8, 1e-3)
 #define GB_PACES 100
 #define GB_SLACK GB_EITHER(1e-9, 1e-5)
 #define GB_STRIDE R(0.1)

@@ -7,7 +7,7 @@ use crate::mechanism::{Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::Array;
 use crate::tolerances::{
-    ALONG, ARRIVED, ASIDE, ASTRAY, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR, STIFF,
+    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
 };
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -192,7 +192,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if end.1.relative <= ASTRAY {
                 break;
             }
-            let step = self.newton_step(&end.0, STIFF, free)?;
+            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
         let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;

@@ -126,9 +126,9 @@ pub const ARRIVED: f64 = 1e-3;
 pub const ALONG: [f64; 3] = [6e-3, 2.5e-2, 0.2];
 /// Where a step brings other joints farther than this from the line of the step before, it may lead to another self-motion: a shorter one is made.
 pub const LEAPT: f64 = 0.1;
-/// On the way along a self-motion the equations hold within this share; where they do not after a few Newton steps, the joints do not follow. As the square of
-/// the shortest step above, or less: by so little they are missed next to an end that is passed in such a step.
-pub const ASTRAY: f64 = 1e-5;
+/// On the way along a self-motion the equations hold within this share; where they do not after a few Newton steps, the joints do not follow. Self-motions
+/// next to each other are told apart where one misses the other's by more.
+pub const ASTRAY: f64 = 1e-8;
 /// The most steps from one member to another.
 pub const PACES: usize = 100;
 /// A target's rotation or unit vector may be this far from one.

@@ -215,7 +215,7 @@ static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
     end->fit = gb_measure(problem, end->q);
     for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY); k++) {
         gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
-        if (!gb_newton_step(problem, end->q, GB_STIFF, free, step)) {
+        if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
             return false;
         }
         gb_stepped(m, end->q, step, next);
