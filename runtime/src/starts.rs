@@ -34,7 +34,7 @@ impl<M: Mechanism> Starts<M> {
             let is_passed = |(_, q): &(Found, Joints<M>)| {
                 let aside = differences::<M>(facts, q, from);
                 let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
-                let share = f64::min(f64::max(share, 0.0), 1.0);
+                let share = share.clamp(0.0, 1.0);
                 let nearest = beyond::<M>(facts, to, from, -share);
                 facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
             };
