@@ -41,7 +41,7 @@ impl Target {
             Ok(found) if found.is_symlink() => {
                 Ok(fs::metadata(path).map_or(Target::Link, |end| Target::of_kind(&end, Target::Link)))
             }
-            Ok(found) if found.is_dir() => return fail(ErrorKind::Io, "this is a directory; give the name of a file"),
+            Ok(found) if found.is_dir() => fail(ErrorKind::Io, "this is a directory; give the name of a file"),
             Ok(found) => Ok(Target::of_kind(&found, Target::File)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Target::File),
             Err(error) => Err(Error::io(path, &error)),
@@ -53,8 +53,11 @@ impl Target {
     }
 }
 
+/// Writes bytes to a stream.
+type Stream = fn(&[u8]) -> io::Result<()>;
+
 /// The standard stream of a path, which may be a regular file by now: its position is shared.
-fn standard(path: &Path) -> Option<fn(&[u8]) -> io::Result<()>> {
+fn standard(path: &Path) -> Option<Stream> {
     let is = |names: [&str; 3]| cfg!(unix) && names.iter().any(|name| path == Path::new(name));
     if is(["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]) {
         return Some(|bytes| io::stdout().write_all(bytes).and_then(|()| io::stdout().flush()));

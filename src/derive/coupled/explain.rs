@@ -5,9 +5,9 @@ use std::fmt;
 use super::derived::{ChainStage, DerivedCoupled};
 use crate::derive::sequential::Derived;
 use crate::kinematics::Solution;
-use crate::solver::{Nearest, Unit};
+use crate::solver::{Nearest, Program, Unit};
 use crate::spatial::angle;
-use crate::{Result, Watch};
+use crate::{ErrorKind, Result, Watch};
 
 /// The chain at which a target fails.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,13 +48,21 @@ impl Disagreement {
     }
 }
 
+/// The answers of a program, none where the steps that a target may take did not lead to one: next to a target that is out of reach by little they are many.
+fn answers_of(program: &Program, target: &[f64]) -> Result<Vec<Solution>> {
+    match program.solve_numbers(target) {
+        Err(error) if error.kind() == ErrorKind::Budget => Ok(Vec::new()),
+        found => found,
+    }
+}
+
 impl DerivedCoupled {
     /// The first chain that does not reach its part of `target` together with those before it; none when there is a solution.
     ///
     /// # Errors
     /// As [`crate::solver::Program::solve`]; what `watch` stops with.
     pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
-        if !self.program.solve_numbers(target)?.is_empty() {
+        if !answers_of(&self.program, target)?.is_empty() {
             return Ok(None);
         }
         match &self.simultaneous {
@@ -67,7 +75,7 @@ impl DerivedCoupled {
     fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
         for stage in &self.stages {
-            let answers = stage.program.solve_numbers(&target[..stage.program.inputs.len()])?;
+            let answers = answers_of(&stage.program, &target[..stage.program.inputs.len()])?;
             if answers.is_empty() {
                 let nearest = before.iter().map(|q| stage.derived.program.nearest(&stage.target(target, q)));
                 let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
@@ -95,7 +103,7 @@ impl DerivedCoupled {
         for stage in &self.stages {
             let Some(alone) = self.alone(stage, watch)? else { break };
             let own = stage.own_target(target);
-            let answers = alone.program.solve_numbers(&own)?;
+            let answers = answers_of(&alone.program, &own)?;
             let member = self.coupled.chains()[stage.member].name.clone();
             if answers.is_empty() {
                 return Ok(Explanation {

@@ -26,7 +26,7 @@ enum Upright {
     /// Of the coordinate axes, of which the direction is one.
     Axes,
     /// Its first column is across the direction: a vector over its length.
-    Across(ExactVector, Root),
+    Across(Box<ExactVector>, Root),
     /// The half turn about the line midway between z and the direction, which is a rational unit vector.
     Midway,
 }
@@ -40,7 +40,7 @@ impl Direction {
         }
         let across = across(vector);
         let upright = match Root::of(&square(&across)) {
-            Ok(other) => Upright::Across(across, other),
+            Ok(other) => Upright::Across(Box::new(across), other),
             Err(_) if length.primes.is_empty() => Upright::Midway,
             Err(error) => return Err(fault(error)),
         };
