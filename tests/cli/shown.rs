@@ -64,7 +64,7 @@ fn names_that_act_on_a_terminal_are_refused_by_every_reader() {
 fn options_and_files_are_shown_without_acting_and_shortened() {
     let long = "A\u{1b}[31m\u{202e}".repeat(2000);
     let piece = format!("{long}=1,1@x");
-    let file = format!("no-such-\u{1b}[31mfile");
+    let file = "no-such-\u{1b}[31mfile".to_owned();
     for arguments in [
         &["basis", "-", "--order", &long][..],
         &["task", "nao", "--room", "living-room", "--goal", &long],

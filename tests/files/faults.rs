@@ -81,8 +81,11 @@ fn write_set(disk: &dyn Disk, folder: &Path) -> Result<()> {
     StagedFolder::stage_on(disk, folder, &files(&NEW), &Watch::none())?.without("stale.c")?.commit()
 }
 
+/// How a writing ended, what the folder has then, and the folder.
+type Outcome = (Result<()>, BTreeMap<String, Vec<u8>>, tempfile::TempDir);
+
 /// What each number of steps before the fault leaves, until there is no fault any more.
-fn outcomes(dead: bool) -> Vec<(Result<()>, BTreeMap<String, Vec<u8>>, tempfile::TempDir)> {
+fn outcomes(dead: bool) -> Vec<Outcome> {
     let mut outcomes = Vec::new();
     loop {
         let folder = tempdir().unwrap();
