@@ -1,5 +1,5 @@
 //! What solving takes, by phase: calls, steps, evaluations of the equations and time. With the feature `counters` these are counted for the whole process, and
-//! [`take`] reads them; without it nothing is counted, and no instruction is left of it.
+//! `take` reads them; without it nothing is counted, and no instruction is left of it.
 
 /// A phase of solving. What a phase calls that is a phase itself counts there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// All phases, in the order of [`take`]'s rows.
+    /// All phases, in the order of `take`'s rows.
     pub const ALL: [Phase; 8] = [
         Phase::Walk,
         Phase::Waiting,
@@ -52,7 +52,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// All events, in the order of [`take`]'s columns.
+    /// All events, in the order of `take`'s columns.
     pub const ALL: [Event; 5] = [Event::Call, Event::Step, Event::Short, Event::Evaluation, Event::Time];
 }
 
