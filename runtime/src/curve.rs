@@ -10,7 +10,7 @@ use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Found, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::starts::{Starts, product};
-use crate::tolerances::{ACCEPT, ALONE, MERGE, NEAR, ROUNDING};
+use crate::tolerances::{ACCEPT, ALONE, NEAR, ROUNDING};
 
 /// The most least-squares steps across the curve.
 const ROUNDS: usize = 6;
@@ -235,9 +235,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps what a place on a curve is polished to, if that is an answer that is not known: a member of a self-motion where one joint moves.
     fn keep_on_curve(&mut self, found: &Found, q: Joints<M>) {
         let end = self.problem.polished(q, 0);
-        let (facts, known) = (self.problem.facts(), &self.out[..self.count]);
-        let is_same = |other: &Joints<M>| facts.is_within(other.as_ref(), end.0.as_ref(), MERGE);
-        if known.iter().any(|answer| answer.is_isolated() && is_same(&answer.q)) {
+        if self.is_listed(&end.0) {
             return;
         }
         let free = self.problem.joint_on_long_self_motion(&end.0).unwrap_or(0);

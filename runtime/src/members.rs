@@ -85,14 +85,19 @@ impl<M: Mechanism> Answers<'_, M> {
         !joins
     }
 
+    /// Whether an isolated answer with these joints is in the list.
+    pub fn is_listed(&self, q: &Joints<M>) -> bool {
+        let is_same = |answer: &Solution<M>| self.problem.facts().is_within(answer.q.as_ref(), q.as_ref(), MERGE);
+        self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer))
+    }
+
     /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
     /// isolated answer. One that has not been found before may have another next to it.
     fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
         if end.1.relative > ALONE {
             return self.miss(end);
         }
-        let is_same = |a: &Solution<M>| self.problem.facts().is_within(a.q.as_ref(), end.0.as_ref(), MERGE);
-        let is_listed = self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer));
+        let is_listed = self.is_listed(&end.0);
         if !is_listed && self.is_on_trail(found, &end.0) {
             return;
         }
