@@ -2,7 +2,7 @@
 
     python3 benches/singular/figure.py
 
-from the rows `bounded` of benches/record/2026-11-27-singular-times.csv. Both axes are logarithmic.
+from the rows `bounded` of benches/record/2026-11-27-singular-times.csv, and 2026-11-27-singular-peers.csv. Both axes are logarithmic.
 """
 
 import csv
@@ -11,6 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORD = ROOT / "benches/record/2026-11-27-singular-times.csv"
+PEERS = ROOT / "benches/record/2026-11-27-singular-peers.csv"
 FIGURE = ROOT / "docs/singular_times.svg"
 ROBOTS = {
     "puma": ("PUMA, wrist", "WristPitch", "#1f5f9e"),
@@ -19,8 +20,13 @@ ROBOTS = {
     "nao_left_leg": ("NAO's leg, hip", "HipRoll", "#b05a00"),
     "teo_leg": ("TEO's leg, hip", "HipRoll", "#7a3b9e"),
 }
-LEFT, TOP, WIDTH, HEIGHT = 60, 20, 520, 300
-FARTHEST, NEAREST, LEAST, MOST = -3, -14, 0, 4
+OTHERS = {
+    ("ur5", "ssik 8.2.0"): ("ssik, UR5", "#c2352b"),
+    ("puma560", "ssik 8.2.0"): ("ssik, PUMA 560", "#1f5f9e"),
+    ("ur5", "EAIK 1.2.2"): ("EAIK, UR5", "#888888"),
+}
+LEFT, TOP, WIDTH, HEIGHT = 76, 20, 520, 360
+FARTHEST, NEAREST, LEAST, MOST = -3, -14, 0, 5
 
 
 def x_of(exponent):
@@ -35,6 +41,12 @@ def times(robot, joint, column):
     """The exponents of distances and the times [us] of a robot's rows."""
     rows = [row for row in csv.reader(RECORD.open()) if row[:2] == ["bounded", robot] and row[2].startswith(joint + " 1e")]
     return [(int(row[2].split("1e")[1]), float(row[column])) for row in rows]
+
+
+def times_of_peer(robot, contestant):
+    """The same of another solver, in the mean."""
+    rows = [row for row in csv.reader(PEERS.open()) if row[:2] == [robot, contestant]]
+    return [(int(row[2].split("1e")[1]), float(row[4])) for row in rows]
 
 
 def line(points, colour, dashes=""):
@@ -59,7 +71,11 @@ def curves():
         yield line(times(robot, joint, 4), colour)
         yield line(times(robot, joint, 6), colour, "2 3")
         yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * place}" fill="{colour}">{label}</text>'
-    yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * len(ROBOTS)}">solid: mean, dotted: slowest of 200</text>'
+    for place, ((robot, contestant), (label, colour)) in enumerate(OTHERS.items(), len(ROBOTS)):
+        yield line(times_of_peer(robot, contestant), colour, "8 4")
+        yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * place}" fill="{colour}">{label} (dashed)</text>'
+    y = TOP + 18 + 16 * (len(ROBOTS) + len(OTHERS))
+    yield f'<text x="{LEFT + 10}" y="{y}">solid: mean, dotted: slowest of 200</text>'
 
 
 def main():

@@ -34,6 +34,8 @@
 #define GB_DOUBTED GB_EITHER(1e-9, 1e-3)
 #define GB_LEVER R(0.1)
 #define GB_TWIN R(10.0)
+#define GB_TWIN_AT R(2.0)
+#define GB_TWIN_WITHIN R(32.0)
 #define GB_INVERSIONS 3
 #define GB_ALIKE GB_EITHER(2.5e-15, 1e-6)
 #define GB_BENT GB_EITHER(1e-4, 1e-2)
@@ -54,7 +56,6 @@
 static const gb_real gb_leaps[] = {R(0.5), R(0.1), R(0.02)};
 static const gb_real gb_freeing[] = {R(1e-2), R(1e-4), R(1e-6), R(1e-8), R(1e-8)};
 static const gb_real gb_along[] = {R(6e-3), R(2.5e-2), R(0.2)};
-static const gb_real gb_twins_at[] = {R(-2.0), R(2.0), R(-16.0), R(16.0)};
 #ifdef GB_FLOAT
 static const gb_real gb_dampings[] = {R(0.0), R(1e-5), R(1e-4), R(1e-3)};
 #else

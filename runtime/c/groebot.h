@@ -150,6 +150,9 @@ typedef double gb_real;
 #endif
 #else
 #include "groebot/mechanism.h"
+#ifdef GB_SHORTS
+#include "groebot/ways.h"
+#endif
 #include "groebot/answers.h"
 #include "groebot/described.h"
 #include "groebot/solve.h"

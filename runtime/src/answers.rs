@@ -223,7 +223,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let facts = self.problem.facts();
         let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
-            return self.flush_nearby(&joints);
+            let ways = Ways::new::<W>(&self.problem, &self.at, self.waiting);
+            return self.flush_nearby(&joints, &ways);
         }
         let twins = self.twins::<W>();
         let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, twins);
@@ -252,8 +253,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// The same for candidates of a nearby mechanism's formulas: they are led to answers.
-    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>) {
-        let ways = Ways::new(&self.problem, &self.at, self.waiting);
+    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, ways: &Ways<M>) {
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;

@@ -2,11 +2,11 @@
 
 use crate::counters::{Event, Phase};
 use crate::lanes::Lanes;
-use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Short, Shorts};
+use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::{APPROACHES, PLAIN, ROUNDING, TURN};
+use crate::tolerances::{APPROACHES, CHORD, PLAIN, ROUNDING, TURN};
 use crate::trigonometry::{cosine, in_turn, sine};
 
 /// Where the short way has led.
@@ -32,16 +32,24 @@ impl<M: Mechanism> Problem<'_, M> {
             Event::Short.count();
             let here = self.mechanism.short(self.parameters, &at);
             let mut sound = 1.0;
-            let (step, pivot) = normal_step::<M, f64>(&here, self.joints(), &mut sound);
+            let normal = Normal::<M, f64>::new(here.columns, self.joints(), &mut sound);
             let is_regular = sound > 0.0;
             if !is_regular {
                 return None;
             }
-            let (missed, pivot) = *first.get_or_insert_with(|| (missed_by::<M, f64>(&here), pivot));
-            self.step_back(&step, &mut at, &mut end)?;
-            let fit = self.measure_at(&at, &end);
-            if fit.relative < ROUNDING {
-                return fit.accepted.then_some(Approach { end, fit, missed, pivot });
+            let missed = missed_by::<M, f64>(&here.value, &here.size);
+            first = first.or(Some((missed, normal.pivot)));
+            let mut value = here.value;
+            for second in 0..if missed > CHORD { 1 } else { 2 } {
+                if second > 0 {
+                    value = self.mechanism.short(self.parameters, &at).value;
+                }
+                self.step_back(&normal.step(&value), &mut at, &mut end)?;
+                let fit = self.measure_at(&at, &end);
+                if fit.relative < ROUNDING {
+                    let (missed, pivot) = first?;
+                    return fit.accepted.then_some(Approach { end, fit, missed, pivot });
+                }
             }
         }
         None
@@ -91,49 +99,75 @@ where
 
 /// The largest share of a value in its size.
 #[inline(always)]
-fn missed_by<M: Mechanism, N: Number>(here: &Short<M, N>) -> N {
-    let shares = here.value.as_ref().iter().zip(here.size.as_ref());
+fn missed_by<M: Mechanism, N: Number>(value: &Shorts<M, N>, size: &Shorts<M, N>) -> N {
+    let shares = value.as_ref().iter().zip(size.as_ref());
     shares.fold(N::of(0.0), |missed, (value, size)| missed.greater(value.abs() / size.max(N::of(f64::MIN_POSITIVE))))
 }
 
-/// The step `(J^T J)^-1 J^T f` by elimination without pivoting, and the least pivot as a share of the size; not `sound` where that is small.
 #[inline(always)]
-fn normal_step<M: Mechanism, N: Number>(here: &Short<M, N>, joints: usize, sound: &mut N) -> (Joints<M, N>, N) {
-    let none = N::of(0.0);
-    let dot =
-        |a: &Shorts<M, N>, b: &Shorts<M, N>| a.as_ref().iter().zip(b.as_ref()).fold(none, |sum, (a, b)| sum + *a * *b);
-    let columns = here.columns.as_ref();
-    let mut square: Joints<M, Joints<M, N>> = Array::by(joints, |_| Array::by(joints, |_| none));
-    let mut step: Joints<M, N> = Array::by(joints, |_| none);
-    let mut inverse = step.clone();
-    let (square, inverse) = (square.as_mut(), inverse.as_mut());
-    let (mut size, mut least) = (none, N::of(f64::INFINITY));
-    for i in 0..joints {
-        for j in 0..=i {
-            square[i].as_mut()[j] = dot(&columns[i], &columns[j]);
-        }
-        step.as_mut()[i] = dot(&columns[i], &here.value);
-        size = size.greater(square[i].as_ref()[i]);
-    }
-    for k in 0..joints {
-        let pivot = square[k].as_ref()[k];
-        *sound = sound.where_below(size * PLAIN - pivot, 0.0);
-        least = least.lesser(pivot);
-        inverse[k] = N::of(1.0) / pivot;
-        for i in k + 1..joints {
-            let factor = square[i].as_ref()[k] * inverse[k];
-            for j in k + 1..=i {
-                let taken = factor * square[j].as_ref()[k];
-                square[i].as_mut()[j] = square[i].as_ref()[j] - taken;
+fn dot<M: Mechanism, N: Number>(a: &Shorts<M, N>, b: &Shorts<M, N>) -> N {
+    a.as_ref().iter().zip(b.as_ref()).fold(N::of(0.0), |sum, (a, b)| sum + *a * *b)
+}
+
+/// Normal equations `J^T J`, eliminated without pivoting.
+struct Normal<M: Mechanism, N: Number> {
+    columns: Joints<M, Shorts<M, N>>,
+    /// Below the diagonal, what each row was eliminated by.
+    square: Joints<M, Joints<M, N>>,
+    inverse: Joints<M, N>,
+    /// The least pivot as a share of their size.
+    pivot: N,
+}
+
+impl<M: Mechanism, N: Number> Normal<M, N> {
+    /// Those of the derivatives by each joint; not `sound` where a pivot is small.
+    #[inline(always)]
+    fn new(columns: Joints<M, Shorts<M, N>>, joints: usize, sound: &mut N) -> Self {
+        let none = N::of(0.0);
+        let mut square: Joints<M, Joints<M, N>> = Array::by(joints, |_| Array::by(joints, |_| none));
+        let mut inverse: Joints<M, N> = Array::by(joints, |_| none);
+        let (mut size, mut least) = (none, N::of(f64::INFINITY));
+        for i in 0..joints {
+            for j in 0..=i {
+                square.as_mut()[i].as_mut()[j] = dot::<M, N>(&columns.as_ref()[i], &columns.as_ref()[j]);
             }
-            step.as_mut()[i] = step.as_ref()[i] - factor * step.as_ref()[k];
+            size = size.greater(square.as_ref()[i].as_ref()[i]);
         }
+        let rows = square.as_mut();
+        for k in 0..joints {
+            let pivot = rows[k].as_ref()[k];
+            *sound = sound.where_below(size * PLAIN - pivot, 0.0);
+            least = least.lesser(pivot);
+            inverse.as_mut()[k] = N::of(1.0) / pivot;
+            for i in k + 1..joints {
+                let factor = rows[i].as_ref()[k] * inverse.as_ref()[k];
+                for j in k + 1..=i {
+                    let taken = factor * rows[j].as_ref()[k];
+                    rows[i].as_mut()[j] = rows[i].as_ref()[j] - taken;
+                }
+            }
+        }
+        Normal { columns, square, inverse, pivot: least / size }
     }
-    for k in (0..joints).rev() {
-        let above = (k + 1..joints).fold(step.as_ref()[k], |sum, j| sum - square[j].as_ref()[k] * step.as_ref()[j]);
-        step.as_mut()[k] = above * inverse[k];
+
+    /// The step `(J^T J)^-1 J^T f`.
+    #[inline(always)]
+    fn step(&self, value: &Shorts<M, N>) -> Joints<M, N> {
+        let (square, inverse) = (self.square.as_ref(), self.inverse.as_ref());
+        let joints = inverse.len();
+        let mut step: Joints<M, N> = Array::by(joints, |i| dot::<M, N>(&self.columns.as_ref()[i], value));
+        let way = step.as_mut();
+        for k in 0..joints {
+            for i in k + 1..joints {
+                way[i] = way[i] - square[i].as_ref()[k] * inverse[k] * way[k];
+            }
+        }
+        for k in (0..joints).rev() {
+            let above = (k + 1..joints).fold(way[k], |sum, j| sum - square[j].as_ref()[k] * way[j]);
+            way[k] = above * inverse[k];
+        }
+        step
     }
-    (step, least / size)
 }
 
 /// The short ways of candidates: the sums of their steps, how well the equations hold behind them, what they were missed by and the least pivot before, and
@@ -148,9 +182,9 @@ pub(crate) struct Ways<M: Mechanism> {
 }
 
 impl<M: Mechanism> Ways<M> {
-    /// Those of the first so many candidates.
-    #[inline(never)]
-    pub fn new(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
+    /// Those of the first so many candidates, `W` at once.
+    #[inline(always)]
+    pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
         let _phase = Phase::Waiting.begin();
         let (joints, room) = (problem.joints(), problem.facts().candidates);
         let none = || Array::by(room, |_| 0.0);
@@ -162,54 +196,83 @@ impl<M: Mechanism> Ways<M> {
             pivot: none(),
             sound: none(),
         };
-        let p = everywhere::<M, LANES>(problem);
-        for first in (0..waiting.min(room)).step_by(LANES) {
+        let p = everywhere::<M, W>(problem);
+        for first in (0..waiting.min(room)).step_by(W) {
             ways.run(problem, &p, at, first, waiting);
         }
         ways
     }
 
-    /// Those of [`LANES`] candidates.
+    /// Those of `W` candidates. What one of them comes to does not depend on the others.
     #[inline(always)]
-    fn run(
+    fn run<const W: usize>(
         &mut self,
         problem: &Problem<'_, M>,
-        p: &Parameters<M, Lanes<LANES>>,
+        p: &Parameters<M, Lanes<W>>,
         at: &Places<M, Abreast<M>>,
         first: usize,
         waiting: usize,
     ) {
         let joints = problem.joints();
-        let mut here: Places<M, Lanes<LANES>> = abreast::<M, LANES>(at, first, 1);
-        let mut steps: Joints<M, Lanes<LANES>> = Array::by(joints, |_| Lanes([0.0; LANES]));
-        let mut sound = Lanes([1.0; LANES]);
-        step_back_abreast(problem, &steps, &mut here, &mut sound);
+        let mut walkers = Walkers::<M, W> {
+            here: abreast::<M, W>(at, first, 1),
+            steps: Array::by(joints, |_| Lanes([0.0; W])),
+            sound: Lanes([1.0; W]),
+            are_done: core::array::from_fn(|lane| first + lane >= waiting),
+        };
+        let stay = walkers.steps.clone();
+        walkers.step_back(problem, &stay);
         for round in 0..APPROACHES {
             Event::Short.count();
-            let short = problem.mechanism.short(p, &here);
-            let (step, pivot) = normal_step::<M, Lanes<LANES>>(&short, joints, &mut sound);
-            step_back_abreast(problem, &step, &mut here, &mut sound);
-            steps.as_mut().iter_mut().zip(step.as_ref()).for_each(|(sum, step)| *sum = *sum + *step);
-            let [residual, relative] = fit::<M, LANES>(problem.mechanism, p, &here);
-            let missed = missed_by::<M, Lanes<LANES>>(&short);
-            let mut is_done = true;
-            for lane in 0..LANES {
-                let k = first + lane;
-                if round == 0 {
-                    (self.missed.as_mut()[k], self.pivot.as_mut()[k]) = (missed.0[lane], pivot.0[lane]);
+            let short = problem.mechanism.short(p, &walkers.here);
+            let missed = missed_by::<M, Lanes<W>>(&short.value, &short.size);
+            let normal = Normal::<M, Lanes<W>>::new(short.columns, joints, &mut walkers.sound);
+            if round == 0 {
+                for lane in (0..W).filter(|lane| !walkers.are_done[*lane]) {
+                    self.missed.as_mut()[first + lane] = missed.0[lane];
+                    self.pivot.as_mut()[first + lane] = normal.pivot.0[lane];
                 }
-                (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
-                self.sound.as_mut()[k] = sound.0[lane];
-                for i in 0..joints {
-                    self.steps.as_mut()[i].as_mut()[k] = steps.as_ref()[i].0[lane];
-                }
-                let is_sound = sound.0[lane] > 0.0;
-                is_done &= k >= waiting || !is_sound || relative.0[lane] < ROUNDING;
             }
-            if is_done {
+            walkers.step_back(problem, &normal.step(&short.value));
+            if self.write(problem, p, first, &mut walkers) {
+                return;
+            }
+            // That of the first candidate stands for all.
+            if self.missed.as_ref()[0] > CHORD {
+                continue;
+            }
+            let value = problem.mechanism.short(p, &walkers.here).value;
+            walkers.step_back(problem, &normal.step(&value));
+            if self.write(problem, p, first, &mut walkers) {
                 return;
             }
         }
+    }
+
+    /// Writes what the candidates that were not done before have come to; whether all are done.
+    #[inline(always)]
+    fn write<const W: usize>(
+        &mut self,
+        problem: &Problem<'_, M>,
+        p: &Parameters<M, Lanes<W>>,
+        first: usize,
+        walkers: &mut Walkers<M, W>,
+    ) -> bool {
+        let [residual, relative] = fit::<M, W>(problem.mechanism, p, &walkers.here);
+        for lane in 0..W {
+            if walkers.are_done[lane] {
+                continue;
+            }
+            let k = first + lane;
+            for (all, steps) in self.steps.as_mut().iter_mut().zip(walkers.steps.as_ref()) {
+                all.as_mut()[k] = steps.0[lane];
+            }
+            (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
+            self.sound.as_mut()[k] = walkers.sound.0[lane];
+            let is_sound = walkers.sound.0[lane] > 0.0;
+            walkers.are_done[lane] = !is_sound || relative.0[lane] < ROUNDING;
+        }
+        walkers.are_done.iter().all(|is_done| *is_done)
     }
 
     /// That of the candidate with index `k`, from `q`.
@@ -238,26 +301,33 @@ pub(crate) fn abreast<M: Mechanism, const W: usize>(
     Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }
 
-/// As [`Problem::step_back`], of several candidates at once; those with a long step, or a pair far from the circle, are not sound.
-#[inline(always)]
-fn step_back_abreast<M: Mechanism>(
-    problem: &Problem<'_, M>,
-    step: &Joints<M, Lanes<LANES>>,
-    at: &mut Places<M, Lanes<LANES>>,
-    sound: &mut Lanes<LANES>,
-) {
-    let at = at.as_mut();
-    for (way, joint) in step.as_ref().iter().zip(problem.facts().joints) {
-        match *joint {
-            Joint::Angle([c, s]) => {
-                let (pair, norm) = turned_back(*way, [at[c], at[s]]);
-                [at[c], at[s]] = pair;
-                *sound = sound.where_below(way.abs(), TURN).where_below((norm - 1.0).abs(), TURN);
-            }
-            Joint::Length(place) => {
-                at[place] = at[place] - *way;
-                *sound = sound.where_below(way.abs(), f64::MAX);
+/// Candidates next to each other: what the equations read of each, the sum of its steps, whether its equations are regular and near (1, else 0), and whether
+/// it need not go on, for it has arrived or cannot.
+struct Walkers<M: Mechanism, const W: usize> {
+    here: Places<M, Lanes<W>>,
+    steps: Joints<M, Lanes<W>>,
+    sound: Lanes<W>,
+    are_done: [bool; W],
+}
+
+impl<M: Mechanism, const W: usize> Walkers<M, W> {
+    /// As [`Problem::step_back`]; those with a long step, or a pair far from the circle, are not sound.
+    #[inline(always)]
+    fn step_back(&mut self, problem: &Problem<'_, M>, step: &Joints<M, Lanes<W>>) {
+        let at = self.here.as_mut();
+        for (way, joint) in step.as_ref().iter().zip(problem.facts().joints) {
+            match *joint {
+                Joint::Angle([c, s]) => {
+                    let (pair, norm) = turned_back(*way, [at[c], at[s]]);
+                    [at[c], at[s]] = pair;
+                    self.sound = self.sound.where_below(way.abs(), TURN).where_below((norm - 1.0).abs(), TURN);
+                }
+                Joint::Length(place) => {
+                    at[place] = at[place] - *way;
+                    self.sound = self.sound.where_below(way.abs(), f64::MAX);
+                }
             }
         }
+        self.steps.as_mut().iter_mut().zip(step.as_ref()).for_each(|(sum, step)| *sum = *sum + *step);
     }
 }

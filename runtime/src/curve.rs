@@ -258,7 +258,8 @@ impl<M: Mechanism> Problem<'_, M> {
         if of_free.is_some() {
             return of_free;
         }
-        let held = farthest(self.stillest(q)?.0.as_ref());
+        let triangle = self.triangle(q, 0.0, 0);
+        let held = farthest(self.stillest(triangle)?.0.as_ref());
         self.start_with(q, held)
     }
 

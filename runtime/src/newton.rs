@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::counters::Event;
-use crate::joints::{beyond, is_in, stepped};
+use crate::joints::{beyond, is_in, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
@@ -196,20 +196,15 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The same where joints are `held`.
     pub fn regularity_of(&mut self, q: &Joints<M>, held: u32) -> f64 {
-        let triangle = self.triangle(q, 0.0, held);
-        let pivots = (0..self.joints()).map(|i| triangle.entry(i, i).abs());
-        let (least, most) =
-            pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
-        least / most
+        self.triangle(q, 0.0, held).regularity()
     }
 
-    /// The direction in which the equations change least at `q`, its longest way one, and by what share of the largest pivot they do. By
-    /// inverse iteration; none where a pivot is zero, or no steps are left.
-    pub fn stillest(&mut self, q: &Joints<M>) -> Option<(Joints<M>, f64)> {
+    /// The direction in which the equations change least where they have this triangle, its longest way one, and by what share of the largest pivot they do.
+    /// By inverse iteration; none where a pivot is zero, or no steps are left.
+    pub fn stillest(&self, mut triangle: Triangle<M>) -> Option<(Joints<M>, f64)> {
         if self.steps.are_spent() {
             return None;
         }
-        let mut triangle = self.triangle(q, 0.0, 0);
         let joints = self.joints();
         let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));
         let mut way: Joints<M> = Array::by(joints, |_| 1.0);
@@ -230,8 +225,23 @@ impl<M: Mechanism> Problem<'_, M> {
         (longest.is_finite() && longest > 0.0).then_some((unit, share))
     }
 
+    /// How far along a way from a root another one is, if the equations are a parabola there: by a Newton step from so far along the way.
+    pub fn second_root(&mut self, root: &Joints<M>, way: &Joints<M>, ahead: f64) -> Option<f64> {
+        let there: Joints<M> = Array::by(self.joints(), |i| ahead * way.as_ref()[i]);
+        let start = shifted::<M>(&self.facts(), root, &there);
+        let step = self.newton_step(&start, 0.0, 0)?;
+        let (mut along, mut square) = (0.0, 0.0);
+        for (step, way) in step.as_ref().iter().zip(way.as_ref()) {
+            along += step * way;
+            square += way * way;
+        }
+        let arrived = ahead - along / square;
+        let distance = 2.0 * ahead - ahead * ahead / arrived;
+        distance.is_finite().then_some(distance)
+    }
+
     /// The triangle of a step's equations.
-    fn triangle(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
+    pub fn triangle(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (derivatives, right) = self.slopes(q);
         self.triangle_of(&derivatives, &right, damping, held)
     }
@@ -329,6 +339,14 @@ impl<M: Mechanism> Triangle<M> {
             }
             mirror[0] = -length;
         }
+    }
+
+    /// The least pivot as a share of the largest.
+    pub fn regularity(&self) -> f64 {
+        let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
+        let (least, most) =
+            pivots.fold((f64::INFINITY, 0.0), |(least, most), pivot| (f64::min(least, pivot), f64::max(most, pivot)));
+        least / most
     }
 
     /// Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads.

@@ -4,15 +4,16 @@ use crate::answers::Answers;
 use crate::approach::Approach;
 use crate::arithmetic::Arithmetic;
 use crate::counters::Phase;
-use crate::joints::{differences, moved, shifted, stepped};
+use crate::joints::{differences, moved, shifted};
 use crate::mechanism::{Found, Joints, Mechanism};
+use crate::newton::Triangle;
 use crate::problem::{End, Fit, Problem};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::strays::Loners;
 use crate::tolerances::{
     ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP,
-    TWIN, TWINS_AT, UNSETTLED,
+    TWIN, TWIN_AT, TWIN_WITHIN, UNSETTLED,
 };
 
 /// The most answers of a target.
@@ -52,7 +53,9 @@ impl<M: Mechanism> Answers<'_, M> {
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
         } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
-            self.around(found, &end, missed);
+            if !is_nearby || self.problem.regularity(&end.0) <= DISTINCT {
+                self.around(found, &end, missed);
+            }
             // Such a candidate stands between two answers: starts from the other side too.
             let way = differences::<M>(&self.problem.facts(), &q, &end.0);
             let start = shifted::<M>(&self.problem.facts(), &q, &way);
@@ -60,7 +63,8 @@ impl<M: Mechanism> Answers<'_, M> {
             self.keep(found, start);
         }
         if is_nearby && is_beside {
-            self.twin(found, &end.0, missed);
+            let triangle = self.problem.triangle(&end.0, 0.0, 0);
+            self.twin(found, &end.0, triangle, missed);
         }
         self.keep(found, end);
     }
@@ -81,17 +85,19 @@ impl<M: Mechanism> Answers<'_, M> {
     pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
         let Approach { end, fit, missed, pivot } = approach;
         let is_steep = pivot < missed * if found.close { STEEP } else { MILD };
-        if is_steep {
-            self.unsound = number;
+        if !is_steep {
+            return self.keep(found, (end, fit));
         }
-        if is_steep && self.keep_moving(found, &(end.clone(), fit)) {
-            return;
+        self.unsound = number;
+        let triangle = self.problem.triangle(&end, 0.0, 0);
+        if triangle.regularity() <= REGULAR {
+            if self.keep_moving(found, &(end.clone(), fit)) {
+                return;
+            }
+            self.begin_curve(found, &end);
         }
-        let is_curve = is_steep && self.is_curve(found, &(end.clone(), fit));
         self.keep(found, (end.clone(), fit));
-        if is_steep && !(is_curve && fit.relative > ROUNDING) {
-            self.twin(found, &end, missed);
-        }
+        self.twin(found, &end, triangle, missed);
     }
 
     /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
@@ -112,25 +118,27 @@ impl<M: Mechanism> Answers<'_, M> {
         is_singular && self.begin_curve(found, q)
     }
 
-    /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it
-    /// misses: from beyond both, in the direction in which the equations change least, steps lead to the nearer one.
-    fn twin(&mut self, found: &Found, end: &Joints<M>, missed: f64) {
+    /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: the other one
+    /// is in the direction in which the equations change least, where a parabola through this one has its second root.
+    fn twin(&mut self, found: &Found, end: &Joints<M>, triangle: Triangle<M>, missed: f64) {
         let _phase = Phase::Twin.begin();
-        let Some((way, share)) = self.problem.stillest(end) else { return };
-        if share > TWIN * Arithmetic::sqrt(missed) {
+        let nearby = Arithmetic::sqrt(missed);
+        let Some((way, share)) = self.problem.stillest(triangle) else { return };
+        if share > TWIN * nearby {
             return;
         }
-        for times in TWINS_AT {
-            let factor = times * Arithmetic::sqrt(missed);
-            let step: Joints<M> = Array::by(self.problem.joints(), |i| factor * way.as_ref()[i]);
-            let start = stepped::<M>(&self.problem.facts(), end, &step);
-            let at = self.problem.place(&start);
-            let end = match self.problem.approached(&at, &start) {
-                Some(Approach { end, fit, .. }) => (end, fit),
-                None => self.problem.polished(start, 0),
-            };
-            self.keep(found, end);
+        let Some(distance) = self.problem.second_root(end, &way, TWIN_AT * nearby) else { return };
+        if distance.abs() > TWIN_WITHIN * nearby {
+            return;
         }
+        let step: Joints<M> = Array::by(self.problem.joints(), |i| distance * way.as_ref()[i]);
+        let start = shifted::<M>(&self.problem.facts(), end, &step);
+        let at = self.problem.place(&start);
+        let end = match self.problem.approached(&at, &start) {
+            Some(Approach { end, fit, .. }) => (end, fit),
+            None => self.problem.polished(start, 0),
+        };
+        self.keep(found, end);
     }
 
     /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly

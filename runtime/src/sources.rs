@@ -77,7 +77,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// What the files in C include, each by its path.
-pub const C_PARTS: [(&str, &str); 47] = [
+pub const C_PARTS: [(&str, &str); 48] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -105,6 +105,7 @@ pub const C_PARTS: [(&str, &str); 47] = [
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
     ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
+    ("groebot/ways.h", include_str!("../c/groebot/ways.h")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
     ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),

@@ -99,11 +99,15 @@ pub const LEVER: f64 = 0.1;
 /// Where formulas of a nearby mechanism propose one answer, another is looked for where the equations change by less than so many times the
 /// square root of what it misses, which is about how far apart the two are.
 pub const TWIN: f64 = 10.0;
-/// How many times that square root from the one answer the other is looked for; farther where the joint that moves most, as one of a wrist
-/// that is nearly straight, only follows.
-pub const TWINS_AT: [f64; 4] = [-2.0, 2.0, -16.0, 16.0];
-/// So many plain Newton steps lead a candidate of a nearby mechanism's formulas to where the equations hold within [`ROUNDING`], or it is
-/// polished with more care.
+/// How many times that square root from the one answer a Newton step tells how far away the other is.
+pub const TWIN_AT: f64 = 2.0;
+/// How many times that square root from the one answer the other may be.
+pub const TWIN_WITHIN: f64 = 32.0;
+/// Where a candidate misses the equations by no more than this share, a second step by the derivatives of the first leads to where they hold within
+/// [`ROUNDING`].
+pub const CHORD: f64 = 5e-6;
+/// So many plain Newton steps, each with [a second one](CHORD) by the same derivatives behind it, lead a candidate of a nearby mechanism's formulas to
+/// where the equations hold within [`ROUNDING`], or it is polished with more care.
 pub const APPROACHES: usize = 3;
 /// Such a step is taken where each pivot of the normal equations is more than this share of their size.
 pub const PLAIN: f64 = 1e-6;

@@ -130,6 +130,21 @@ fn urdf(name: &str) -> String {
     text(&root("tests/corpus/urdf").join(name)).to_owned()
 }
 
+/// ABB's painting robot: two axes 5 turn against each other, and the axes of the wrist do not meet in one point. That there are eight answers, these joint values
+/// among them, is also what Newton's method in numpy finds from 1,500 random starts.
+#[test]
+fn a_hollow_wrist_whose_axes_do_not_meet_is_searched() {
+    let robot = urdf("irb5400.urdf");
+    let refusal = run(&["derive", &robot, "--task", "pose"]);
+    assert!(refusal.err.contains("32 complex solutions") && refusal.err.contains("ik --numeric"), "{}", refusal.err);
+    let made = [0.3, 0.4, 0.2, 0.5, 0.9, -0.9, 0.7];
+    let found = solutions(&[&robot, "--numeric", "--q", &joined(&made)]);
+    assert_eq!(found.len(), 8);
+    let answers: Vec<Vec<f64>> = found.iter().map(|answer| numbers(&answer["q"])).collect();
+    assert!(answers.iter().all(|q| (q[4] + q[5]).abs() < 1e-12), "{answers:?}");
+    assert!(answers.iter().any(|q| q.iter().zip(made).all(|(a, b)| (a - b).abs() < 1e-9)), "{answers:?}");
+}
+
 /// The joint values in degrees of the first joint, turned into limits of 22.5 to 360 degrees: -73.52 is 286.48.
 #[test]
 fn answers_are_turned_into_limits() {

@@ -12,7 +12,8 @@ use groebot::{Result, Watch};
 
 use crate::eigenvalue::Random;
 
-/// Targets of each robot: a third each from angles in steps of 15 degrees, from such of 30 degrees, and with axes along those of the base on a grid.
+/// Targets of each robot, unless `GROEBOT_TARGETS` is set: a third each from angles in steps of 15 degrees, from such of 30 degrees, and with axes along
+/// those of the base on a grid.
 const TARGETS: usize = 2001;
 /// Random arms.
 const ARMS: usize = 20;
@@ -107,7 +108,8 @@ fn count(report: &Report, holds: impl Fn(&Row) -> bool) -> usize {
 /// Derives and checks a robot, prints its row, and tells whether an ordinary answer was missed.
 fn is_complete(name: &str, source: &Source) -> Result<bool> {
     let proved = Proved::of(source, &Watch::none())?;
-    let report = check_round(source, &proved, TARGETS, &Watch::none())?;
+    let targets = std::env::var("GROEBOT_TARGETS").map_or(TARGETS, |number| number.parse().unwrap());
+    let report = check_round(source, &proved, targets, &Watch::none())?;
     let has = |row: &Row, fault: Fault| matches!(&row.verdict, Verdict::Fail(faults) if faults.contains(&fault));
     let mut faults: BTreeMap<String, usize> = BTreeMap::new();
     for fault in report.failures().flat_map(|row| row.verdict.faults()) {

@@ -22,43 +22,74 @@ GB_INLINE T GB_(dot_short)(const T *a, const T *b)
     return sum;
 }
 
-/* The step (J^T J)^-1 J^T f by elimination without pivoting, the largest share of a value in its size, and the least pivot as a share of the size; not
- * sound where that is small. */
-GB_INLINE void GB_(normal_step)(const T *p, const T *at, T *step, T *missed, T *pivot, T *sound)
+/* Normal equations J^T J, eliminated without pivoting: below the diagonal, what each row was eliminated by. The pivot is the least as a share of their size. */
+typedef struct {
+    T columns[GB_JOINTS][GB_SHORTS], square[GB_JOINTS][GB_JOINTS], inverse[GB_JOINTS], pivot;
+} GB_(normal);
+
+/* Those of the derivatives by each joint; not sound where a pivot is small. */
+GB_INLINE void GB_(eliminate)(GB_(normal) *normal, T *sound)
 {
-    T value[GB_SHORTS], size_of[GB_SHORTS], columns[GB_JOINTS][GB_SHORTS], square[GB_JOINTS][GB_JOINTS], inverse[GB_JOINTS];
     T size = GB_(of)(R(0.0)), least = GB_(of)(INFINITY);
-    GB_(shorten)(p, at, value, size_of, columns);
-    *missed = size;
-    for (int i = 0; i < GB_SHORTS; i++) {
-        *missed = GB_(greater)(*missed, GB_(abs)(value[i]) / GB_(above)(size_of[i], GB_(of)(GB_LEAST_POSITIVE)));
-    }
     for (int i = 0; i < GB_JOINTS; i++) {
         for (int j = 0; j <= i; j++) {
-            square[i][j] = GB_(dot_short)(columns[i], columns[j]);
+            normal->square[i][j] = GB_(dot_short)(normal->columns[i], normal->columns[j]);
         }
-        step[i] = GB_(dot_short)(columns[i], value);
-        size = GB_(greater)(size, square[i][i]);
+        size = GB_(greater)(size, normal->square[i][i]);
     }
     for (int k = 0; k < GB_JOINTS; k++) {
-        *sound = GB_(where_below)(*sound, size * GB_PLAIN - square[k][k], R(0.0));
-        least = GB_(lesser)(least, square[k][k]);
-        inverse[k] = R(1.0) / square[k][k];
+        const T pivot = normal->square[k][k];
+        *sound = GB_(where_below)(*sound, size * GB_PLAIN - pivot, R(0.0));
+        least = GB_(lesser)(least, pivot);
+        normal->inverse[k] = R(1.0) / pivot;
         for (int i = k + 1; i < GB_JOINTS; i++) {
-            const T factor = square[i][k] * inverse[k];
+            const T factor = normal->square[i][k] * normal->inverse[k];
             for (int j = k + 1; j <= i; j++) {
-                square[i][j] = square[i][j] - factor * square[j][k];
+                normal->square[i][j] = normal->square[i][j] - factor * normal->square[j][k];
             }
-            step[i] = step[i] - factor * step[k];
+        }
+    }
+    normal->pivot = least / size;
+}
+
+/* The step (J^T J)^-1 J^T f. */
+GB_INLINE void GB_(solve_normal)(const GB_(normal) *normal, const T *value, T *step)
+{
+    for (int i = 0; i < GB_JOINTS; i++) {
+        step[i] = GB_(dot_short)(normal->columns[i], value);
+    }
+    for (int k = 0; k < GB_JOINTS; k++) {
+        for (int i = k + 1; i < GB_JOINTS; i++) {
+            step[i] = step[i] - normal->square[i][k] * normal->inverse[k] * step[k];
         }
     }
     for (int k = GB_JOINTS; k-- > 0;) {
         for (int j = k + 1; j < GB_JOINTS; j++) {
-            step[k] = step[k] - square[j][k] * step[j];
+            step[k] = step[k] - normal->square[j][k] * step[j];
         }
-        step[k] = step[k] * inverse[k];
+        step[k] = step[k] * normal->inverse[k];
     }
-    *pivot = least / size;
+}
+
+/* The first step, the normal equations, and the largest share of a value in its size. */
+GB_INLINE void GB_(first_step)(const T *p, const T *at, T *step, GB_(normal) *normal, T *missed, T *sound)
+{
+    T value[GB_SHORTS], size[GB_SHORTS];
+    GB_(shorten)(p, at, value, size, normal->columns);
+    GB_(eliminate)(normal, sound);
+    *missed = GB_(of)(R(0.0));
+    for (int i = 0; i < GB_SHORTS; i++) {
+        *missed = GB_(greater)(*missed, GB_(abs)(value[i]) / GB_(above)(size[i], GB_(of)(GB_LEAST_POSITIVE)));
+    }
+    GB_(solve_normal)(normal, value, step);
+}
+
+/* The step behind it, by the same derivatives. */
+GB_INLINE void GB_(second_step)(const T *p, const T *at, T *step, const GB_(normal) *normal)
+{
+    T value[GB_SHORTS], size[GB_SHORTS], columns[GB_JOINTS][GB_SHORTS];
+    GB_(shorten)(p, at, value, size, columns);
+    GB_(solve_normal)(normal, value, step);
 }
 
 /* Takes a step back; a long one, or a pair far from the circle, is not sound. */

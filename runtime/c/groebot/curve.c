@@ -128,6 +128,7 @@ static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t he
  * farthest where the equations hardly change. */
 static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
 {
+    gb_triangle triangle;
     gb_real way[GB_MAX_JOINTS], share;
     if (free != 0) {
         for (*held = 0; !gb_is_in(free, *held); (*held)++) {
@@ -136,7 +137,8 @@ static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint3
             return true;
         }
     }
-    if (!gb_stillest(problem, q, way, &share)) {
+    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
+    if (!gb_stillest(problem, &triangle, way, &share)) {
         return false;
     }
     *held = gb_greatest(way, problem->mechanism->joints);

@@ -86,18 +86,27 @@ static bool gb_approach_from(const gb_problem *problem, const gb_real *from, con
         return false;
     }
     for (int round = 0; round < GB_APPROACHES; round++) {
-        gb_real missed, pivot, sound = R(1.0);
-        gb_normal_step_1(problem->p, at, step, &missed, &pivot, &sound);
+        gb_normal_1 normal;
+        gb_real missed, sound = R(1.0);
+        gb_first_step_1(problem->p, at, step, &normal, &missed, &sound);
         if (round == 0) {
             approach->missed = missed;
-            approach->pivot = pivot;
+            approach->pivot = normal.pivot;
         }
-        if (!(sound > R(0.0)) || !gb_step_back(step, at, approach->end)) {
+        if (!(sound > R(0.0))) {
             return false;
         }
-        approach->fit = gb_measure_at(problem, at, approach->end);
-        if (approach->fit.relative < GB_ROUNDING) {
-            return approach->fit.accepted;
+        for (int second = 0; second < (missed > GB_CHORD ? 1 : 2); second++) {
+            if (second) {
+                gb_second_step_1(problem->p, at, step, &normal);
+            }
+            if (!gb_step_back(step, at, approach->end)) {
+                return false;
+            }
+            approach->fit = gb_measure_at(problem, at, approach->end);
+            if (approach->fit.relative < GB_ROUNDING) {
+                return approach->fit.accepted;
+            }
         }
     }
     return false;

@@ -168,15 +168,20 @@ static void gb_pivots(gb_triangle *triangle, gb_real *least, gb_real *most)
     }
 }
 
-/* The least pivot of the Jacobian's triangle at q, joints `held`, as a share of the largest: rounding where the others can move while the equations hold, or a
- * root is double. */
+/* The least pivot of a triangle as a share of the largest. */
+static gb_real gb_regularity_in(gb_triangle *triangle)
+{
+    gb_real least, most;
+    gb_pivots(triangle, &least, &most);
+    return least / most;
+}
+
+/* That of the Jacobian's triangle at q, joints `held`: rounding where the others can move while the equations hold, or a root is double. */
 static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uint32_t held)
 {
     gb_triangle triangle;
-    gb_real least, most;
     gb_make_triangle(problem, q, R(0.0), held, &triangle);
-    gb_pivots(&triangle, &least, &most);
-    return least / most;
+    return gb_regularity_in(&triangle);
 }
 
 /* The same where no joint is held. */
@@ -202,19 +207,17 @@ static bool gb_is_regular(gb_triangle *triangle)
     return least * least > GB_STEEP * most * gb_norm(gb_column(triangle, triangle->joints), triangle->rows);
 }
 
-/* The direction in which the equations change least at q, its longest way one, and by what share of the largest pivot they do. By inverse iteration; false
- * where a pivot is zero, or no steps are left. */
-static bool gb_stillest(const gb_problem *problem, const gb_real *q, gb_real *way, gb_real *share)
+/* The direction in which the equations change least where they have this triangle, its longest way one, and by what share of the largest pivot they do. By
+ * inverse iteration; false where a pivot is zero, or no steps are left. */
+static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *way, gb_real *share)
 {
     const size_t joints = problem->mechanism->joints;
-    gb_triangle triangle;
     gb_real least, most;
     if (gb_are_spent(problem)) {
         return false;
     }
-    gb_make_triangle(problem, q, R(0.0), 0, &triangle);
-    gb_pivots(&triangle, &least, &most);
-    gb_real *right = gb_column(&triangle, joints);
+    gb_pivots(triangle, &least, &most);
+    gb_real *right = gb_column(triangle, joints);
     for (size_t i = 0; i < joints; i++) {
         way[i] = R(1.0);
     }
@@ -223,12 +226,12 @@ static bool gb_stillest(const gb_problem *problem, const gb_real *q, gb_real *wa
         for (size_t row = 0; row < joints; row++) {
             gb_real above = way[row];
             for (size_t k = 0; k < row; k++) {
-                above = above - gb_column(&triangle, row)[k] * right[k];
+                above = above - gb_column(triangle, row)[k] * right[k];
             }
-            right[row] = above / gb_column(&triangle, row)[row];
+            right[row] = above / gb_column(triangle, row)[row];
         }
         const gb_real before = gb_norm(right, joints);
-        if (!gb_substitute(&triangle, way)) {
+        if (!gb_substitute(triangle, way)) {
             return false;
         }
         *share = before / (gb_norm(way, joints) * most);
@@ -238,6 +241,31 @@ static bool gb_stillest(const gb_problem *problem, const gb_real *q, gb_real *wa
         way[i] = way[i] / longest;
     }
     return gb_is_finite(longest) && longest > R(0.0);
+}
+
+/* q + factor way, angles in (-pi, pi]. */
+static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *way, gb_real factor, gb_real *next)
+{
+    for (size_t i = 0; i < m->joints; i++) {
+        next[i] = gb_wrapped(m, i, q[i] + factor * way[i]);
+    }
+}
+
+/* How far along a way from a root another one is, if the equations are a parabola there: by a Newton step from so far along the way. */
+static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *way, gb_real ahead, gb_real *distance)
+{
+    gb_real start[GB_MAX_JOINTS], step[GB_MAX_JOINTS], along = R(0.0), square = R(0.0);
+    gb_shifted(problem->mechanism, root, way, ahead, start);
+    if (!gb_newton_step(problem, start, R(0.0), 0, step)) {
+        return false;
+    }
+    for (size_t i = 0; i < problem->mechanism->joints; i++) {
+        along = along + step[i] * way[i];
+        square = square + way[i] * way[i];
+    }
+    const gb_real arrived = ahead - along / square;
+    *distance = R(2.0) * ahead - ahead * ahead / arrived;
+    return gb_is_finite(*distance);
 }
 
 /* Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads beyond one of

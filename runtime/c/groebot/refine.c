@@ -333,30 +333,26 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     }
 }
 
-/* One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: from beyond both, in
- * the direction in which the equations change least, steps lead to the nearer one. */
-static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end, gb_real missed)
+/* One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: the other one is in the
+ * direction in which the equations change least, where a parabola through this one has its second root. */
+static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end, gb_triangle *triangle, gb_real missed)
 {
     const gb_problem *problem = &all->problem;
-    gb_real way[GB_MAX_JOINTS], step[GB_MAX_JOINTS], at[GB_MAX_PLACES], share;
-    if (!gb_stillest(problem, end, way, &share) || share > GB_TWIN * gb_square_root(missed)) {
+    const gb_real nearby = gb_square_root(missed);
+    gb_real way[GB_MAX_JOINTS], at[GB_MAX_PLACES], share, distance;
+    gb_approach approach;
+    gb_end start;
+    if (!gb_stillest(problem, triangle, way, &share) || share > GB_TWIN * nearby ||
+        !gb_second_root(problem, end, way, GB_TWIN_AT * nearby, &distance) || gb_magnitude(distance) > GB_TWIN_WITHIN * nearby) {
         return;
     }
-    for (size_t k = 0; k < GB_LENGTH_OF(gb_twins_at); k++) {
-        const gb_real factor = gb_twins_at[k] * gb_square_root(missed);
-        gb_approach approach;
-        gb_end start;
-        for (size_t i = 0; i < problem->mechanism->joints; i++) {
-            step[i] = factor * way[i];
-        }
-        gb_stepped(problem->mechanism, end, step, start.q);
-        gb_place(problem, start.q, at);
-        if (problem->mechanism->approach(problem, at, start.q, &approach)) {
-            gb_keep(all, found, approach.end, &approach.fit);
-        } else {
-            gb_polish_from(problem, &start, 0);
-            gb_keep(all, found, start.q, &start.fit);
-        }
+    gb_shifted(problem->mechanism, end, way, distance, start.q);
+    gb_place(problem, start.q, at);
+    if (problem->mechanism->approach(problem, at, start.q, &approach)) {
+        gb_keep(all, found, approach.end, &approach.fit);
+    } else {
+        gb_polish_from(problem, &start, 0);
+        gb_keep(all, found, start.q, &start.fit);
     }
 }
 
@@ -383,16 +379,21 @@ static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real 
 /* Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer. */
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
 {
-    const bool is_steep = approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD);
-    all->unsound = is_steep ? number : all->unsound;
-    if (is_steep && gb_keep_moving(all, found, approach->end, &approach->fit)) {
+    gb_triangle triangle;
+    if (!(approach->pivot < approach->missed * (found->close ? GB_STEEP : GB_MILD))) {
+        gb_keep(all, found, approach->end, &approach->fit);
         return;
     }
-    const bool is_curve = is_steep && gb_is_curve(all, found, approach->end, &approach->fit);
-    gb_keep(all, found, approach->end, &approach->fit);
-    if (is_steep && !(is_curve && approach->fit.relative > GB_ROUNDING)) {
-        gb_twin(all, found, approach->end, approach->missed);
+    all->unsound = number;
+    gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
+    if (gb_regularity_in(&triangle) <= GB_REGULAR) {
+        if (gb_keep_moving(all, found, approach->end, &approach->fit)) {
+            return;
+        }
+        gb_begin_curve(all, found, approach->end);
     }
+    gb_keep(all, found, approach->end, &approach->fit);
+    gb_twin(all, found, approach->end, &triangle, approach->missed);
 }
 
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q);
@@ -451,11 +452,15 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
         gb_around(all, found, &end, miss);
     } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
-        gb_around(all, found, &end, missed);
+        if (!is_nearby || gb_regularity(problem, end.q) <= GB_DISTINCT) {
+            gb_around(all, found, &end, missed);
+        }
         gb_start_beyond(all, found, q, &end);
     }
     if (is_nearby && is_beside) {
-        gb_twin(all, found, end.q, missed);
+        gb_triangle triangle;
+        gb_make_triangle(problem, end.q, R(0.0), 0, &triangle);
+        gb_twin(all, found, end.q, &triangle, missed);
     }
     gb_keep(all, found, end.q, &end.fit);
 }

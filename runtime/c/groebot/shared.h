@@ -111,6 +111,7 @@
 #define GB_TINY R(1e-30)
 #define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
 #define GB_APPROACHES 3
+#define GB_CHORD R(5e-6)
 #define GB_PLAIN R(1e-6)
 #define GB_STEEP R(400.0)
 #define GB_MILD R(4.0)
