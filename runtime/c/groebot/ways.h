@@ -48,7 +48,7 @@ GB_INLINE bool gb_write_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker 
     return are_done;
 }
 
-GB_INLINE void gb_take_step(gb_walker *walker, const GB_PAIR(number) *step)
+GB_INLINE void gb_step_walker(gb_walker *walker, const GB_PAIR(number) *step)
 {
     GB_PAIR(step_back)(step, walker->at, &walker->sound);
     for (int i = 0; i < GB_JOINTS; i++) {
@@ -67,7 +67,7 @@ GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *
         GB_PAIR(store)(&ways->missed[first], missed);
         GB_PAIR(store)(&ways->pivot[first], normal.pivot);
     }
-    gb_take_step(walker, step);
+    gb_step_walker(walker, step);
     if (gb_write_ways(ways, p, walker, first)) {
         return true;
     }
@@ -75,7 +75,7 @@ GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *
         return false;
     }
     GB_PAIR(second_step)(p, walker->at, step, &normal);
-    gb_take_step(walker, step);
+    gb_step_walker(walker, step);
     return gb_write_ways(ways, p, walker, first);
 }
 
