@@ -94,7 +94,12 @@ fn system(bytes: &[u8], format: Format) {
 fn print(system: &PolynomialSystem, format: Format) {
     let Some(text) = read(system.print(format)) else { return };
     match PolynomialSystem::read(&text, Some(format)) {
-        Ok(again) => assert_eq!(again.print(format).as_ref(), Ok(&text)),
+        Ok(again) if again.heading == system.heading => assert_eq!(again.print(format).as_ref(), Ok(&text)),
+        // msolve's format has no place for the order: its own one is then written and read again.
+        Ok(again) => {
+            assert_eq!(format, Format::Msolve);
+            print(&again, format);
+        }
         Err(error) => {
             let is_beyond = |tree: &Expression| {
                 tree.degree_bound() > u64::from(EXPRESSION_EXPONENT)

@@ -14,7 +14,7 @@ use super::{Target, read, text};
 
 pub(super) const TARGETS: [Target; 10] = [
     Target { name: "chain_toml", about: "chains, `kinematics::Chain::from_toml`", run: chain_toml, damaged: 200 },
-    Target { name: "dh_toml", about: "tables of Denavit and Hartenberg", run: dh_toml, damaged: 200 },
+    Target { name: "dh_toml", about: "tables of Denavit and Hartenberg", run: dh_toml, damaged: 100 },
     Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
     Target { name: "coupled_toml", about: "coupled chains", run: coupled_toml, damaged: 200 },
     Target { name: "task_toml", about: "what is asked of a mechanism, `derive::Ends`", run: task_toml, damaged: 200 },
@@ -23,7 +23,7 @@ pub(super) const TARGETS: [Target; 10] = [
         name: "urdf",
         about: "robots in URDF, in any encoding, written as URDF and MJCF",
         run: urdf,
-        damaged: 200,
+        damaged: 100,
     },
     Target { name: "input", about: "any file that `derive` takes, `derive::Source`", run: input, damaged: 100 },
     Target { name: "mesh", about: "STL, `model::Meshes::triangles`", run: mesh, damaged: 200 },
@@ -77,10 +77,13 @@ fn write(robot: &Robot) {
     if read(robot.check()).is_none() {
         return;
     }
-    let written = robot.to_urdf();
+    // The remark that names the source is not read.
+    let text =
+        |robot: &Robot| robot.to_urdf().lines().filter(|line| !line.starts_with("<!--")).collect::<Vec<_>>().join("\n");
+    let written = text(robot);
     let again = Robot::from_urdf(&written).and_then(|again| again.check().map(|()| again));
     let again = again.unwrap_or_else(|error| panic!("{error}\n{written}"));
-    assert_eq!(again.to_urdf(), written);
+    assert_eq!(text(&again), written);
     let _ = robot.to_mjcf(&Meshes::default());
 }
 

@@ -12,7 +12,7 @@ use super::{Target, check_shown, read, text};
 
 pub(super) const TARGETS: [Target; 9] = [
     Target { name: "states", about: "tables of states, `motion::StateTable`", run: states, damaged: 300 },
-    Target { name: "log", about: "logs of `identify`, and what is identified", run: log, damaged: 200 },
+    Target { name: "log", about: "logs of `identify`, and what is identified", run: log, damaged: 100 },
     Target { name: "trajectory_csv", about: "trajectories in CSV", run: trajectory_csv, damaged: 200 },
     Target { name: "trajectory_json", about: "trajectories in JSON", run: trajectory_json, damaged: 200 },
     Target { name: "walk_json", about: "walks in JSON, and their page", run: walk_json, damaged: 100 },

@@ -58,19 +58,27 @@ impl<'a> Damage<'a> {
     fn change(&mut self, bytes: &mut Vec<u8>) {
         let at = self.chance.below(bytes.len() + 1);
         let end = (at + 1 + self.chance.below(24)).min(bytes.len());
-        match self.chance.below(8) {
+        match self.chance.below(10) {
             0 => bytes.truncate(at),
             1 if at < bytes.len() => bytes[at] ^= 1 << self.chance.below(8),
             2 if at < bytes.len() => bytes[at] = self.chance.below(256) as u8,
             3 => drop(bytes.drain(at..end.max(at))),
             4 => bytes.extend_from_within(at..end.max(at)),
             5 => self.put_word(bytes, at),
+            7 | 8 => self.put_digit(bytes, at),
             6 => {
                 let other = &self.seeds[self.chance.below(self.seeds.len())];
                 let from = self.chance.below(other.len());
                 bytes.splice(at..end.max(at), other[from..(from + 40).min(other.len())].iter().copied());
             }
             _ => drop(bytes.splice(at..at, PIECES[self.chance.below(PIECES.len())].bytes())),
+        }
+    }
+
+    /// Another digit in place of the first one after a place.
+    fn put_digit(&mut self, bytes: &mut [u8], at: usize) {
+        if let Some(digit) = bytes[at..].iter_mut().find(|byte| byte.is_ascii_digit()) {
+            *digit = b'0' + self.chance.below(10) as u8;
         }
     }
 
@@ -89,7 +97,8 @@ impl Iterator for Damage<'_> {
     fn next(&mut self) -> Option<Vec<u8>> {
         let mut bytes = self.seeds[self.next % self.seeds.len()].clone();
         self.next += 1;
-        for _ in 0..=self.chance.below(3) {
+        // One change leaves more of them readable.
+        for _ in 0..=self.chance.below(6) / 4 {
             self.change(&mut bytes);
         }
         Some(bytes)

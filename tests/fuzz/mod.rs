@@ -55,30 +55,31 @@ fn fault(target: &Target, bytes: &[u8]) -> Option<String> {
     }
 }
 
-#[test]
-fn seeds_and_inputs_that_once_failed_are_answered_or_refused() {
-    for target in all() {
-        for (path, bytes) in seeds(target).iter().chain(&regressions(target)) {
-            assert_eq!(fault(target, bytes), None, "{}", path.display());
-        }
-    }
+/// What a target does wrong with these inputs.
+fn faults(target: &Target, inputs: impl Iterator<Item = Vec<u8>>) -> Vec<String> {
+    let begun = Instant::now();
+    let faults = inputs.filter_map(|bytes| fault(target, &bytes)).collect();
+    println!("{:>8.0?}  {}", begun.elapsed(), target.name);
+    faults
 }
 
-/// A seed shows a form that the reader takes: what refuses all of them tests little when it is damaged.
+/// Fails for faults, with all of them.
+fn refuse(faults: &[String]) {
+    let (count, text) = (faults.len(), faults.join("\n"));
+    assert!(faults.is_empty(), "{count} faults; keep each input in tests/regressions/fuzz:\n{text}");
+}
+
+#[test]
+fn seeds_and_inputs_that_once_failed_are_answered_or_refused() {
+    let inputs = |target| seeds(target).into_iter().chain(regressions(target)).map(|(_, bytes)| bytes);
+    refuse(&all().flat_map(|target| faults(target, inputs(target))).collect::<Vec<_>>());
+}
+
 #[test]
 fn damaged_seeds_are_answered_or_refused() {
-    let mut faults = Vec::new();
-    for target in all() {
+    let found = |target: &Target| {
         let seeds: Vec<Vec<u8>> = seeds(target).into_iter().map(|(_, bytes)| bytes).collect();
-        let begun = Instant::now();
-        let damaged = Damage::of(&seeds).take(target.damaged);
-        faults.extend(damaged.filter_map(|bytes| fault(target, &bytes)));
-        println!("{}: {} damaged seeds in {:?}", target.name, target.damaged, begun.elapsed());
-    }
-    assert!(
-        faults.is_empty(),
-        "{} faults; keep each input in tests/regressions/fuzz:\n{}",
-        faults.len(),
-        faults.join("\n")
-    );
+        faults(target, Damage::of(&seeds).take(target.damaged))
+    };
+    refuse(&all().flat_map(found).collect::<Vec<_>>());
 }
