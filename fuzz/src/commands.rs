@@ -116,28 +116,49 @@ fn code(program: &Program) -> [String; 3] {
 /// That of the honest one.
 static CODE: LazyLock<[String; 3]> = LazyLock::new(|| code(&SOLVER));
 
-/// Printed code has the same lines and comments whatever a joint is called.
+/// Printed code has as many lines, comments and strings whatever a joint is called.
 fn printed(name: &str) {
     let mut program = SOLVER.clone();
     program.joints[0].name = name.to_owned();
-    let shape = |text: &str| ["\n", "/*", "*/"].map(|part| without_strings(text).matches(part).count());
     for (text, own) in code(&program).iter().zip(&*CODE) {
         check_shown(text);
         assert_eq!(shape(text), shape(own), "{text}");
     }
 }
 
-/// Code without what its strings hold.
-fn without_strings(code: &str) -> String {
-    let (mut rest, mut is_string) = (String::new(), false);
-    let mut letters = code.chars();
+/// How many lines, comments and strings code has.
+fn shape(code: &str) -> [usize; 3] {
+    let (mut comments, mut strings, mut rest) = (0, 0, code);
+    while let Some(letter) = rest.chars().next() {
+        let end = |sign: &str| rest[2..].find(sign).map_or(rest.len(), |at| at + 2 + sign.len());
+        rest = match letter {
+            '/' if rest.starts_with("/*") => {
+                comments += 1;
+                &rest[end("*/")..]
+            }
+            '/' if rest.starts_with("//") => {
+                comments += 1;
+                &rest[end("\n")..]
+            }
+            '"' => {
+                strings += 1;
+                after_string(rest)
+            }
+            _ => &rest[letter.len_utf8()..],
+        };
+    }
+    [code.matches('\n').count(), comments, strings]
+}
+
+/// What follows the string with which code begins.
+fn after_string(code: &str) -> &str {
+    let mut letters = code[1..].chars();
     while let Some(letter) = letters.next() {
         match letter {
-            '\\' if is_string => drop(letters.next()),
-            '"' => is_string = !is_string,
-            _ if is_string => {}
-            _ => rest.push(letter),
+            '\\' => drop(letters.next()),
+            '"' => break,
+            _ => {}
         }
     }
-    rest
+    letters.as_str()
 }
