@@ -14,7 +14,7 @@ fn numbers(text: &str) -> Result<Vec<f64>> {
     text.split(',').map(number).collect::<Option<_>>().ok_or_else(|| {
         Error::new(
             ErrorKind::Syntax,
-            "give finite numbers of at most 1e15 with commas between them, such as 0.3,-1.5,2e-3",
+            "give finite numbers with commas between them, such as 0.3,-1.5,2e-3, of at most 1e15",
         )
     })
 }
