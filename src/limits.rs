@@ -7,6 +7,7 @@
 //! | a mesh, an image of a map | [`MESH_BYTES`], [`IMAGE_BYTES`] |
 //! | a program, a certificate or stage, a system of polynomials | [`PROGRAM_BYTES`], [`STAGE_BYTES`], [`SYSTEM_BYTES`] |
 //! | a trajectory, a table of states, footsteps | [`TABLE_BYTES`], [`STATES_BYTES`], [`FOOTSTEPS_BYTES`] |
+//! | columns of a table, tracks of a trajectory | [`COLUMNS`] |
 //! | a line of a table on standard input, and its rows | [`LINE_BYTES`], [`ROWS`] |
 //! | poses to follow, samples of a trajectory, footsteps, steps of a control law | [`POSES`], [`SAMPLES`], [`FOOTSTEPS`], [`CONTROL_STEPS`] |
 //! | entries of the regressor of a log to identify | [`LOG_ENTRIES`] |
@@ -45,6 +46,8 @@ pub const TABLE_BYTES: u64 = 1_000_000_000;
 pub const STATES_BYTES: u64 = 1 << 30;
 /// Bytes of footsteps.
 pub const FOOTSTEPS_BYTES: u64 = 4_000_000;
+/// Columns of a table, and tracks of a trajectory: names are compared in pairs.
+pub const COLUMNS: usize = 10_000;
 /// Bytes of a line of a table that is read row by row.
 pub const LINE_BYTES: usize = 1_000_000;
 /// Rows of such a table that is kept.

@@ -13,6 +13,8 @@ mod eigenvalue;
 mod escape;
 mod files;
 mod folder;
+#[cfg(feature = "cli")]
+mod fuzz;
 mod gait;
 mod groebner;
 mod kinematics;

@@ -1,9 +1,6 @@
-//! Chains: `chain.toml`.
+//! Chains, `kinematics::Chain::from_toml`.
 #![no_main]
 
-use groebot::kinematics::Chain;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = Chain::from_toml(text);
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("chain_toml", bytes));

@@ -1,11 +1,6 @@
-//! Coupled chains: `0_coupled.toml`, whose chains stand in the text itself.
+//! Coupled chains.
 #![no_main]
 
-use std::path::Path;
-
-use groebot::derive::coupled::CoupledChains;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = CoupledChains::from_toml(text, Path::new("/nonexistent"));
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("coupled_toml", bytes));

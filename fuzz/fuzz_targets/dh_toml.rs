@@ -1,9 +1,6 @@
-//! Denavit-Hartenberg tables.
+//! Tables of Denavit and Hartenberg.
 #![no_main]
 
-use groebot::kinematics::Chain;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = Chain::from_dh_toml(text);
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("dh_toml", bytes));

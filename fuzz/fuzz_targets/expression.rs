@@ -1,9 +1,6 @@
-//! Plain text of expressions and equations.
+//! `poly::parse`, `poly::parse_equation`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = groebot::poly::parse_equation(text);
-    groebot_fuzz::expression(groebot::poly::parse(text));
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("expression", bytes));

@@ -1,8 +1,6 @@
-//! LaTeX of expressions.
+//! `poly::parse_latex`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = groebot::poly::parse_latex(text);
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("latex", bytes));

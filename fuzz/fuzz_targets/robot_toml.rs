@@ -1,9 +1,6 @@
-//! Robots: TOML.
+//! Robots in TOML, written as URDF and MJCF.
 #![no_main]
 
-use groebot::model::Robot;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = Robot::from_toml(text);
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("robot_toml", bytes));

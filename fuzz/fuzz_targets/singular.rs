@@ -1,7 +1,6 @@
 //! Systems of polynomials in Singular's format.
 #![no_main]
 
-use groebot::poly::system::Format;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|bytes: &[u8]| groebot_fuzz::system(bytes, Format::Singular));
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("singular", bytes));

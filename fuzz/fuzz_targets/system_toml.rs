@@ -1,9 +1,6 @@
-//! Equations of a mechanism: `system.toml`.
+//! Equations of a mechanism, `derive::System`.
 #![no_main]
 
-use groebot::derive::System;
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let _ = System::from_toml(text);
-});
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("system_toml", bytes));

@@ -104,20 +104,20 @@ struct Answer {
     asked: Vec<f64>,
 }
 
+/// The columns of a table of the joint values of `chain`; those of the joints in `others` are ignored.
+pub fn columns(chain: &Chain, others: Vec<String>, degrees: bool) -> Columns {
+    Columns {
+        forms: vec![columns::of_joints(chain.joints())],
+        joints: others,
+        millimetres: chain.length_unit() == LengthUnit::Millimetre,
+        degrees,
+        skips_unsolved: true,
+    }
+}
+
 impl Edge<'_> {
     fn names(&self) -> Vec<&str> {
         self.chain.joints().iter().map(|joint| joint.name.as_str()).collect()
-    }
-
-    /// The columns of a table of joint values.
-    fn columns(&self) -> Columns {
-        Columns {
-            forms: vec![columns::of_joints(self.chain.joints())],
-            joints: self.others.clone(),
-            millimetres: self.chain.length_unit() == LengthUnit::Millimetre,
-            degrees: self.degrees,
-            skips_unsolved: true,
-        }
     }
 
     /// What the chain's task asks for and a pose does not tell, by name: where its direction points, or its angle \[rad\].
@@ -206,7 +206,8 @@ fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
 fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let mut rows = targets::Reader::new(edge.columns(), io::stdin().lock(), Path::new(targets::STDIN));
+    let columns = columns(edge.chain, edge.others.clone(), edge.degrees);
+    let mut rows = targets::Reader::new(columns, io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
         write(&csv_header(edge))?;
     }

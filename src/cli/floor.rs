@@ -11,7 +11,7 @@ use crate::gait::Footprint;
 use crate::nav::{Enclosure, Map, Room, Way};
 use crate::sim;
 use crate::task::Goal;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, limits};
 
 /// How a map is read, and what of its furniture is moved.
 #[derive(clap::Args)]
@@ -87,7 +87,7 @@ pub fn moved(told: &str) -> Result<(&str, Option<Footprint>)> {
     if place == "none" {
         return Ok((name, None));
     }
-    let numbers: Option<Vec<f64>> = place.split(',').map(|word| word.trim().parse().ok()).collect();
+    let numbers: Option<Vec<f64>> = place.split(',').map(|word| limits::number(word).ok()).collect();
     match numbers.as_deref() {
         Some(&[x, y]) => Ok((name, Some(Footprint { x, y, yaw: 0.0 }))),
         Some(&[x, y, yaw]) => Ok((name, Some(Footprint { x, y, yaw: yaw.to_radians() }))),

@@ -142,7 +142,11 @@ fn columns(chain: &Chain) -> Columns {
     }
 }
 
-fn read_from(input: impl BufRead, file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+/// The poses of a table of `chain`, and their times where it has them.
+///
+/// # Errors
+/// As [`Reader::next`]; [`ErrorKind::BadValue`] for a quaternion that is not of length one, more poses than [`limits::POSES`], and times in some rows alone.
+pub fn read_from(input: impl BufRead, file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     let mut reader = Reader::new(columns(chain), input, file);
     let (mut poses, mut times) = (Vec::new(), Vec::new());
     while let Some(row) = reader.next() {

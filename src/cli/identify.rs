@@ -121,16 +121,22 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn read(arguments: &Arguments, equations: &Equations) -> Result<Vec<Logged>> {
-    let table = StateTable::read_csv(&arguments.log)?;
-    let table = table.in_order_of(equations.joints()).map_err(|error| error.in_file(&arguments.log))?;
+    log(StateTable::read_csv(&arguments.log)?, equations).map_err(|error| error.in_file(&arguments.log))
+}
+
+/// The rows of a log.
+///
+/// # Errors
+/// As [`StateTable::in_order_of`]; [`ErrorKind::BadValue`] for more rows than [`limits::LOG_ENTRIES`] allows; [`ErrorKind::MissingKey`] for a list that is missing.
+pub fn log(table: StateTable, equations: &Equations) -> Result<Vec<Logged>> {
+    let table = table.in_order_of(equations.joints())?;
     let entries = table.rows.len().saturating_mul(10 * table.coordinates * table.coordinates);
-    limits::check_count("entries of the regressor (rows times joints times parameters)", entries, limits::LOG_ENTRIES)
-        .map_err(|error| error.in_file(&arguments.log))?;
+    limits::check_count("entries of the regressor (rows times joints times parameters)", entries, limits::LOG_ENTRIES)?;
     let whole = table.rows.into_iter().map(|row| {
         Some(Logged { q: row.q, velocity: row.velocity?, acceleration: row.acceleration?, torques: row.torques? })
     });
     let text = "a log has columns q0.., v0.., a0.. and tau0..; some are missing";
-    whole.collect::<Option<Vec<_>>>().ok_or_else(|| Error::new(ErrorKind::MissingKey, text).in_file(&arguments.log))
+    whole.collect::<Option<Vec<_>>>().ok_or_else(|| Error::new(ErrorKind::MissingKey, text))
 }
 
 fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], names: &[String]) -> Report<'a> {

@@ -40,6 +40,7 @@ mod physics;
 mod plan;
 mod progress;
 mod reach;
+pub mod readers;
 mod report;
 mod simulate;
 mod solve;

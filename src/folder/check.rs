@@ -36,6 +36,19 @@ pub struct Checked {
 /// # Errors
 /// Those of the numeric checks; what `watch` stops with. What is wrong with a file is a finding.
 pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked> {
+    check_by(source, stored, watch, |proved| witness::check(source, proved, watch))
+}
+
+/// Same as [`check`], but with the numeric checks that `measure` makes, for a caller that has made those of this derivation before.
+///
+/// # Errors
+/// As [`check`], and those of `measure`.
+pub fn check_by(
+    source: &Source,
+    stored: &Stored,
+    watch: &Watch,
+    measure: impl FnOnce(&Proved) -> Result<Report>,
+) -> Result<Checked> {
     let mut findings = vec![Finding::holds(source.name, described(source))];
     let mut known: BTreeSet<String> = inputs(source).map(str::to_owned).collect();
     let moving = motion::check(source, stored);
@@ -45,7 +58,7 @@ pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked>
     if is_derived || moving.is_empty() {
         match prove(source, stored, &mut Recount::new(watch)) {
             Ok(proved) => {
-                let checked = witness::check(source, &proved, watch)?;
+                let checked = measure(&proved)?;
                 let written = derived(source, &proved, &checked)?;
                 findings.extend(compare(stored, &written, &proof_words(&proved), &checked));
                 derivation = Some((proved, checked));

@@ -122,6 +122,7 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     fn read(head: &'a str) -> std::result::Result<Self, String> {
         let names: Vec<&str> = cells(head).collect();
+        limits::check_count("columns", names.len(), limits::COLUMNS).map_err(|error| error.message().to_owned())?;
         let joints: Vec<&str> = names.iter().filter_map(|name| name.strip_prefix("q:")).collect();
         let time = names.iter().position(|name| *name == "t");
         let lists = LISTS.map(|list| columns(&names, list, &joints));

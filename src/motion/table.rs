@@ -11,7 +11,7 @@
 //! | `NAME_x [m]`, `NAME_y [m]`, `NAME_z [m]` | a point |
 //! | `NAME [UNIT]` | a number |
 //!
-//! Numbers have nine decimals.
+//! Numbers have nine decimals. A name with a comma or a quotation mark is quoted, as RFC 4180 has it.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -20,6 +20,7 @@ use nalgebra::{Point3, Quaternion, Translation3, UnitQuaternion};
 
 use super::{Contact, Figure, JointTrack, Track, Trajectory};
 use crate::document::{read_text, shown, unix_lines};
+use crate::escape;
 use crate::limits;
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
@@ -39,7 +40,7 @@ const POSE: [(&str, &str); 7] =
 impl Trajectory {
     /// The trajectory as CSV in the format of [`table`](self).
     pub fn to_csv(&self) -> String {
-        let mut text = format!("{MARK}{FORMAT}\n# robot: {}\n{}\n", shown(&self.robot), self.header().join(","));
+        let mut text = format!("{MARK}{FORMAT}\n# robot: {}\n{}\n", escape::line(&self.robot), self.header());
         for sample in 0..self.times.len() {
             let row: Vec<String> = self.row(sample).into_iter().map(decimal).collect();
             // Writing to a string cannot fail.
@@ -91,7 +92,8 @@ impl Trajectory {
         Ok(trajectory)
     }
 
-    fn header(&self) -> Vec<String> {
+    /// The row of names.
+    fn header(&self) -> String {
         let pose = |name: &str| POSE.map(|(end, unit)| format!("{name}_{end} [{unit}]")).to_vec();
         let mut names = vec!["time [s]".to_owned()];
         names.extend(self.joints.iter().map(|joint| format!("q:{} [{}]", joint.name, joint.unit())));
@@ -106,7 +108,7 @@ impl Trajectory {
             self.points.iter().flat_map(|track| ["x", "y", "z"].map(|end| format!("{}_{end} [m]", track.name))),
         );
         names.extend(self.figures.iter().map(|figure| format!("{} [{}]", figure.name, figure.unit)));
-        names
+        names.into_iter().map(quoted).collect::<Vec<_>>().join(",")
     }
 
     fn row(&self, sample: usize) -> Vec<f64> {
@@ -133,6 +135,36 @@ fn check_version(first: &str) -> Result<()> {
     Err(Error::new(ErrorKind::Syntax, text).at_line(1))
 }
 
+/// A cell of text.
+fn quoted(text: String) -> String {
+    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+}
+
+/// The cells of a row of text.
+fn cells(line: &str) -> Vec<String> {
+    let (mut cells, mut cell, mut is_quoted) = (Vec::new(), String::new(), false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if is_quoted && letters.next_if_eq(&'"').is_some() => cell.push('"'),
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => cells.push(std::mem::take(&mut cell)),
+            _ => cell.push(letter),
+        }
+    }
+    cells.push(cell);
+    cells
+}
+
+/// Fails for a column in another unit than one of `allowed`.
+fn check_unit((name, unit): (&str, &str), allowed: &[&str]) -> Result<()> {
+    if allowed.contains(&unit) {
+        return Ok(());
+    }
+    let text = format!("the column `{}` is in `{}`; give {}", shown(name), shown(unit), allowed.join(" or "));
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
 /// What the columns of a table hold.
 struct Header {
     columns: usize,
@@ -147,10 +179,11 @@ struct Header {
 impl Header {
     /// Reads the row of names and makes the tracks of `trajectory`.
     fn read(line: &str, trajectory: &mut Trajectory) -> Result<Self> {
-        let names: Vec<(&str, &str)> = line.split(',').map(|cell| named(cell.trim())).collect::<Result<_>>()?;
+        let cells = cells(line);
+        limits::check_count("columns", cells.len(), limits::COLUMNS)?;
+        let names: Vec<(&str, &str)> = cells.iter().map(|cell| named(cell.trim())).collect::<Result<_>>()?;
         if names[0] != ("time", "s") {
-            let text =
-                format!("the first column is `{}`; give `time [s]`", shown(line.split(',').next().unwrap_or("")));
+            let text = format!("the first column is `{}`; give `time [s]`", shown(&cells[0]));
             return Err(Error::new(ErrorKind::MissingKey, text));
         }
         let find = |name: &str| names.iter().position(|(own, _)| *own == name);
@@ -168,12 +201,17 @@ impl Header {
             points: Vec::new(),
             figures: Vec::new(),
         };
+        let check_pose = |places: &[usize; 7]| {
+            places.iter().zip(POSE).try_for_each(|(at, (_, unit))| check_unit(names[*at], &[unit]))
+        };
+        header.base.iter().try_for_each(check_pose)?;
         let mut seen: Vec<usize> = header.base.into_iter().flatten().collect();
         for (place, (name, unit)) in names.iter().enumerate().skip(1) {
             if seen.contains(&place) {
                 continue;
             }
             if let Some(joint) = name.strip_prefix("q:") {
+                check_unit(names[place], &["rad", "m"])?;
                 trajectory.joints.push(JointTrack {
                     name: joint.to_owned(),
                     slides: *unit == "m",
@@ -185,9 +223,12 @@ impl Header {
             }
             let stem = name.strip_suffix("_x");
             let contact = stem.and_then(|stem| Some((stem, pose(stem)?, find(&format!("{stem}_stands"))?)));
+            // Three numbers in another unit, such as a force, are no point.
             let point = stem.and_then(|stem| Some((stem, all(stem, &["x", "y", "z"])?)));
+            let point = point.filter(|(_, places)| places.iter().all(|at| names[*at].1 == "m"));
             match (contact, point) {
                 (Some((stem, places, stands)), _) => {
+                    check_pose(&places)?;
                     trajectory.contacts.push(Contact { name: stem.to_owned(), poses: Vec::new(), stands: Vec::new() });
                     header.contacts.push((places, stands));
                     seen.extend(places);
@@ -216,8 +257,11 @@ impl Header {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let number = |cell: &&str| {
-            let wrong = || Error::new(ErrorKind::Syntax, format!("`{}` is no finite number", shown(cell)));
-            cell.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(wrong)
+            let syntax = |text: String| Error::new(ErrorKind::Syntax, text);
+            match cell.trim().parse::<f64>() {
+                Ok(value) if value.is_finite() => limits::number(cell).map_err(syntax),
+                _ => Err(syntax(format!("`{}` is no finite number", shown(cell)))),
+            }
         };
         let numbers = cells.iter().map(number).collect::<Result<Vec<f64>>>()?;
         trajectory.times.push(numbers[0]);

@@ -3,12 +3,14 @@
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-use crate::limits::check_name;
+use crate::limits::{COLUMNS, LARGEST, check_count, check_name};
 use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
 /// The most samples of a trajectory.
 pub const MOST_SAMPLES: usize = crate::limits::SAMPLES;
+/// The shortest time between two samples \[s\]: tables have nine decimals.
+const LEAST_STEP: f64 = 1e-8;
 
 /// A joint of a trajectory: its name, its kind and what bounds it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,8 +100,10 @@ impl Trajectory {
         if count > MOST_SAMPLES {
             return bad(format!("{count} samples; at most {MOST_SAMPLES} are allowed"));
         }
-        if let Some(at) = self.times.windows(2).position(|pair| pair[0].is_nan() || pair[0] >= pair[1]) {
-            return bad(format!("sample {}: its time is not behind the one before; let time go on", at + 2));
+        let is_late = |pair: &[f64]| pair[1] - pair[0] >= LEAST_STEP;
+        if let Some(at) = self.times.windows(2).position(|pair| !is_late(pair)) {
+            let text = "its time is not behind the one before by 1e-8 s or more; let time go on";
+            return bad(format!("sample {}: {text}", at + 2));
         }
         self.check_names()?;
         let lengths =
@@ -117,13 +121,15 @@ impl Trajectory {
             let text = format!("sample {}: {} values for {} joints", at + 1, self.q[at].len(), self.joints.len());
             return bad(text);
         }
-        match (0..count).find(|sample| !self.is_finite(*sample)) {
-            Some(sample) => bad(format!("sample {}: a value is not finite", sample + 1)),
+        match (0..count).find(|sample| !self.is_in_range(*sample)) {
+            Some(sample) => bad(format!("sample {}: a value is not finite, or beyond {LARGEST:e}", sample + 1)),
             None => Ok(()),
         }
     }
 
     fn check_names(&self) -> Result<()> {
+        let tracks = self.joints.len() + self.contacts.len() + self.points.len() + self.figures.len();
+        check_count("tracks", tracks, COLUMNS)?;
         let joints: Vec<&str> = self.joints.iter().map(|joint| joint.name.as_str()).collect();
         let others = self.contacts.iter().map(|own| &own.name);
         let others =
@@ -142,14 +148,15 @@ impl Trajectory {
         Ok(())
     }
 
-    fn is_finite(&self, sample: usize) -> bool {
-        let pose = |pose: &Pose| pose.to_homogeneous().iter().all(|x| x.is_finite());
-        self.times[sample].is_finite()
-            && self.q[sample].iter().all(|x| x.is_finite())
+    fn is_in_range(&self, sample: usize) -> bool {
+        let number = |x: &f64| x.abs() <= LARGEST;
+        let pose = |pose: &Pose| pose.to_homogeneous().iter().all(number);
+        number(&self.times[sample])
+            && self.q[sample].iter().all(number)
             && self.base.get(sample).is_none_or(pose)
             && self.contacts.iter().all(|contact| pose(&contact.poses[sample]))
-            && self.points.iter().all(|track| track.at[sample].iter().all(|x| x.is_finite()))
-            && self.figures.iter().all(|figure| figure.values[sample].is_finite())
+            && self.points.iter().all(|track| track.at[sample].iter().all(number))
+            && self.figures.iter().all(|figure| number(&figure.values[sample]))
     }
 
     /// The rates of the joints at a sample: the slope of the parabola through it and its neighbours; at both ends that of the line to the one

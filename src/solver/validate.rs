@@ -27,6 +27,7 @@ impl Program {
     pub fn validate(&self) -> Result<()> {
         self.validate_names()?;
         self.conditions.iter().try_for_each(|condition| self.validate_condition(condition))?;
+        self.validate_rotations()?;
         let mut context =
             Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
         context.parameters()?;
@@ -86,6 +87,18 @@ impl Program {
         let inputs = first.checked_add(count).and_then(|end| self.inputs.get(first..end));
         let plain = inputs.is_some_and(|inputs| inputs.iter().all(|input| input.unit == Unit::One));
         ensure(plain, "condition: its inputs do not exist or are no plain numbers")
+    }
+
+    /// No input is an entry of two rotations: each may be given as a quaternion in its place.
+    fn validate_rotations(&self) -> Result<()> {
+        let rotation = |condition: &Condition| match condition {
+            Condition::Rotation(first) => Some(*first),
+            Condition::Unit(_) => None,
+        };
+        let mut firsts: Vec<usize> = self.conditions.iter().filter_map(rotation).collect();
+        firsts.sort_unstable();
+        let are_apart = firsts.windows(2).all(|pair| pair[1] - pair[0] >= 9);
+        ensure(are_apart, "condition: two rotations have an input in common")
     }
 }
 

@@ -34,6 +34,17 @@ fn multiplied_out(text: &str, q: &[f64]) -> Isometry3<f64> {
     pose
 }
 
+/// Neither the text of other files nor that of the description itself is put in place of an entity.
+#[test]
+fn entities_are_refused() {
+    for entity in ["SYSTEM \"file:///etc/hostname\"", "\"text\""] {
+        let text = format!("<!DOCTYPE robot [<!ENTITY x {entity}>]>\n<robot name=\"&x;\"><link name=\"a\"/></robot>");
+        let error = Robot::from_urdf(&text).unwrap_err();
+        assert_eq!((error.kind(), error.place().line), (ErrorKind::Syntax, Some(2)), "{error}");
+        assert!(error.message().contains("unrecognized entity"), "{error}");
+    }
+}
+
 #[test]
 fn the_documented_example() {
     let tree = Robot::from_urdf(&example()).unwrap();

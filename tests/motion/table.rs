@@ -44,6 +44,42 @@ fn json_is_read_back() {
     assert_eq!(Trajectory::from_json("{").unwrap_err().kind(), ErrorKind::Syntax);
 }
 
+/// Names as descriptions may have them; units that are not ours; a force is no point.
+#[test]
+fn names_are_quoted_and_units_checked() {
+    let mut path = sample();
+    path.robot = format!("O'Neil's {}", "arm".repeat(20));
+    path.joints[0].name = "hip, \"left\"".to_owned();
+    let text = path.to_csv();
+    assert!(text.contains(",\"q:hip, \"\"left\"\" [rad]\","), "{text}");
+    let again = Trajectory::from_csv(&text).unwrap();
+    assert_eq!(
+        (&again.robot, &again.joints[0].name, again.joints.len()),
+        (&path.robot, &path.joints[0].name, path.joints.len())
+    );
+    for (from, to) in [("[rad]", "[deg]"), ("base_y [m]", "base_y [mm]"), ("left_qx [1]", "left_qx [rad]")] {
+        let error = Trajectory::from_csv(&text.replacen(from, to, 1)).unwrap_err();
+        assert_eq!((error.kind(), error.place().line), (ErrorKind::BadValue, Some(3)), "{error}");
+        assert!(error.message().contains("give "), "{error}");
+    }
+    let forces = "# groebot trajectory 1\ntime [s],f_x [N],f_y [N],f_z [N]\n0,1,2,3\n";
+    let read = Trajectory::from_csv(forces).unwrap();
+    assert_eq!((read.points.len(), read.figures.len(), read.figures[0].unit.as_str()), (0, 3, "N"));
+}
+
+/// What would be written as two samples at one time, or as a number that no reader takes, is refused before.
+#[test]
+fn numbers_and_steps_have_limits() {
+    let text = "# groebot trajectory 1\ntime [s],power [W]\n0,1\nSTEP,NUMBER\n";
+    let read = |step: &str, number: &str| Trajectory::from_csv(&text.replace("STEP", step).replace("NUMBER", number));
+    assert!(read("1e-8", "1e15").is_ok());
+    assert!(read("1e-9", "1").unwrap_err().message().contains("sample 2: its time"));
+    let error = read("1", "1e160").unwrap_err();
+    assert!(error.message().contains("at most 1e15") && error.place().line == Some(4), "{error}");
+    let wide = format!("# groebot trajectory 1\ntime [s]{}\n", ",a [1]".repeat(10_000));
+    assert!(Trajectory::from_csv(&wide).unwrap_err().message().contains("10001 columns are too many"));
+}
+
 #[test]
 fn mistakes_have_a_line() {
     use ErrorKind::*;

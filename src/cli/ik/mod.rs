@@ -1,7 +1,7 @@
 //! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first; or by search.
 
 mod page;
-mod target;
+pub mod target;
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;

@@ -4,17 +4,18 @@ use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::cli::columns::{Columns, Field, of_joints};
 use crate::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
+use crate::limits;
 use crate::spatial::{Pose, rotation};
 use crate::{Error, ErrorKind, Result};
 
 /// The numbers of `text`, angles still in the unit that they were given in.
 fn numbers(text: &str) -> Result<Vec<f64>> {
-    let number = |part: &str| {
-        let value: f64 = part.trim().parse().ok().filter(|value: &f64| value.is_finite())?;
-        Some(value)
-    };
+    let number = |part: &str| limits::number(part).ok();
     text.split(',').map(number).collect::<Option<_>>().ok_or_else(|| {
-        Error::new(ErrorKind::Syntax, "give finite numbers with commas between them, such as 0.3,-1.5,2e-3")
+        Error::new(
+            ErrorKind::Syntax,
+            "give finite numbers with commas between them, such as 0.3,-1.5,2e-3, of at most 1e15",
+        )
     })
 }
 

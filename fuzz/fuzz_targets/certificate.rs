@@ -1,0 +1,6 @@
+//! Certificates, `derive::Proved::again`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("certificate", bytes));

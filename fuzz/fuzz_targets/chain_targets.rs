@@ -1,0 +1,6 @@
+//! Tables of targets for `ik`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("chain_targets", bytes));

@@ -1,0 +1,6 @@
+//! Equations of motion that a certificate proves.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("dynamics_text", bytes));

@@ -1,0 +1,6 @@
+//! A folder with one file changed, `folder::check`; the first line is the file's name.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("folder", bytes));

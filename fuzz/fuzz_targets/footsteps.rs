@@ -1,0 +1,6 @@
+//! Footsteps in CSV, `gait::Route`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("footsteps", bytes));

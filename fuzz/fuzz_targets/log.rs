@@ -1,0 +1,6 @@
+//! Logs of `identify`, and what is identified.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("log", bytes));

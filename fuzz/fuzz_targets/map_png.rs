@@ -1,0 +1,6 @@
+//! Maps from PNG.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("map_png", bytes));

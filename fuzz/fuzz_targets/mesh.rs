@@ -1,0 +1,6 @@
+//! STL, `model::Meshes::triangles`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("mesh", bytes));

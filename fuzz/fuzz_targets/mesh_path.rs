@@ -1,0 +1,6 @@
+//! Names of meshes, `model::Meshes::find`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("mesh_path", bytes));

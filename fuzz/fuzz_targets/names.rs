@@ -1,0 +1,6 @@
+//! Names and escaping, in messages, Markdown and printed code.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("names", bytes));

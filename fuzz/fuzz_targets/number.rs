@@ -1,0 +1,6 @@
+//! `number::parse_rational`, `limits::number`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("number", bytes));

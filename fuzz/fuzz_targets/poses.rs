@@ -1,0 +1,6 @@
+//! Tables of poses for `follow`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("poses", bytes));

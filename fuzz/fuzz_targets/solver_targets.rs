@@ -1,0 +1,6 @@
+//! Tables of targets for `solve`.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("solver_targets", bytes));

@@ -1,0 +1,6 @@
+//! Trajectories in CSV.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("trajectory_csv", bytes));

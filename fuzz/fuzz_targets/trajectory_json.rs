@@ -1,0 +1,6 @@
+//! Trajectories in JSON.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("trajectory_json", bytes));

@@ -1,0 +1,6 @@
+//! Walks in JSON, and their page.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| groebot_fuzz::run("walk_json", bytes));

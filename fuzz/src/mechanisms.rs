@@ -1,0 +1,121 @@
+//! Descriptions of robots, chains and equations, what is asked of them, and meshes.
+
+use std::fs;
+use std::path::Path;
+
+use groebot::derive::coupled::CoupledChains;
+use groebot::derive::{Ends, InputFile, Source, System};
+use groebot::document::decode_xml;
+use groebot::kinematics::Chain;
+use groebot::model::{Meshes, Robot, Solid};
+use tempfile::tempdir;
+
+use super::{Target, read, text};
+
+pub(super) const TARGETS: [Target; 10] = [
+    Target { name: "chain_toml", about: "chains, `kinematics::Chain::from_toml`", run: chain_toml, damaged: 200 },
+    Target { name: "dh_toml", about: "tables of Denavit and Hartenberg", run: dh_toml, damaged: 100 },
+    Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
+    Target { name: "coupled_toml", about: "coupled chains", run: coupled_toml, damaged: 200 },
+    Target { name: "task_toml", about: "what is asked of a mechanism, `derive::Ends`", run: task_toml, damaged: 200 },
+    Target { name: "robot_toml", about: "robots in TOML, written as URDF and MJCF", run: robot_toml, damaged: 200 },
+    Target {
+        name: "urdf",
+        about: "robots in URDF, in any encoding, written as URDF and MJCF",
+        run: urdf,
+        damaged: 100,
+    },
+    Target { name: "input", about: "any file that `derive` takes, `derive::Source`", run: input, damaged: 100 },
+    Target { name: "mesh", about: "STL, `model::Meshes::triangles`", run: mesh, damaged: 200 },
+    Target { name: "mesh_path", about: "names of meshes, `model::Meshes::find`", run: mesh_path, damaged: 200 },
+];
+
+fn chain_toml(bytes: &[u8]) {
+    let _ = read(Chain::from_toml(&text(bytes)));
+}
+
+fn dh_toml(bytes: &[u8]) {
+    let _ = read(Chain::from_dh_toml(&text(bytes)));
+}
+
+fn system_toml(bytes: &[u8]) {
+    let _ = read(System::from_toml(&text(bytes)));
+}
+
+/// Chains in files of their own are looked for where there are none.
+fn coupled_toml(bytes: &[u8]) {
+    let _ = read(CoupledChains::from_toml(&text(bytes), Path::new("/nonexistent")));
+}
+
+/// What is asked is written as text that asks the same.
+fn task_toml(bytes: &[u8]) {
+    if let Some(ends) = read(Ends::from_toml(&text(bytes))) {
+        assert_eq!(Ends::from_toml(&ends.to_toml()), Ok(ends));
+    }
+}
+
+fn robot_toml(bytes: &[u8]) {
+    if let Some(robot) = read(Robot::from_toml(&text(bytes))) {
+        write(&robot);
+    }
+}
+
+fn urdf(bytes: &[u8]) {
+    let Some(decoded) = read(decode_xml(bytes)) else { return };
+    let Some(robot) = read(Robot::from_urdf(&decoded.text)) else { return };
+    for tip in robot.leaves() {
+        let _ = read(robot.chain(None, Some(tip)));
+        if let Some(path) = read(robot.path(None, Some(tip))) {
+            let _ = robot.notes(&path);
+        }
+    }
+    write(&robot);
+}
+
+/// A robot without faults is written as a URDF that reads without faults and is written the same again, and as MJCF.
+fn write(robot: &Robot) {
+    if read(robot.check()).is_none() {
+        return;
+    }
+    // The remark that names the source is not read.
+    let text =
+        |robot: &Robot| robot.to_urdf().lines().filter(|line| !line.starts_with("<!--")).collect::<Vec<_>>().join("\n");
+    let written = text(robot);
+    let again = Robot::from_urdf(&written).and_then(|again| again.check().map(|()| again));
+    let again = again.unwrap_or_else(|error| panic!("{error}\n{written}"));
+    assert_eq!(text(&again), written);
+    let _ = robot.to_mjcf(&Meshes::default());
+}
+
+/// A file of any kind, and the equations that it amounts to.
+fn input(bytes: &[u8]) {
+    let folder = tempdir().expect("a folder for a file");
+    let file = folder.path().join("input");
+    fs::write(&file, bytes).expect("a file to read");
+    if let Some(input) = read(InputFile::read(&file)) {
+        let _ = read(Source::of(input, &Ends::default()));
+    }
+}
+
+/// Triangles have finite corners that are there.
+fn mesh(bytes: &[u8]) {
+    let folder = tempdir().expect("a folder for a file");
+    fs::write(folder.path().join("mesh.stl"), bytes).expect("a file to read");
+    let solid = Solid::Mesh { path: "mesh.stl".to_owned(), scale: [0.001, 1.0, -1e30] };
+    if let Some(surface) = read(Meshes::beside(&folder.path().join("robot.urdf")).triangles(&solid)) {
+        assert!(surface.points.iter().all(|point| point.iter().all(|x| x.is_finite())));
+        assert!(surface.triangles.iter().flatten().all(|corner| (*corner as usize) < surface.points.len()));
+    }
+}
+
+/// What is found is a file, and what is no STL is refused by its name.
+fn mesh_path(bytes: &[u8]) {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("robot.urdf");
+    let (meshes, path) = (Meshes::beside(&beside), text(bytes).into_owned());
+    let found = meshes.find(&path);
+    assert!(found.as_ref().is_none_or(|file| file.is_file()), "{found:?}");
+    if !found.is_some_and(|file| file.extension().is_some_and(|end| end.eq_ignore_ascii_case("stl"))) {
+        let error = meshes.triangles(&Solid::Mesh { path, scale: [1.0; 3] });
+        super::check_refusal(&error.expect_err("there is no mesh"));
+    }
+}

@@ -1,0 +1,105 @@
+//! What commands read beside files, as functions: command lines, lists of options, and tables of targets, joint values, poses and logs.
+//!
+//! Each is what the command itself calls. Tests and the targets of `fuzz/` call them without running a command.
+
+use std::ffi::OsString;
+use std::io::BufRead;
+use std::path::Path;
+
+use clap::Parser;
+
+use super::columns::Columns;
+use super::forms::Forms;
+use super::targets::{Reader, STDIN};
+use super::{Cli, fk, floor, follow, identify, ik};
+use crate::Result;
+use crate::dynamics::{Equations, Logged};
+use crate::escape;
+use crate::gait::Footprint;
+use crate::kinematics::{Chain, Target};
+use crate::motion::StateTable;
+use crate::solver::Program;
+use crate::spatial::Pose;
+
+/// Parses a command line, of which the first argument is the program's name. Nothing is run.
+///
+/// # Errors
+/// What is shown instead of running a command: help, the version, or what is wrong with the arguments.
+pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> std::result::Result<(), String> {
+    Cli::try_parse_from(arguments).map(drop).map_err(|usage| escape::message(&usage.render().to_string()))
+}
+
+/// The targets of a table for `groebot solve`: the inputs of `program`, by row.
+///
+/// # Errors
+/// As `solve` reports them, with the line.
+pub fn solver_targets(program: &Program, table: impl BufRead, degrees: bool) -> Result<Vec<Vec<f64>>> {
+    let forms = Forms::new(program);
+    rows(forms.columns(program, degrees), table, |numbers| forms.inputs(numbers))
+}
+
+/// The targets of a table for `groebot ik`, each with the values of the given joints, by row.
+///
+/// # Errors
+/// As `ik` reports them, with the line.
+pub fn chain_targets(chain: &Chain, table: impl BufRead, degrees: bool) -> Result<Vec<(Target, Vec<f64>)>> {
+    rows(ik::target::columns(chain, degrees), table, |numbers| ik::target::aim(chain, &numbers, degrees))
+}
+
+/// The joint values of a table for `groebot fk`, by row; angles in degrees where `degrees` says so.
+///
+/// # Errors
+/// As `fk` reports them, with the line.
+pub fn joint_values(chain: &Chain, table: impl BufRead, degrees: bool) -> Result<Vec<Vec<f64>>> {
+    rows(fk::columns(chain, Vec::new(), degrees), table, Ok)
+}
+
+/// The poses of a table for `groebot follow`, and their times \[s\] where it has a column of them.
+///
+/// # Errors
+/// As `follow` reports them, with the line.
+pub fn poses(chain: &Chain, table: impl BufRead) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
+    follow::read_from(table, Path::new(STDIN), chain)
+}
+
+/// The rows of a log for `groebot identify`.
+///
+/// # Errors
+/// As [`StateTable::from_csv`] and [`StateTable::in_order_of`]; [`crate::ErrorKind::MissingKey`] for a list that is missing.
+pub fn log(equations: &Equations, table: &str) -> Result<Vec<Logged>> {
+    identify::log(StateTable::from_csv(table)?, equations)
+}
+
+/// The target of `groebot ik --target`, with the values of the given joints.
+///
+/// # Errors
+/// As `ik` reports them.
+pub fn listed_target(chain: &Chain, text: &str, degrees: bool) -> Result<(Target, Vec<f64>)> {
+    ik::target::target(chain, text, degrees)
+}
+
+/// The target that the joint values of `groebot ik --q` reach, with the values of the given joints.
+///
+/// # Errors
+/// As `ik` reports them.
+pub fn listed_joints(chain: &Chain, text: &str, degrees: bool) -> Result<(Target, Vec<f64>)> {
+    ik::target::reached(chain, text, degrees)
+}
+
+/// The piece of furniture of `--furniture`, and where it is to be \[m, rad\], or nowhere.
+///
+/// # Errors
+/// [`crate::ErrorKind::BadValue`] for another text than `NAME=X,Y[,YAW]` or `NAME=none`.
+pub fn furniture(text: &str) -> Result<(&str, Option<Footprint>)> {
+    floor::moved(text)
+}
+
+fn rows<T>(columns: Columns, table: impl BufRead, take: impl Fn(Vec<f64>) -> Result<T>) -> Result<Vec<T>> {
+    let mut reader = Reader::new(columns, table, Path::new(STDIN));
+    let mut rows = Vec::new();
+    while let Some(row) = reader.next() {
+        let row = row?;
+        rows.push(take(row.target).map_err(|error| error.at_line(row.line).in_file(Path::new(STDIN)))?);
+    }
+    Ok(rows)
+}
