@@ -113,7 +113,10 @@ impl Arguments {
         robot.check().map_err(|error| error.in_file(&self.input))?;
         tell_left_out(&robot);
         if self.to == Format::Mjcf {
-            return Ok(robot.to_mjcf(&meshes));
+            let mut notes = Vec::new();
+            let text = robot.to_mjcf(&meshes, &mut notes).map_err(|error| error.in_file(&self.input))?;
+            notes.iter().for_each(|note| console::line("warning", &format!("{note}; left out")));
+            return Ok(text);
         }
         let text = robot.to_urdf();
         let again = Robot::from_urdf(&text).and_then(|again| again.check());

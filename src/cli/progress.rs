@@ -10,8 +10,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::files::stop_writers;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The longest time budget: about thirty years.
-const MAX_SECONDS: f64 = 1e9;
+/// The longest time budget.
+const MAX_SECONDS: f64 = crate::limits::BUDGET_SECONDS;
 
 /// How much may be spent, and whether to show it.
 #[derive(Clone, Copy, Default)]

@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::{Joint, Link, Mass, Origin, Shape, Solid};
+use super::{Joint, Link, Mass, Origin, Robot, Shape, Solid};
 use crate::document::shown;
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -34,6 +34,26 @@ pub fn check_joint(joint: &Joint) -> Result<()> {
         ("effort, velocity or dynamics", motor.collect()),
     ];
     check(numbers).map_err(|what| fault("joint", &joint.name, what, joint.line))
+}
+
+/// Fails for a robot of which doubles do not hold what follows from its numbers: the inertia of a link in its own frame, and the law by which a joint
+/// follows one that leads itself.
+///
+/// # Errors
+/// As [`check_link`].
+pub fn check_robot(robot: &Robot) -> Result<()> {
+    for link in robot.links() {
+        check_link(link)?;
+        let inertia = link.inertia();
+        let numbers = inertia.rotational().iter().chain(inertia.centre_of_mass().iter()).copied().collect();
+        check([("inertia", numbers)]).map_err(|what| fault("link", &link.name, what, link.line))?;
+    }
+    for joint in robot.joints() {
+        check_joint(joint)?;
+        let law = robot.law(joint).law().to_vec();
+        check([("law by its leaders", law)]).map_err(|what| fault("joint", &joint.name, what, joint.line))?;
+    }
+    Ok(())
 }
 
 /// What has a number that is not finite.

@@ -3,21 +3,29 @@
 //! Every link is a body, every joint that turns or slides a joint with a position servo, and what collides a geom that touches the floor and no other
 //! part of the robot. Joints that follow others are tied to them by equations. The root moves freely over a floor.
 
+use std::path::Path;
+
 use super::attributes::{escaped, floats};
-use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid};
+use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid, finite};
+use crate::Result;
 use crate::spatial::Pose;
 
 /// The deepest level whose lines begin further to the right than those above.
 const MOST_STEMS: usize = 60;
 
 impl Robot {
-    /// The robot as MJCF, with the files of its meshes where `meshes` finds them; meshes in other formats than STL and OBJ are left out. Masses that no
-    /// body has are made possible by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot was understood.
-    pub fn to_mjcf(&self, meshes: &Meshes) -> String {
-        let mut writer = Writer { robot: self, meshes, assets: Vec::new() };
+    /// The robot as MJCF, with the files of its meshes. Meshes that `meshes` does not find, that are damaged, or in other formats than STL and OBJ are left
+    /// out, and `notes` says so of each. Masses that no body has are made possible by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot
+    /// was understood.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number that no double holds.
+    pub fn to_mjcf(&self, meshes: &Meshes, notes: &mut Vec<String>) -> Result<String> {
+        finite::check_robot(self)?;
+        let mut writer = Writer { robot: self, meshes, assets: Vec::new(), notes };
         let bodies = writer.bodies();
         let assets: String = writer.assets.iter().map(|asset| format!("    {asset}\n")).collect();
-        format!(
+        Ok(format!(
             "<mujoco model=\"{name}\">\n  <compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"true\" boundmass=\"1e-4\" \
              boundinertia=\"1e-7\"/>\n  <option timestep=\"0.002\" integrator=\"implicitfast\"/>\n  <default>\n    <geom contype=\"1\" \
              conaffinity=\"2\" mass=\"0\"/>\n    <default class=\"visual\"><geom contype=\"0\" conaffinity=\"0\" group=\"2\"/></default>\n  \
@@ -27,7 +35,7 @@ impl Robot {
             name = escaped(self.name()),
             equations = self.equations(),
             servos = self.servos(),
-        )
+        ))
     }
 
     /// The joints that lead themselves.
@@ -62,6 +70,7 @@ struct Writer<'r> {
     robot: &'r Robot,
     meshes: &'r Meshes,
     assets: Vec<String>,
+    notes: &'r mut Vec<String>,
 }
 
 impl Writer<'_> {
@@ -113,11 +122,11 @@ impl Writer<'_> {
             Solid::Capsule { radius, length } => format!("type=\"capsule\" size=\"{radius} {}\"", half(*length)),
             Solid::Sphere { radius } => format!("type=\"sphere\" size=\"{radius}\""),
             Solid::Mesh { path, scale: [x, y, z] } => {
-                let file = self.meshes.find(path)?;
-                let ending = file.extension()?.to_str()?.to_ascii_lowercase();
-                if !["stl", "obj"].contains(&ending.as_str()) {
-                    return None;
-                }
+                let file = self.meshes.find(path).filter(|file| is_obj(file));
+                let file = match file {
+                    Some(file) => file,
+                    None => self.meshes.triangles_or_note(&shape.solid, self.notes).and(self.meshes.find(path))?,
+                };
                 let name = format!("mesh{}", self.assets.len());
                 let file = escaped(&file.to_string_lossy());
                 self.assets.push(format!("<mesh name=\"{name}\" file=\"{file}\" scale=\"{x} {y} {z}\"/>"));
@@ -127,6 +136,11 @@ impl Writer<'_> {
         let colour = shape.colour.map(|[r, g, b, a]| format!(" rgba=\"{r} {g} {b} {a}\"")).unwrap_or_default();
         Some(solid + &colour)
     }
+}
+
+/// Whether a mesh is in a format that MuJoCo reads and groebot does not.
+fn is_obj(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"))
 }
 
 /// The blanks before what is `depth` levels deep; beyond [`MOST_STEMS`] they grow no further, so that a very deep tree stays of linear size.

@@ -5,6 +5,10 @@ use groebot::robots;
 
 use super::round_trip::RICH;
 
+fn written(robot: &Robot, notes: &mut Vec<String>) -> String {
+    robot.to_mjcf(&Meshes::default(), notes).unwrap()
+}
+
 /// The elements `name` of `text`.
 fn count(text: &str, name: &str) -> usize {
     text.matches(&format!("<{name} ")).count()
@@ -13,7 +17,7 @@ fn count(text: &str, name: &str) -> usize {
 #[test]
 fn every_link_is_a_body_and_every_leader_has_a_servo() {
     for robot in [robots::nao_v5(), robots::rh0(), robots::teo()] {
-        let text = robot.to_mjcf(&Meshes::default());
+        let text = written(&robot, &mut Vec::new());
         assert_eq!(count(&text, "body"), robot.links().len());
         assert_eq!(count(&text, "position"), robot.moving().len());
         let weighing = robot.links().iter().filter(|link| link.mass.is_some()).count();
@@ -37,14 +41,16 @@ fn a_very_deep_robot_is_written() {
         let links: String = (1..=count).map(link).collect();
         Robot::from_urdf(&format!("<robot name=\"deep\"><link name=\"l0\"/>{links}</robot>")).unwrap()
     };
-    let text = chain(8_000).to_mjcf(&Meshes::default());
+    let text = written(&chain(8_000), &mut Vec::new());
     assert_eq!((count(&text, "body"), text.matches("</body>").count()), (8_001, 8_001));
     assert!(text.len() < 8_001 * 400);
 }
 
 #[test]
 fn what_follows_is_tied_and_meshes_that_are_not_there_are_left_out() {
-    let text = Robot::from_urdf(RICH).unwrap().to_mjcf(&Meshes::default());
+    let mut notes = Vec::new();
+    let text = written(&Robot::from_urdf(RICH).unwrap(), &mut notes);
+    assert!(notes.len() == 1 && notes[0].contains("a.stl` is not found"), "{notes:?}");
     assert!(text.contains("<joint joint1=\"bc\" joint2=\"ab\" polycoef=\"0.01 0.05 0 0 0\"/>"), "{text}");
     assert_eq!(count(&text, "position"), 1);
     assert!(text.contains("forcerange=\"-30 30\"") && text.contains("armature=\"1\""));
