@@ -115,7 +115,7 @@ impl Arguments {
         if self.to == Format::Mjcf {
             let mut notes = Vec::new();
             let text = robot.to_mjcf(&meshes, &mut notes).map_err(|error| error.in_file(&self.input))?;
-            notes.iter().for_each(|note| console::line("warning", &format!("{note}; left out")));
+            notes.iter().for_each(|note| console::line("warning", note));
             return Ok(text);
         }
         let text = robot.to_urdf();

@@ -215,7 +215,9 @@ impl<'d> Node<'d> {
     fn radix_integer(&self, integer: &DeInteger<'_>) -> Result<BigRational> {
         let value = BigInt::parse_bytes(integer.as_str().as_bytes(), integer.radix());
         let short = value.filter(|_| integer.as_str().len() <= limits::DIGITS);
-        short.map(BigRational::from_integer).ok_or_else(|| self.wrong(&format!("an integer of at most {} digits", limits::DIGITS)))
+        short
+            .map(BigRational::from_integer)
+            .ok_or_else(|| self.wrong(&format!("an integer of at most {} digits", limits::DIGITS)))
     }
 
     /// The double that is nearest to [`Node::exact`].

@@ -2,11 +2,11 @@
 
 use super::bytes;
 use super::data::{Follows, Frame, Joint, Link, Robot, Shape, Solid};
+use crate::Result;
 use crate::model;
 use crate::model::Meshes;
 use crate::spatial::Pose;
 use crate::spatial::exact::normalized;
-use crate::Result;
 
 /// What is nearer is at the same place \[m\].
 const APART: f64 = 1e-6;

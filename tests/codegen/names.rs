@@ -128,13 +128,18 @@ fn a_robot_of_equations_of_motion_may_have_any_name() {
     for (place, name) in names.iter().enumerate() {
         let mut parts = Robot::from_urdf(described).unwrap().parts().clone();
         parts.name = (*name).to_owned();
-        parts.joints.iter_mut().enumerate().for_each(|(joint, own)| own.name = names[(place + joint) % names.len()].to_owned());
+        parts
+            .joints
+            .iter_mut()
+            .enumerate()
+            .for_each(|(joint, own)| own.name = names[(place + joint) % names.len()].to_owned());
         parts.actuators.clear();
         let robot = Robot::new(parts).unwrap();
         let equations = Equations::as_told(&robot, Base::Fixed).unwrap().without_friction();
         let functions = vec![dynamics::Function::Inverse];
         let form = dynamics::Form::Straight;
-        let printed = dynamics::Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
+        let printed =
+            dynamics::Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
         let folder = tempfile::tempdir().unwrap();
         let write = |file: &str, text: &str| fs::write(folder.path().join(file), text).unwrap();
         let [header, source] = printed.c99("motion").unwrap();
