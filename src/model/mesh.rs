@@ -22,6 +22,23 @@ pub struct Surface {
     pub triangles: Vec<[u32; 3]>,
 }
 
+impl Surface {
+    /// Whether all points are on a plane, up to a share `within` of how far they are apart.
+    pub(super) fn is_flat(&self, within: f64) -> bool {
+        let Some(a) = self.points.first() else { return true };
+        let farthest = |distance: &dyn Fn(&Point3<f64>) -> f64| {
+            let point = self.points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or(a);
+            (*point, distance(point))
+        };
+        let (b, size) = farthest(&|p| (p - a).norm());
+        let (c, _) = farthest(&|p| (p - a).cross(&(b - a)).norm());
+        let normal = (b - a).cross(&(c - a));
+        let (_, off) = farthest(&|p| (p - a).dot(&normal).abs());
+        let bound = within * size * normal.norm();
+        off <= bound || !(off - bound).is_finite()
+    }
+}
+
 /// The folders in which the files of meshes are looked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Meshes {
@@ -89,6 +106,11 @@ impl Meshes {
             })
             .ok()
     }
+}
+
+/// Whether a mesh in STL is a text.
+pub(super) fn is_text(file: &Path) -> bool {
+    read_bytes(file, MESH_LIMIT).is_ok_and(|bytes| stl::is_text(&bytes))
 }
 
 fn read_stl(file: &Path, scale: [f64; 3]) -> Result<Surface> {

@@ -8,6 +8,7 @@ use std::path::Path;
 use nalgebra::Matrix3;
 
 use super::attributes::{escaped, floats};
+use super::mesh::is_text;
 use super::{Joint, JointType, Link, Meshes, Robot, Shape, Solid, finite};
 use crate::Result;
 use crate::document::shown;
@@ -19,13 +20,17 @@ const MOST_STEMS: usize = 60;
 const LEAST_SIZE: f64 = 1e-6;
 /// The least range of a joint, as a share of its size or of one \[rad or m\]: MuJoCo takes none of equal ends.
 const LEAST_RANGE: f64 = 1e-9;
+/// How thick a mesh is at least, as a share of its length: MuJoCo takes the hull of its points.
+const LEAST_THICKNESS: f64 = 1e-6;
+/// The most triangles of a binary file in STL that MuJoCo reads; it reads no text.
+const MOST_TRIANGLES: usize = 200_000;
 /// By this share of its trace an inertia is raised that is singular to rounding.
 const RAISED: f64 = 1e-12;
 
 impl Robot {
-    /// The robot as MJCF, with the files of its meshes. Meshes that `meshes` does not find, that are damaged, or in other formats than STL and OBJ are left
-    /// out, and `notes` says so of each. Masses that no body has are made possible by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot
-    /// was understood.
+    /// The robot as MJCF, with its meshes: the names of their files, or the triangles of texts, which MuJoCo does not read. Meshes that `meshes` does not
+    /// find, that are damaged or flat, or in other formats than STL and OBJ are left out; `notes` says so of each. Masses that no body has are made
+    /// possible here, with a note, and by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot was understood.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number that no double holds.
@@ -141,20 +146,38 @@ impl Writer<'_> {
             Solid::Cylinder { radius, length } => sizes("cylinder", &[*radius, length / 2.0]),
             Solid::Capsule { radius, length } => sizes("capsule", &[*radius, length / 2.0]),
             Solid::Sphere { radius } => sizes("sphere", &[*radius]),
-            Solid::Mesh { path, scale: [x, y, z] } => {
-                let file = self.meshes.find(path).filter(|file| is_obj(file));
-                let file = match file {
-                    Some(file) => file,
-                    None => self.meshes.triangles_or_note(&shape.solid, self.notes).and(self.meshes.find(path))?,
-                };
+            Solid::Mesh { path, scale } => {
+                let asset = self.asset(&shape.solid, path, scale)?;
                 let name = format!("mesh{}", self.assets.len());
-                let file = escaped(&file.to_string_lossy());
-                self.assets.push(format!("<mesh name=\"{name}\" file=\"{file}\" scale=\"{x} {y} {z}\"/>"));
+                self.assets.push(format!("<mesh name=\"{name}\" inertia=\"shell\" {asset}/>"));
                 format!("type=\"mesh\" mesh=\"{name}\"")
             }
         };
         let colour = shape.colour.map(|[r, g, b, a]| format!(" rgba=\"{r} {g} {b} {a}\"")).unwrap_or_default();
         Some(solid + &colour)
+    }
+
+    /// The mesh as attributes: its file, or its triangles where MuJoCo does not read the file; none, with a note, where it takes no such mesh.
+    fn asset(&mut self, solid: &Solid, path: &str, scale: &[f64; 3]) -> Option<String> {
+        let of_file = |file: &Path| {
+            let file = escaped(&file.to_string_lossy());
+            format!("file=\"{file}\" scale=\"{}\"", floats(scale))
+        };
+        if let Some(file) = self.meshes.find(path).filter(|file| is_obj(file)) {
+            return Some(of_file(&file));
+        }
+        let surface = self.meshes.triangles_or_note(solid, self.notes)?;
+        if surface.is_flat(LEAST_THICKNESS) {
+            self.notes.push(format!("the mesh `{}` is flat; MuJoCo takes no such mesh", shown(path)));
+            return None;
+        }
+        let file = self.meshes.find(path)?;
+        if surface.triangles.len() <= MOST_TRIANGLES && !is_text(&file) {
+            return Some(of_file(&file));
+        }
+        let points: Vec<f64> = surface.points.iter().flat_map(|point| point.coords.iter().copied()).collect();
+        let corners: Vec<String> = surface.triangles.iter().flatten().map(u32::to_string).collect();
+        Some(format!("vertex=\"{}\" face=\"{}\"", floats(&points), corners.join(" ")))
     }
 }
 
@@ -213,11 +236,10 @@ fn raised(tensor: &Matrix3<f64>) -> Matrix3<f64> {
     // Gershgorin's circles: no principal moment is further below zero.
     let below = (0..3).map(|row| without(row) - tensor[(row, row)]).fold(0.0, f64::max);
     let slight = RAISED * tensor.trace();
-    match () {
-        () if below == 0.0 || tensor.cholesky().is_some() => *tensor,
-        () if by(slight).cholesky().is_some() => by(slight),
-        () => by(below),
+    if below == 0.0 || tensor.cholesky().is_some() {
+        return *tensor;
     }
+    if by(slight).cholesky().is_some() { by(slight) } else { by(below) }
 }
 
 /// A name that none is: `wanted`, or with `_` behind it.

@@ -17,9 +17,13 @@ const SOLID: &[u8] = b"solid";
 /// # Errors
 /// [`ErrorKind::Syntax`] for what is no STL, with the line of a text; a binary file has the length that its head says.
 pub fn corners(bytes: Vec<u8>) -> Result<Vec<[[f32; 3]; 3]>> {
-    let is_text = begins_solid(bytes.trim_ascii_start()) && expected_length(&bytes) != Some(bytes.len());
-    let triangles = if is_text { text(&bytes)? } else { binary(bytes)? };
+    let triangles = if is_text(&bytes) { text(&bytes)? } else { binary(bytes)? };
     Ok(triangles.into_iter().map(|triangle| triangle.vertices.map(|corner| corner.0)).collect())
+}
+
+/// Whether a file is a text; a binary file, which has the length that its head says, may begin like one.
+pub fn is_text(bytes: &[u8]) -> bool {
+    begins_solid(bytes.trim_ascii_start()) && expected_length(bytes) != Some(bytes.len())
 }
 
 fn wrong(text: &str) -> Error {

@@ -18,7 +18,7 @@ fn ascii() -> String {
     format!("solid t\n{}endsolid t\n", FACES.iter().map(facet).collect::<String>())
 }
 
-fn binary() -> Vec<u8> {
+pub fn binary() -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes.extend(4u32.to_le_bytes());
     for face in FACES {

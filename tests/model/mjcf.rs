@@ -161,13 +161,15 @@ fn mujoco_sees_the_same_robot() {
     }
 }
 
-/// What URDF allows and MuJoCo does not: its own names, equal limits, solids without size, moments below zero, and a damaged mesh.
+/// What URDF allows and MuJoCo does not: its own names, equal limits, solids without size, moments below zero; meshes in text, flat and damaged ones.
 const HARD: &str = r#"<robot name="a &amp; b">
   <link name="world"/>
   <link name="arm"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="-0.5" ixy="0" ixz="0" iyz="0.2"/></inertial>
     <collision><geometry><sphere radius="0"/></geometry></collision>
     <collision><geometry><box size="1 0 1"/></geometry></collision>
     <visual><geometry><mesh filename="good.stl"/></geometry></visual>
+    <visual><geometry><mesh filename="flat.stl"/></geometry></visual>
+    <collision><geometry><mesh filename="BINARY.STL" scale="-1 1 0.001"/></geometry></collision>
     <visual><geometry><mesh filename="bad.stl"/></geometry></visual></link>
   <link name="rod &lt;1&gt;"><inertial><origin rpy="0.3 0.2 0.1"/><mass value="1"/><inertia ixx="0" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="root" type="revolute"><parent link="world"/><child link="arm"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/>
@@ -189,13 +191,15 @@ fn what_mujoco_does_not_take_is_written_in_another_way() {
     let facets = solid(["0 0 0", "1 0 0", "0 1 0", "0 0 1"]);
     fs::write(folder.path().join("good.stl"), format!("solid t\n{facets}endsolid t\n")).unwrap();
     fs::write(folder.path().join("bad.stl"), format!("solid t\n{facets}")).unwrap();
+    let flat = solid(["0 0 1", "1 0 1", "0 1 1", "1 1 1"]);
+    fs::write(folder.path().join("flat.stl"), format!("solid t\n{flat}endsolid t\n")).unwrap();
+    fs::write(folder.path().join("BINARY.STL"), super::mesh::binary()).unwrap();
     let (robot, mut notes) = (Robot::from_urdf(HARD).unwrap(), Vec::new());
     let text = robot.to_mjcf(&Meshes::beside(&folder.path().join("robot.urdf")), &mut notes).unwrap();
-    assert!(
-        notes.len() == 2 && notes[0].contains("moments of inertia") && notes[1].contains("bad.stl: line 29"),
-        "{notes:?}"
-    );
-    assert!(text.contains("good.stl") && !text.contains("bad.stl"));
+    let words = ["moments of inertia", "`flat.stl` is flat", "bad.stl: line 29"];
+    assert!(notes.len() == 3 && notes.iter().zip(words).all(|(note, words)| note.contains(words)), "{notes:?}");
+    assert!(text.contains("face=\"0 1 2 0 2 3 ") && text.contains("BINARY.STL\" scale=\"-1 1 0.001\""), "{text}");
+    assert!(!text.contains("good.stl") && !text.contains("bad.stl"));
     fs::write(folder.path().join("robot.xml"), text).unwrap();
     let Some(told) = mujoco(folder.path(), &poses(&robot)) else { return };
     compare(&robot, &told, |name| if name == "world" { "world_".to_owned() } else { name.to_owned() });
