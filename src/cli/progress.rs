@@ -153,6 +153,21 @@ pub fn interrupted() -> Result<Arc<AtomicBool>> {
     .clone()
 }
 
+/// Fails where Ctrl-C was pressed before the first result is written or printed; what was begun is completed.
+///
+/// # Errors
+/// [`ErrorKind::Cancelled`].
+pub fn begin_output() -> Result<()> {
+    static BEGUN: AtomicBool = AtomicBool::new(false);
+    if !BEGUN.load(Ordering::Relaxed) {
+        if interrupted().is_ok_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Err(Error::new(ErrorKind::Cancelled, "interrupted"));
+        }
+        BEGUN.store(true, Ordering::Relaxed);
+    }
+    Ok(())
+}
+
 /// The bytes that this process has in memory, kept up to date as long as `alive` is; `None` where the system does not tell.
 fn meter(alive: &Arc<()>) -> Option<Arc<AtomicUsize>> {
     let meter = Arc::new(AtomicUsize::new(resident_bytes()?));

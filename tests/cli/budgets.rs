@@ -43,7 +43,7 @@ fn control_c_ends_every_command() {
         &["fk", text(&leg)],
         &["check", text(&ur5)],
         &["explain", text(&root("derivations/ur5/0_chain.toml")), "-o", out],
-        &["reach", text(&ur5), "--orientations", "100000", "-o", out],
+        &["reach", text(&ur5), "--orientations", "100000", "-o", &format!("{out}.json")],
         &["walk", "teo", "--steps", "200", "-o", out],
     ] {
         let mut child = super::groebot(arguments).spawn().unwrap();
