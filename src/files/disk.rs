@@ -7,7 +7,8 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use super::temporary::ENDS;
+/// How the name of a temporary file begins and ends.
+pub(super) const ENDS: [&str; 2] = [".groebot-", ".tmp"];
 
 /// The calls by which files are replaced. Each does what the operating system does; a test overrides them one by one to make them fail.
 pub trait Disk: Debug {

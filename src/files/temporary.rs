@@ -7,10 +7,7 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use super::disk::Disk;
-
-/// How the name of a temporary file begins and ends.
-pub(super) const ENDS: [&str; 2] = [".groebot-", ".tmp"];
+use super::disk::{Disk, ENDS};
 
 /// A new temporary file in `folder` as [`Disk::create`] makes it, locked until it is closed; on a file system without locks it is not.
 pub(super) fn create(disk: &dyn Disk, folder: &Path, like: &Path) -> io::Result<NamedTempFile> {

@@ -35,7 +35,7 @@ impl Robot {
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number that no double holds.
     pub fn to_mjcf(&self, meshes: &Meshes, notes: &mut Vec<String>) -> Result<String> {
-        finite::check_robot(self)?;
+        self.check_doubles()?;
         let root = unlike("root", |name| self.joints().iter().any(|joint| joint.name == name));
         let world = unlike("world_", |name| self.links().iter().any(|link| link.name == name));
         let mut writer = Writer { robot: self, meshes, assets: Vec::new(), notes, root, world };
@@ -52,6 +52,17 @@ impl Robot {
             equations = self.equations(),
             servos = self.servos(),
         ))
+    }
+
+    /// Fails for a number that no double holds, and for one that follows from such.
+    fn check_doubles(&self) -> Result<()> {
+        for link in self.links() {
+            finite::check_link(link).and_then(|()| finite::check_inertia(link))?;
+        }
+        for joint in self.joints() {
+            finite::check_joint(joint).and_then(|()| finite::check_law(joint, &self.law(joint)))?;
+        }
+        Ok(())
     }
 
     /// The joints that lead themselves.
