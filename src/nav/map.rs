@@ -280,7 +280,7 @@ fn count_of(columns: usize, rows: usize, resolution: f64) -> Result<usize> {
     let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
     let [least, greatest] = CELL_METRES;
     if !(least..=greatest).contains(&resolution) {
-        return bad(format!("a resolution of {resolution:e} m: give the side of a cell, {least:e} to {greatest:e} m"));
+        return bad(format!("a resolution of {resolution:?} m: give the side of a cell, {least:e} to {greatest:e} m"));
     }
     match columns.checked_mul(rows).filter(|count| (1..=MOST).contains(count)) {
         Some(count) => Ok(count),
