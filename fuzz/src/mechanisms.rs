@@ -84,7 +84,7 @@ fn write(robot: &Robot) {
     let again = Robot::from_urdf(&written).and_then(|again| again.check().map(|()| again));
     let again = again.unwrap_or_else(|error| panic!("{error}\n{written}"));
     assert_eq!(text(&again), written);
-    let _ = robot.to_mjcf(&Meshes::default());
+    let _ = robot.to_mjcf(&Meshes::default(), &mut Vec::new());
 }
 
 /// A file of any kind, and the equations that it amounts to.

@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use groebot::derive::{Ends, Proved, Source};
+use groebot::derive::{Ends, Proved, Recount, Source};
+use groebot::document::read_text;
+use groebot::folder::prove_text;
+use groebot::limits::DESCRIPTION_BYTES;
 use groebot::{Error, ErrorKind, Result, Watch, witness};
 
 /// The name of the stored proof in a derivation's folder.
@@ -34,8 +37,7 @@ impl Origin {
         let folder = source.path.parent().unwrap_or(Path::new(""));
         for name in source.beside() {
             let path = folder.join(name);
-            let text = std::fs::read_to_string(&path).map_err(|error| Error::io(&path, &error))?;
-            origin.files.insert(name.to_owned(), text);
+            origin.files.insert(name.to_owned(), read_text(&path, DESCRIPTION_BYTES)?);
         }
         Ok(origin)
     }
@@ -81,15 +83,15 @@ pub struct Checked {
     pub table: String,
 }
 
-/// Proves a derivation again from its certificate, without the engine, and solves targets of all kinds against the witnesses.
+/// Proves a derivation again from its certificate as `groebot check` does, without the engine, and solves targets of all kinds against the witnesses.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] for a proof that does not hold, and an answer that is wrong or missing at an ordinary target.
+/// [`ErrorKind::Certificate`] for a proof that does not hold or claims less than the derivation of its input, and an answer that is wrong or missing at an ordinary target.
 pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Checked> {
     let missing = || Error::new(ErrorKind::Certificate, "the derivation has no certificate; derive it again");
     let stages = proved.stage_files()?;
     let certificate = stages.iter().find(|(name, _)| name == CERTIFICATE).ok_or_else(missing)?;
-    let again = Proved::again(source, &String::from_utf8_lossy(&certificate.1))?.about(source);
+    let again = prove_text(source, &String::from_utf8_lossy(&certificate.1), &mut Recount::new(watch))?;
     if again.program() != proved.program() {
         return Err(Error::new(ErrorKind::Certificate, "the solver is not the one that its certificate proves"));
     }

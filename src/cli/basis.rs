@@ -1,7 +1,6 @@
 //! `groebot basis`: the Groebner engine alone, on a system of polynomials in a file.
 
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -12,11 +11,10 @@ use super::console;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
 use super::{Outcome, basis_cover};
+use crate::document::read_bytes;
 use crate::poly::Order;
 use crate::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
 use crate::{Error, ErrorKind, Result};
-
-const STDIN: &str = "<stdin>";
 
 const EXAMPLES: &str = "Examples:
   groebot basis cyclic5.txt                                  the reduced basis, in the order of the file
@@ -94,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.cover {
         return tell_cover(arguments, &output, &session, start);
     }
-    let question = arguments.question().map_err(|error| error.in_file(shown(&arguments.file)))?;
+    let question = arguments.question().map_err(|error| error.in_file(&arguments.file))?;
     let answer = question.answer(&session.watch).map_err(|error| in_file(error, &arguments.file))?;
     let text = answer.text.clone();
     let basis = match question.format {
@@ -147,7 +145,7 @@ fn tell_cover(arguments: &Arguments, output: &Output, session: &Session, start: 
 impl Arguments {
     /// The system in the file, over the field that was asked for, and the format of the file.
     fn system(&self) -> Result<(PolynomialSystem, Format)> {
-        let bytes = read_bytes(&self.file)?;
+        let bytes = read_bytes(&self.file, MAX_SYSTEM_LENGTH as u64)?;
         let given = self.format.0.unwrap_or_else(|| PolynomialSystem::format_of(&String::from_utf8_lossy(&bytes)));
         let mut system = PolynomialSystem::read_bytes(&bytes, Some(given))?;
         if let Some(p) = self.characteristic {
@@ -181,26 +179,9 @@ impl Arguments {
     }
 }
 
-/// At most one byte more than the longest system.
-fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    let limit = MAX_SYSTEM_LENGTH as u64 + 1;
-    let mut bytes = Vec::new();
-    let read = if path == Path::new("-") {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)
-    } else {
-        File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
-    };
-    read.map_err(|error| Error::io(shown(path), &error))?;
-    Ok(bytes)
-}
-
-fn shown(path: &Path) -> &Path {
-    if path == Path::new("-") { Path::new(STDIN) } else { path }
-}
-
 fn in_file(error: Error, path: &Path) -> Error {
     match error.kind() {
         ErrorKind::Cancelled => error,
-        _ => error.in_file(shown(path)),
+        _ => error.in_file(path),
     }
 }

@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
+use super::progress::begin_output;
 use super::{Halt, Outcome};
 use crate::{Error, escape};
 
@@ -59,6 +60,7 @@ const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
 /// Writes `text` to standard output.
 pub fn print(text: &str) -> Outcome {
+    begin_output()?;
     let mut out = io::stdout().lock();
     let text = Paint::of(&out).safe(text);
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))

@@ -19,7 +19,7 @@ const EXAMPLES: &str = "Examples:
   groebot export robot.toml --to urdf -o robot.urdf
 
 Robots of groebot: nao_v5, rh0, teo. A walk, an arm's path or a recording becomes an animated scene: a node a link, y up, metres. VRML is read as RH0 Fig. 5-4 shows it, and no more of it.
-In MJCF the root moves freely over a floor, every joint has a position servo, and nothing but the floor is touched; meshes are named by their files.";
+In MJCF the root moves freely over a floor, every joint has a position servo, and nothing but the floor is touched; meshes are named by their files, or written where these are texts, which MuJoCo does not read.";
 
 /// A format of robots or scenes.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -113,7 +113,10 @@ impl Arguments {
         robot.check().map_err(|error| error.in_file(&self.input))?;
         tell_left_out(&robot);
         if self.to == Format::Mjcf {
-            return Ok(robot.to_mjcf(&meshes));
+            let mut notes = Vec::new();
+            let text = robot.to_mjcf(&meshes, &mut notes).map_err(|error| error.in_file(&self.input))?;
+            notes.iter().for_each(|note| console::line("warning", note));
+            return Ok(text);
         }
         let text = robot.to_urdf();
         let again = Robot::from_urdf(&text).and_then(|again| again.check());

@@ -1,6 +1,5 @@
 //! `groebot follow`: joint values along poses, by the branch of the solutions that stays continuous.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
@@ -11,7 +10,7 @@ use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
 use crate::derive::{Description, InputFile, Proved};
-use crate::document::is_stdin;
+use crate::document::{is_stdin, open};
 use crate::dynamics::{Clearance, Model};
 use crate::kinematics::{Chain, LengthUnit};
 use crate::limits;
@@ -123,8 +122,7 @@ fn read_poses(file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>
     if is_stdin(file) {
         return read_from(std::io::stdin().lock(), file, chain).map_err(|error| error.in_file(file));
     }
-    let opened = File::open(file).map_err(|error| Error::io(file, &error))?;
-    read_from(BufReader::new(opened), file, chain).map_err(|error| error.in_file(file))
+    read_from(BufReader::new(open(file)?), file, chain).map_err(|error| error.in_file(file))
 }
 
 /// The columns of poses, with times and without.

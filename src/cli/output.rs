@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::moving::ends;
+use super::progress::begin_output;
 use super::{Halt, Outcome};
 use crate::derive::stages::STAGES;
 use crate::document::is_stdin;
@@ -80,6 +81,7 @@ impl Output {
 
     /// Writes a file whole, in the place of none or of one of groebot's own, or into what is no regular file.
     pub fn write(&self, path: &Path, kind: Kind, content: impl AsRef<[u8]>) -> Outcome {
+        begin_output()?;
         let content = kind.marked(content.as_ref());
         if self.target(path)? == Target::Stream {
             return write_into(path, &content).map_err(|error| match error.kind() {

@@ -24,7 +24,7 @@ const NO_MUJOCO: i32 = 7;
 /// How often the script is looked at.
 const PAUSE: Duration = Duration::from_millis(10);
 /// What is read of what the script tells, in bytes.
-const TOLD_LIMIT: u64 = 1_000_000;
+const TOLD_LIMIT: u64 = crate::limits::DESCRIPTION_BYTES;
 
 /// What the world and the motors are in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -10,8 +10,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::files::stop_writers;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The longest time budget: about thirty years.
-const MAX_SECONDS: f64 = 1e9;
+/// The longest time budget.
+const MAX_SECONDS: f64 = crate::limits::BUDGET_SECONDS;
 
 /// How much may be spent, and whether to show it.
 #[derive(Clone, Copy, Default)]
@@ -151,6 +151,21 @@ pub fn interrupted() -> Result<Arc<AtomicBool>> {
         Ok(flag)
     })
     .clone()
+}
+
+/// Fails where Ctrl-C was pressed before the first result is written or printed; what was begun is completed.
+///
+/// # Errors
+/// [`ErrorKind::Cancelled`].
+pub fn begin_output() -> Result<()> {
+    static BEGUN: AtomicBool = AtomicBool::new(false);
+    if !BEGUN.load(Ordering::Relaxed) {
+        if interrupted().is_ok_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Err(Error::new(ErrorKind::Cancelled, "interrupted"));
+        }
+        BEGUN.store(true, Ordering::Relaxed);
+    }
+    Ok(())
 }
 
 /// The bytes that this process has in memory, kept up to date as long as `alive` is; `None` where the system does not tell.

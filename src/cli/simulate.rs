@@ -102,19 +102,20 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let (plan, robot, meshes) = arguments.read()?;
-    let notes = &robot.parts().notes;
+    let mut notes = robot.parts().notes.clone();
+    let model = robot.to_mjcf(&meshes, &mut notes)?;
     if !arguments.json {
-        console::tell(notes);
+        console::tell(&notes);
     }
     let nominal = arguments.case()?;
     let feet = [&arguments.left[..], &arguments.right];
     let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right name the soles"))?;
-    let stage = Stage::new(&robot.to_mjcf(&meshes), &plan, feet, arguments.servo.as_deref())?;
+    let stage = Stage::new(&model, &plan, feet, arguments.servo.as_deref())?;
     let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
     if arguments.vary {
         let runs = varied(&stage, &plan, &nominal, &session.watch)?;
         drop(session);
-        return tell_all(&runs, notes, arguments.json);
+        return tell_all(&runs, &notes, arguments.json);
     }
     let (answer, told) = stage.play(&nominal, &session.watch)?;
     drop(session);

@@ -29,8 +29,11 @@ pub fn is_run_time(stem: &str) -> bool {
     RUN_TIME_FILES.iter().any(|own| stem.eq_ignore_ascii_case(own))
 }
 
-/// A program's or robot's name as what the names of its functions begin with: a word that no language and not the run time has.
+/// A program's or robot's name as what the names of its functions and, in capitals, of its constants begin with: a word that no language and not the run
+/// time has, nor with which their names begin.
 pub(super) fn prefix(name: &str) -> String {
     let name = word(name);
-    if is_reserved(&name) || is_run_time(&name) { format!("robot_{name}") } else { name }
+    let begun = format!("{name}_");
+    let is_taken = [&name, &begun, &begun.to_ascii_uppercase()].into_iter().any(|word| is_reserved(word));
+    if is_taken || is_run_time(&name) { format!("robot_{name}") } else { name }
 }

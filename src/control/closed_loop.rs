@@ -70,6 +70,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
         // A quotient beyond the integers is the greatest one.
         let steps = (duration / self.step).round() as usize;
         check_count("steps of the law", steps, CONTROL_STEPS)?;
+        check_count("steps of delay", self.disturbance.delay, CONTROL_STEPS)?;
         let mut samples: Vec<Sample> = Vec::with_capacity(steps + 1);
         let mut noise = Noise(self.disturbance.seed);
         for number in 0..=steps {

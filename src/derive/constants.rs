@@ -11,9 +11,9 @@ use crate::poly::{Expression, is_identifier, parse, rational_root};
 use crate::{Error, ErrorKind, Result};
 
 /// The most bits that a rational constant may take.
-const MAX_BITS: f64 = 10_000.0;
+const MAX_BITS: f64 = crate::limits::CONSTANT_BITS as f64;
 /// The most parts that a constant with square roots may have, and an equation after its constants are put in.
-const MAX_PARTS: (usize, usize) = (1_000, 400_000);
+const MAX_PARTS: (usize, usize) = (crate::limits::CONSTANT_PARTS, crate::limits::EQUATION_PARTS);
 
 /// What the constants that are read so far stand for.
 #[derive(Default)]

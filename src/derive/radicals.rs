@@ -9,10 +9,10 @@ use crate::poly::{Expression, rational_root};
 use crate::{Error, ErrorKind, Result};
 
 /// The most square roots of rational numbers in one system.
-pub(super) const MAX_ROOTS: usize = 8;
+pub(super) const MAX_ROOTS: usize = crate::limits::SYSTEM_ROOTS;
 
 /// The longest square of a root, numerator and denominator together.
-const MAX_BITS: u64 = 10_000;
+const MAX_BITS: u64 = crate::limits::CONSTANT_BITS;
 
 /// Checks the last of `parameters` against those before it.
 ///

@@ -31,7 +31,7 @@ pub(crate) use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub(crate) use json::JsonFormat;
 pub use text::{is_stdin, read_text, read_xml, unix_lines};
-pub(crate) use text::{read_bytes, text_of};
+pub(crate) use text::{open, read_bytes, text_of};
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = limits::DESCRIPTION_BYTES;
@@ -214,8 +214,10 @@ impl<'d> Node<'d> {
 
     fn radix_integer(&self, integer: &DeInteger<'_>) -> Result<BigRational> {
         let value = BigInt::parse_bytes(integer.as_str().as_bytes(), integer.radix());
-        let short = value.filter(|_| integer.as_str().len() <= 4096);
-        short.map(BigRational::from_integer).ok_or_else(|| self.wrong("an integer of at most 4096 digits"))
+        let short = value.filter(|_| integer.as_str().len() <= limits::DIGITS);
+        short
+            .map(BigRational::from_integer)
+            .ok_or_else(|| self.wrong(&format!("an integer of at most {} digits", limits::DIGITS)))
     }
 
     /// The double that is nearest to [`Node::exact`].

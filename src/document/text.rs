@@ -51,17 +51,27 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
             );
         }
     } else {
-        refuse_unfinished(path)?;
-        let file = File::open(path).map_err(io)?;
-        if file.metadata().map_err(io)?.is_dir() {
-            return fail(ErrorKind::Io, "this is a directory; give a text file".into());
-        }
+        let file = open(path)?;
         file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(io)?;
     }
     if bytes.len() as u64 > limit {
         return fail(ErrorKind::BadValue, format!("the file is too long; at most {limit} bytes are read"));
     }
     Ok(bytes)
+}
+
+/// Opens a file for reading: what every reader of files begins with.
+///
+/// # Errors
+/// [`ErrorKind::Io`] for a missing file, a directory, and a file of a set whose writing was interrupted. All name the file.
+pub(crate) fn open(path: &Path) -> Result<File> {
+    refuse_unfinished(path)?;
+    let io = |error: std::io::Error| Error::io(path, &error);
+    let file = File::open(path).map_err(io)?;
+    if file.metadata().map_err(io)?.is_dir() {
+        return Err(Error::new(ErrorKind::Io, "this is a directory; give a file").in_file(path));
+    }
+    Ok(file)
 }
 
 /// `bytes` as UTF-8 text that is not empty.

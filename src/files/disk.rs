@@ -7,6 +7,9 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+/// How the name of a temporary file begins and ends.
+pub(super) const ENDS: [&str; 2] = [".groebot-", ".tmp"];
+
 /// The calls by which files are replaced. Each does what the operating system does; a test overrides them one by one to make them fail.
 pub trait Disk: Debug {
     /// A new temporary file in `folder` with the permissions that the file `like` has, or that any new file gets.
@@ -15,7 +18,7 @@ pub trait Disk: Debug {
     /// Those of the operating system; so do all calls below.
     fn create(&self, folder: &Path, like: &Path) -> io::Result<NamedTempFile> {
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".groebot-").suffix(".tmp");
+        builder.prefix(ENDS[0]).suffix(ENDS[1]);
         #[cfg(unix)]
         builder.permissions(permissions_of(like));
         #[cfg(not(unix))]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::disk::Disk;
+use super::temporary::remove_left_over;
 use super::{parent, write_beside};
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -23,14 +24,18 @@ pub(super) struct FolderLock {
 }
 
 impl FolderLock {
-    /// Waits for the folder; `None` when it was removed or replaced meanwhile.
+    /// Waits for the folder, and removes what killed writers left in it; `None` when it was removed or replaced meanwhile.
     pub(super) fn take(folder: &Path, watch: &Watch) -> Result<Option<Self>> {
         let Ok(file) = open(folder) else { return Ok(None) };
         while let Err(TryLockError::WouldBlock) = file.try_lock() {
             watch.check()?;
             std::thread::sleep(PAUSE);
         }
-        Ok(is_still(&file, folder).then_some(FolderLock { _file: file }))
+        if !is_still(&file, folder) {
+            return Ok(None);
+        }
+        remove_left_over(folder);
+        Ok(Some(FolderLock { _file: file }))
     }
 }
 

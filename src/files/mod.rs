@@ -5,6 +5,7 @@ mod disk;
 mod lock;
 mod own;
 mod staged;
+mod temporary;
 
 use std::path::Path;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
@@ -68,7 +69,7 @@ pub fn write_folder_atomically(folder: &Path, files: &[(String, Vec<u8>)], watch
 /// A temporary file in the folder of `path` that holds `bytes`, on the disk.
 fn write_beside(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<NamedTempFile> {
     let write = || {
-        let mut file = disk.create(parent(path), path)?;
+        let mut file = temporary::create(disk, parent(path), path)?;
         disk.write(file.as_file_mut(), bytes)?;
         disk.sync(file.as_file())?;
         Ok(file)
@@ -77,8 +78,8 @@ fn write_beside(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<NamedTempF
 }
 
 fn rename_onto(disk: &dyn Disk, file: NamedTempFile, target: &Path) -> Result<()> {
-    // Closed before it is renamed, as some systems require.
-    let mut path = file.into_temp_path();
+    // Open, and so locked, until it has its name.
+    let (_open, mut path) = file.into_parts();
     disk.rename(&path, target).map_err(|error| Error::io(target, &error))?;
     path.disable_cleanup(true);
     Ok(())

@@ -83,8 +83,16 @@ pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<
         Error::new(ErrorKind::Io, text)
     };
     let bytes = stored.get(CERTIFICATE).ok_or_else(missing).map_err(at_file)?;
-    let proved = Proved::again(source, &String::from_utf8_lossy(bytes)).map_err(at_file)?;
-    recount.check(&proved).map_err(at_file)?;
+    prove_text(source, &String::from_utf8_lossy(bytes), recount).map_err(at_file)
+}
+
+/// The derivation that the text of a certificate proves, which claims as much as that of the input.
+///
+/// # Errors
+/// As [`Proved::again`] and [`Recount::check`].
+pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> Result<Proved> {
+    let proved = Proved::again(source, certificate)?;
+    recount.check(&proved)?;
     Ok(proved.about(source))
 }
 

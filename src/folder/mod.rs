@@ -10,7 +10,7 @@ mod stored;
 mod words;
 mod written;
 
-pub use check::{Checked, check, check_by, compare, prove};
+pub use check::{Checked, check, check_by, compare, prove, prove_text};
 pub use finding::{Finding, Verdict};
 pub use names::{CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, is_printed_solver, is_written_name};
 pub use stored::Stored;

@@ -10,7 +10,7 @@ use crate::document::read_bytes;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest file that is read, in bytes.
-const LIMIT: u64 = 256_000_000;
+const LIMIT: u64 = crate::limits::STAGE_BYTES;
 
 /// The entries of a folder: the files that a check looks into with their content, the others by name.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use crate::{Error, ErrorKind, Result};
 /// The most steps of a route.
 pub const MAX_STEPS: usize = limits::FOOTSTEPS;
 /// The farthest coordinate of a footprint \[m\].
-const MAX_COORDINATE: f64 = 1e4;
+const MAX_COORDINATE: f64 = limits::FOOTPRINT_METRES;
 
 /// A foot's side; as a number, its place in pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

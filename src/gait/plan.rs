@@ -21,8 +21,8 @@ pub const TICK: f64 = 0.01;
 const SLOWER: f64 = 1.15;
 /// No phase lasts longer than this many times what was asked for, unless another figure is given.
 pub(super) const SLOWEST: f64 = 12.0;
-/// The most samples of a walk: half an hour at 100 Hz.
-const MOST_SAMPLES: usize = 180_000;
+/// The most samples of a walk.
+const MOST_SAMPLES: usize = crate::limits::WALK_SAMPLES;
 
 /// A checked walk.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,9 +69,11 @@ pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Ac
         let schedule = Schedule::new(request.route.clone(), actions, &request.durations, &slowed, request.tick);
         if schedule.samples() > MOST_SAMPLES {
             let text = format!(
-                "the walk would last {:.0} s, {:.0} s are the most; walk fewer steps (--steps, --goal) or faster (--period)",
+                "the walk would last {:.0} s, which are {} samples, one each {:e} s, and {MOST_SAMPLES} are the most; walk fewer steps (--steps, --goal), \
+                 faster (--period), or with a longer --tick",
                 schedule.samples() as f64 * request.tick,
-                MOST_SAMPLES as f64 * request.tick
+                schedule.samples(),
+                request.tick
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }

@@ -3,7 +3,7 @@
 use super::footprint::{Footprint, Route, Side};
 
 /// The most samples of a phase.
-const MOST_SAMPLES: usize = 1 << 30;
+const MOST_SAMPLES: usize = crate::limits::PHASE_SAMPLES;
 
 /// What happens in a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

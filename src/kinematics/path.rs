@@ -15,7 +15,7 @@ use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest path, fixed joints included.
-const MAX_PATH: usize = 64;
+const MAX_PATH: usize = crate::limits::PATH_JOINTS;
 /// The most characters of a chain's name.
 const MAX_NAME: usize = 64;
 

@@ -16,7 +16,7 @@ use crate::{Error, ErrorKind};
 const MAX_JOINTS: usize = limits::CHAIN_JOINTS;
 const MAX_NAME: usize = limits::NAME_CHARACTERS;
 const MAX_TEXT: usize = limits::TEXT_CHARACTERS;
-const MAX_SYMBOL: usize = 16;
+const MAX_SYMBOL: usize = limits::SYMBOL_CHARACTERS;
 
 /// The part of a chain that a fault is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,9 +123,9 @@ fn check_joint(index: usize, joint: &Joint) -> Checked {
     }
 }
 
-/// Whether all coordinates are at most 10^12, so that doubles hold every sum of them.
+/// Whether doubles hold every sum of the coordinates.
 fn is_near(point: &ExactVector) -> bool {
-    let bound = BigRational::from_integer(BigInt::from(1_000_000_000_000_u64));
+    let bound = BigRational::from_integer(BigInt::from(limits::COORDINATE));
     point.iter().all(|x| x.abs() <= bound)
 }
 

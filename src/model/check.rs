@@ -11,7 +11,7 @@ use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
 
 /// How many joints may follow in turn.
-const MAX_FOLLOWERS: usize = 100;
+const MAX_FOLLOWERS: usize = limits::FOLLOWERS;
 /// How many names a message lists.
 const LISTED: usize = 12;
 

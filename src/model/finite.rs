@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::{Joint, Link, Mass, Origin, Shape, Solid};
+use super::{Joint, Link, Mass, Mimic, Origin, Shape, Solid};
 use crate::document::shown;
 use crate::number::BigRational;
 use crate::{Error, ErrorKind, Result};
@@ -34,6 +34,25 @@ pub fn check_joint(joint: &Joint) -> Result<()> {
         ("effort, velocity or dynamics", motor.collect()),
     ];
     check(numbers).map_err(|what| fault("joint", &joint.name, what, joint.line))
+}
+
+/// Fails for a link of which doubles do not hold the inertia in its own frame.
+///
+/// # Errors
+/// As [`check_link`].
+pub fn check_inertia(link: &Link) -> Result<()> {
+    let inertia = link.inertia();
+    let numbers = inertia.rotational().iter().chain(inertia.centre_of_mass().iter()).copied().collect();
+    check([("inertia", numbers)]).map_err(|what| fault("link", &link.name, what, link.line))
+}
+
+/// Fails for a joint of which doubles do not hold the law by which it follows one that leads itself.
+///
+/// # Errors
+/// As [`check_link`].
+pub fn check_law(joint: &Joint, law: &Mimic) -> Result<()> {
+    let found = check([("law by its leaders", law.law().to_vec())]);
+    found.map_err(|what| fault("joint", &joint.name, what, joint.line))
 }
 
 /// What has a number that is not finite.

@@ -1,12 +1,12 @@
 //! Files of triangles that shapes name: where they are, and their points. Main type: [`Meshes`].
 
-use std::io::Cursor;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use nalgebra::Point3;
 
-use super::Solid;
-use crate::document::shown;
+use super::{Solid, stl};
+use crate::document::{read_bytes, shown};
 use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
@@ -20,6 +20,23 @@ pub struct Surface {
     pub points: Vec<Point3<f64>>,
     /// The corners of each triangle.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl Surface {
+    /// Whether all points are on a plane, up to a share `within` of how far they are apart.
+    pub(super) fn is_flat(&self, within: f64) -> bool {
+        let Some(a) = self.points.first() else { return true };
+        let farthest = |distance: &dyn Fn(&Point3<f64>) -> f64| {
+            let point = self.points.iter().max_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or(a);
+            (*point, distance(point))
+        };
+        let (b, size) = farthest(&|p| (p - a).norm());
+        let (c, _) = farthest(&|p| (p - a).cross(&(b - a)).norm());
+        let normal = (b - a).cross(&(c - a));
+        let (_, off) = farthest(&|p| (p - a).dot(&normal).abs());
+        let bound = within * size * normal.norm();
+        off <= bound || !(off - bound).is_finite()
+    }
 }
 
 /// The folders in which the files of meshes are looked for.
@@ -55,7 +72,8 @@ impl Meshes {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] for a file that is not there or cannot be read; [`ErrorKind::Unsupported`] for another format than STL;
-    /// [`ErrorKind::Syntax`] for a file that is no STL; [`ErrorKind::BadValue`] beyond a hundred megabytes.
+    /// [`ErrorKind::Syntax`] for a file that is no STL, with the line or the triangle; [`ErrorKind::BadValue`] beyond a hundred megabytes, for a corner
+    /// that is not finite, and for a file without triangles.
     pub fn points(&self, solid: &Solid) -> Result<Vec<Point3<f64>>> {
         if let Solid::Mesh { .. } = solid { Ok(self.triangles(solid)?.points) } else { Ok(solid.points()) }
     }
@@ -90,27 +108,34 @@ impl Meshes {
     }
 }
 
-fn read_stl(file: &Path, [x, y, z]: [f64; 3]) -> Result<Surface> {
+/// Whether a mesh in STL is a text.
+pub(super) fn is_text(file: &Path) -> bool {
+    read_bytes(file, MESH_LIMIT).is_ok_and(|bytes| stl::is_text(&bytes))
+}
+
+fn read_stl(file: &Path, scale: [f64; 3]) -> Result<Surface> {
     if !file.extension().is_some_and(|end| end.eq_ignore_ascii_case("stl")) {
         return Err(Error::new(ErrorKind::Unsupported, "only meshes in STL are read; convert it, or give boxes"));
     }
-    let length = std::fs::metadata(file).map_err(|error| Error::io(file, &error))?.len();
-    if length > MESH_LIMIT {
-        let text = format!("{length} bytes are too many; a mesh has at most {MESH_LIMIT}");
-        return Err(Error::new(ErrorKind::BadValue, text));
+    let corners = stl::corners(read_bytes(file, MESH_LIMIT)?)?;
+    if corners.is_empty() {
+        return Err(Error::new(ErrorKind::BadValue, "this STL has no triangle"));
     }
-    let bytes = std::fs::read(file).map_err(|error| Error::io(file, &error))?;
-    let wrong = |error| Error::new(ErrorKind::Syntax, format!("this is no STL: {error}"));
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(wrong)?;
-    let point = |corner: &stl_io::Vertex| {
-        let [a, b, c] = [corner[0], corner[1], corner[2]].map(f64::from);
-        Point3::new(a * x, b * y, c * z)
-    };
-    let points: Vec<Point3<f64>> = mesh.vertices.iter().map(point).collect();
-    if points.iter().all(|point| point.iter().all(|x| x.is_finite())) {
+    let (mut points, mut places) = (Vec::new(), HashMap::new());
+    let mut place = |corner: [f32; 3]| {
         // A file of at most a hundred megabytes has fewer corners than 2^32.
-        let triangles = mesh.faces.iter().map(|face| face.vertices.map(|corner| corner as u32)).collect();
-        return Ok(Surface { points, triangles });
+        *places.entry(corner.map(f32::to_bits)).or_insert_with(|| {
+            points.push(Point3::from(std::array::from_fn(|axis| f64::from(corner[axis]) * scale[axis])));
+            points.len() as u32 - 1
+        })
+    };
+    let triangles: Vec<[u32; 3]> = corners.into_iter().map(|triangle| triangle.map(&mut place)).collect();
+    let is_bad = |corner: &u32| !points[*corner as usize].iter().all(|x: &f64| x.is_finite());
+    match triangles.iter().position(|triangle| triangle.iter().any(is_bad)) {
+        None => Ok(Surface { points, triangles }),
+        Some(place) => {
+            let text = format!("a corner of triangle {} is not finite", place + 1);
+            Err(Error::new(ErrorKind::BadValue, text))
+        }
     }
-    Err(Error::new(ErrorKind::BadValue, "a corner of a triangle is not finite"))
 }

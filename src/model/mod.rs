@@ -16,6 +16,7 @@ pub mod mjcf;
 mod outline;
 mod parts;
 mod robot;
+mod stl;
 pub mod toml;
 mod unit;
 pub mod urdf;

@@ -8,7 +8,7 @@ use crate::document::shown;
 use crate::number::BigRational;
 use crate::spatial::NEGLIGIBLE;
 use crate::spatial::exact::Placement;
-use crate::{ErrorKind, Result};
+use crate::{Error, ErrorKind, Result};
 
 /// A checked tree of links and joints, with masses and shapes. It never changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -239,6 +239,16 @@ impl Robot {
     /// When there is no such link.
     pub fn ancestry(&self, link: usize) -> Vec<usize> {
         std::iter::successors(self.above[link], |joint| self.above[self.ends[*joint].0]).collect()
+    }
+
+    /// The error for a robot of which nothing is to be seen; `notes` say which meshes could not be read.
+    pub(crate) fn unseen(&self, notes: &[String]) -> Error {
+        let why: String = notes.iter().map(|note| format!("; {note}")).collect();
+        let text = format!(
+            "the robot `{}` has no shape, and no joint away from its parent: there is nothing to see; give a link a visual or a collision{why}",
+            shown(self.name())
+        );
+        Error::new(ErrorKind::BadValue, text)
     }
 
     /// The place of the link `name`.

@@ -12,7 +12,7 @@ const NEAR: f64 = 0.5;
 /// How near to a limit a value may be beyond it by rounding \[rad or m\].
 const ROUNDING: f64 = 1e-9;
 /// The most combinations of a solution's values that differ by whole turns; those furthest from zero are left out.
-const MOST_STATES: usize = 4096;
+const MOST_STATES: usize = crate::limits::POSE_STATES;
 
 /// How fast a path is gone.
 #[derive(Clone, Debug, PartialEq)]

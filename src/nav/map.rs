@@ -5,10 +5,11 @@ use std::ops::RangeInclusive;
 use nalgebra::{Point2, Vector2};
 
 use super::shape::Shape;
+use crate::limits::CELL_METRES;
 use crate::{Error, ErrorKind, Result};
 
 /// The most cells of a map.
-const MOST: usize = 1 << 28;
+const MOST: usize = crate::limits::MAP_CELLS;
 /// Speeds that a map tells.
 const SPEEDS: RangeInclusive<f64> = 1e-3..=1e6;
 
@@ -277,8 +278,9 @@ impl Map {
 /// How many cells so many columns and rows have.
 fn count_of(columns: usize, rows: usize, resolution: f64) -> Result<usize> {
     let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
-    if !(resolution.is_finite() && resolution > 0.0) {
-        return bad(format!("a resolution of {resolution} m: give the side of a cell, a positive number"));
+    let [least, greatest] = CELL_METRES;
+    if !(least..=greatest).contains(&resolution) {
+        return bad(format!("a resolution of {resolution:?} m: give the side of a cell, {least:e} to {greatest:e} m"));
     }
     match columns.checked_mul(rows).filter(|count| (1..=MOST).contains(count)) {
         Some(count) => Ok(count),

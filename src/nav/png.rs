@@ -10,7 +10,7 @@ use super::meaning::Meaning;
 use crate::{Error, ErrorKind, Result};
 
 /// The most bytes that an image takes in memory.
-const MEMORY: usize = 1 << 30;
+const MEMORY: usize = crate::limits::IMAGE_MEMORY;
 
 impl Map {
     /// The map that a PNG image holds: the mean of red, green and blue counts. What alpha means depends on the [mode](super::Mode).

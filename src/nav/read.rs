@@ -7,12 +7,12 @@ use nalgebra::Point2;
 use super::map::{Cell, Map};
 use super::meaning::{Meaning, Mode};
 use super::room::Room;
-use crate::document::{TEXT_LIMIT, read_text, shown};
+use crate::document::{TEXT_LIMIT, read_bytes, read_text, shown};
 use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
 /// The longest description of an image, in bytes.
-const DESCRIPTION_LIMIT: u64 = 100_000;
+const DESCRIPTION_LIMIT: u64 = limits::MAP_BYTES;
 /// The longest image or text, in bytes.
 const IMAGE_LIMIT: u64 = limits::IMAGE_BYTES;
 
@@ -40,8 +40,8 @@ impl Map {
 
     fn from_image(path: &Path, meaning: &Meaning) -> Result<Self> {
         match ending(path).as_str() {
-            "pgm" => Map::from_pgm(&bytes(path)?, meaning),
-            "png" => Map::from_png(&bytes(path)?, meaning),
+            "pgm" => Map::from_pgm(&read_bytes(path, IMAGE_LIMIT)?, meaning),
+            "png" => Map::from_png(&read_bytes(path, IMAGE_LIMIT)?, meaning),
             _ => {
                 let text = "an image of a map is a .pgm or .png; other maps are .yaml, .txt, .map and .toml";
                 Err(Error::new(ErrorKind::Unsupported, text))
@@ -145,16 +145,6 @@ impl Map {
 /// How a name ends.
 fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
-}
-
-fn bytes(path: &Path) -> Result<Vec<u8>> {
-    let io = |error: std::io::Error| Error::io(path, &error);
-    let length = std::fs::metadata(path).map_err(io)?.len();
-    if length > IMAGE_LIMIT {
-        let text = format!("{length} bytes are too many; a map has at most {IMAGE_LIMIT}");
-        return Err(Error::new(ErrorKind::BadValue, text));
-    }
-    std::fs::read(path).map_err(io)
 }
 
 /// Words of an image's head, and remarks between them.

@@ -12,7 +12,7 @@ use crate::document::shown;
 use crate::{Error, ErrorKind, Result};
 
 /// The deepest nesting.
-const DEEPEST: usize = 20;
+const DEEPEST: usize = crate::limits::YAML_DEPTH;
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]

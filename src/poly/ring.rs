@@ -8,6 +8,9 @@ use super::order::Order;
 use crate::number::{Field, Ring};
 use crate::{Error, ErrorKind, Result};
 
+/// So many products of terms wait at most, or twice as many as the terms that they have become, until those of one monomial are added.
+const UNCOLLECTED: usize = 1 << 18;
+
 /// One term: a nonzero coefficient and its monomial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term<E> {
@@ -225,9 +228,15 @@ impl<F: Field> PolynomialRing<F> {
             [] => Ok(self.zero()),
             [term] => self.mul_term(long, &term.coefficient, &term.monomial),
             _ => {
-                let mut products = Vec::with_capacity(short.terms.len() * long.terms.len());
+                let mut room = short.terms.len().saturating_mul(long.terms.len()).min(UNCOLLECTED);
+                let mut products = Vec::with_capacity(room);
                 for term in &short.terms {
                     products.extend(self.mul_term(long, &term.coefficient, &term.monomial)?.terms);
+                    // Most of them are of few monomials.
+                    if products.len() > room {
+                        products = self.collect(products).terms;
+                        room = products.len().saturating_mul(2).max(UNCOLLECTED);
+                    }
                 }
                 Ok(self.collect(products))
             }

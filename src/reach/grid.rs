@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Error, ErrorKind, Result};
 
-/// The most places of a grid: what is counted at each takes up to 28 bytes.
-const MOST: usize = 100_000_000;
+/// The most places of a grid.
+const MOST: usize = crate::limits::GRID_PLACES;
 
 /// Places on an axis, evenly spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -9,11 +9,12 @@ use super::ask::Ask;
 use super::grid::Grid;
 use super::orientations::{Turn, direction, rotation};
 use crate::kinematics::Ball;
+use crate::limits;
 use crate::solver::{Condition, Program};
 use crate::{Error, ErrorKind, Result};
 
 /// The most orientations at a place.
-pub(super) const MOST: usize = 1_000_000;
+pub(super) const MOST: usize = limits::ORIENTATIONS;
 /// How the inputs of a position are called.
 pub(super) const POSITION: [&str; 3] = ["px", "py", "pz"];
 
@@ -58,6 +59,8 @@ impl Poses {
             let text = format!("{orientations} orientations at a place; 1 to {MOST} are allowed");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
+        let targets = ask.grid.places().saturating_mul(orientations);
+        limits::check_count("targets, places times orientations,", targets, limits::REACH_TARGETS)?;
         let position = POSITION.map(|name| input(program, name));
         let spread = Spread::of(program, orientations);
         let known: Vec<usize> = position.iter().flatten().copied().chain(spread.inputs()).collect();

@@ -10,11 +10,11 @@ use crate::limits::{check_name, is_name};
 use crate::{Error, ErrorKind, Result, roots};
 
 /// The most answers of a program.
-pub(super) const MOST_ANSWERS: usize = 4096;
+pub(super) const MOST_ANSWERS: usize = crate::limits::PROGRAM_ANSWERS;
 /// The most blocks.
-const MOST_BLOCKS: usize = 64;
+const MOST_BLOCKS: usize = crate::limits::PROGRAM_BLOCKS;
 /// The most unknowns.
-const MOST_UNKNOWNS: usize = 1024;
+const MOST_UNKNOWNS: usize = crate::limits::PROGRAM_UNKNOWNS;
 /// Branch numbers stay below this, 2^53 - 1: a double holds them all.
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 

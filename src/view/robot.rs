@@ -2,12 +2,11 @@
 
 use super::bytes;
 use super::data::{Follows, Frame, Joint, Link, Robot, Shape, Solid};
-use crate::document::shown;
+use crate::Result;
 use crate::model;
 use crate::model::Meshes;
 use crate::spatial::Pose;
 use crate::spatial::exact::normalized;
-use crate::{Error, ErrorKind, Result};
 
 /// What is nearer is at the same place \[m\].
 const APART: f64 = 1e-6;
@@ -28,11 +27,7 @@ pub fn described(robot: &model::Robot, meshes: Option<&Meshes>) -> Result<Robot>
     let joints: Vec<Joint> = order.iter().map(|place| joint(robot, &order, *place)).collect();
     let is_apart = |joint: &Joint| [3, 7, 11].iter().any(|place| joint.origin[*place].abs() > APART);
     if links.iter().all(|link| link.shapes.is_empty()) && !joints.iter().any(is_apart) {
-        let text = format!(
-            "the robot `{}` has no shape, and no joint away from its parent: there is nothing to see; give a link a visual or a collision",
-            shown(robot.name())
-        );
-        return Err(Error::new(ErrorKind::BadValue, text));
+        return Err(robot.unseen(&notes));
     }
     Ok(Robot { name: robot.name().to_owned(), base: robot.root_place(), links, joints, notes })
 }

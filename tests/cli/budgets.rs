@@ -35,10 +35,16 @@ fn control_c_ends_every_command() {
     let file = folder.path().join("power");
     fs::write(&file, POWER).unwrap();
     let leg = root("derivations/nao_leg_sagittal");
+    let (ur5, out) = (root("derivations/ur5"), folder.path().join("out"));
+    let out = text(&out);
     for arguments in [
-        &["basis", text(&file), "-o", text(&folder.path().join("out"))][..],
+        &["basis", text(&file), "-o", out][..],
         &["solve", text(&leg)],
         &["fk", text(&leg)],
+        &["check", text(&ur5)],
+        &["explain", text(&root("derivations/ur5/0_chain.toml")), "-o", out],
+        &["reach", text(&ur5), "--orientations", "100000", "-o", &format!("{out}.json")],
+        &["walk", "teo", "--steps", "200", "-o", out],
     ] {
         let mut child = super::groebot(arguments).spawn().unwrap();
         let begun = Instant::now();
@@ -77,6 +83,19 @@ fn options_that_multiply_work_are_bounded() {
         let error = refused(&["track", &arm, "--law", "open-loop", "--trajectory", &path, "--step", step]);
         assert!(error.contains("steps of the law are too many; give at most 1000000"), "{error}");
     }
+    let late = ["track", &arm, "--law", "open-loop", "--trajectory", &path, "--delay", "1000001"];
+    assert!(refused(&late).contains("1000001 steps of delay are too many; give at most 1000000"));
+    let ur5 = text(&root("derivations/ur5")).to_owned();
+    let places = ["--x", "0:1:100", "--y", "0:1:100", "--z", "0:1:100", "--orientations", "1000000"];
+    let error = refused(&[&["reach", &ur5][..], &places].concat());
+    assert!(error.contains("1000000000000 targets") && error.contains("at most 4000000000"), "{error}");
+    let cells = at("cells.txt", "..\n..\n");
+    for side in ["1e-300", "1e300", "0", "nan"] {
+        let error = refused(&["path", &cells, "--resolution", side, "--start", "0,0", "--goal", "1,1"]);
+        assert!(error.contains("give the side of a cell, 1e-6 to 1e6 m"), "{error}");
+    }
+    let error = refused(&["walk", "nao", "--steps", "4", "--tick", "1e-9"]);
+    assert!(error.contains("one each 1e-9 s, and 180000 are the most") && error.contains("--tick"), "{error}");
     let log = at("log.csv", "q0,q1,q2,v0,v1,v2,a0,a1,a2,tau0,tau1,tau2\n0,0,0,0,0,1e160,0,0,0,0,0,0\n");
     let error = refused(&["identify", &arm, &log]);
     assert!(error.contains("line 2: column `v2`: `1e160` is too large; give at most 1e15"), "{error}");

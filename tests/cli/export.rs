@@ -156,6 +156,29 @@ fn what_is_no_scene_is_refused() {
     assert!(out.exists());
 }
 
+/// A damaged mesh is named with its fault wherever it is left out, also where nothing else is to be seen.
+#[test]
+fn a_damaged_mesh_is_named() {
+    let folder = tempdir().unwrap();
+    let [urdf, out] = ["robot.urdf", "out"].map(|name| folder.path().join(name));
+    fs::write(folder.path().join("part.stl"), "solid part\nfacet normal 0 0 1\nouter lop\n").unwrap();
+    let robot = |shape: &str| {
+        let mesh = "<visual><geometry><mesh filename='part.stl'/></geometry></visual>";
+        fs::write(&urdf, format!("<robot name='r'><link name='a'>{mesh}{shape}</link></robot>")).unwrap();
+    };
+    let says = |told: &str| assert!(told.contains("part.stl: line 3: this is no STL"), "{told}");
+    robot("");
+    says(&refused(&["export", text(&urdf), "--meshes", "--to", "glb", "-o", text(&out)]));
+    says(&refused(&["view", text(&urdf), "--meshes", "-o", text(&out)]));
+    robot("<collision><geometry><box size='1 1 1'/></geometry></collision>");
+    for options in [&["--meshes", "--to", "glb"][..], &["--to", "mjcf"]] {
+        let ran = run(&[&["export", text(&urdf), "-o", text(&out), "--force"], options].concat());
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        says(&ran.err);
+    }
+    assert!(!fs::read_to_string(&out).unwrap().contains("part.stl"), "MuJoCo would refuse the whole model");
+}
+
 #[test]
 fn scenes_are_read_by_other_programs() {
     let tools = [

@@ -214,6 +214,39 @@ fn an_interrupted_folder_is_refused_until_it_is_derived_again() {
     assert!(!folder.path().join(".groebot-unfinished").exists());
 }
 
+/// Every reader looks, whatever it reads.
+#[test]
+fn files_of_an_interrupted_set_are_refused_by_every_reader() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str, bytes: &str| {
+        fs::write(folder.path().join(name), bytes).unwrap();
+        text(&folder.path().join(name)).to_owned()
+    };
+    at("part.stl", "solid\nendsolid\n");
+    at("map.pgm", "P2 2 2 1 1 1 1 1\n");
+    let mesh = "<link name='a'><visual><geometry><mesh filename='part.stl'/></geometry></visual></link>";
+    let robot = at("robot.urdf", &format!("<robot name='r'>{mesh}</robot>"));
+    let map = at(
+        "map.yaml",
+        "image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n",
+    );
+    let system = at("system.txt", "variables: x\nx^2 - 1\n");
+    let poses = at("poses.csv", "0.3,0.1,0.4,0,0,0,1\n");
+    let ur5 = text(&root("derivations/ur5")).to_owned();
+    let arguments: [&[&str]; 4] = [
+        &["export", &robot, "--meshes", "--to", "x3d"],
+        &["path", &map, "--start", "0.5,0.5", "--goal", "1.5,1.5"],
+        &["basis", &system],
+        &["follow", &ur5, "--poses", &poses],
+    ];
+    let is_refused = |arguments: &[&str]| run(arguments).err.contains("interrupted, or is going on");
+    assert!(!arguments.into_iter().any(is_refused));
+    at(".groebot-unfinished", "part.stl\nmap.pgm\nsystem.txt\nposes.csv\n");
+    for arguments in arguments {
+        assert!(refused(arguments).contains("interrupted, or is going on"), "{arguments:?}");
+    }
+}
+
 #[test]
 fn code_of_others_stays_in_a_derived_folder() {
     let folder = super::leg_copy();

@@ -17,7 +17,7 @@ use super::samples::{leg, wrist};
 use super::stored::{Stored, all, joint_values, named, reached};
 
 /// A folder with the printed file, the stand-in for the header, and the plugin.
-fn folder(program: &Program, options: &Options) -> tempfile::TempDir {
+pub fn folder(program: &Program, options: &Options) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let options = Options { file: Some("5_ikfast.cpp".into()), ..options.clone() };
     fs::write(folder.path().join("5_ikfast.cpp"), emit(program, &options).unwrap()).unwrap();
@@ -28,7 +28,8 @@ fn folder(program: &Program, options: &Options) -> tempfile::TempDir {
     folder
 }
 
-fn compile(folder: &Path, arguments: &[&str]) -> Option<()> {
+/// Compiles C++; `None` when the compiler is missing.
+pub fn compile(folder: &Path, arguments: &[&str]) -> Option<()> {
     let mut command = Command::new("c++");
     command.args(["-Wall", "-Wextra", "-Werror", "-pedantic", "-I."]).args(arguments);
     build(command.current_dir(folder))

@@ -1,11 +1,15 @@
 //! Any names: words of the languages, of their libraries and of the printed files themselves.
 
 use std::collections::BTreeSet;
+use std::fs;
 
 use super::builder::*;
-use super::harness::compare;
+use super::harness::{compare, compile_c, compile_solver, rustc, write_pair};
 use super::samples::{pan_tilt, quartic, wrist};
-use groebot::codegen;
+use super::{ikfast, stored};
+use groebot::codegen::{self, c99::Pair, dynamics, ikfast::Options};
+use groebot::dynamics::{Base, Equations};
+use groebot::model::Robot;
 use groebot::solver::{Case, Checks, Joint, JointValue, Program, Rule, Step, Unit};
 
 /// Every word of a printed file, comments included.
@@ -84,4 +88,71 @@ fn names_that_are_words_stay() {
     let text = codegen::rust::emit(&named(&["px".into(), "KneeCosine".into()]));
     assert!(text.contains("[px, KneeCosine]"), "{text}");
     assert!(text.contains("let KneeCosine_ = KneeCosine;"), "unknowns are apart from parameters: {text}");
+}
+
+/// Names of robots that C, C++, Rust, their libraries or the run time keep for themselves or begin theirs with, and some that are no words.
+const ROBOTS: &str =
+    "class new int _x std main fn Self NULL M errno gb Gb groebot Groebot groebot_six_axes groebot_dynamics 9 r\u{f6}b";
+
+/// C of two files and of one, C++ that includes the header, C++ for IKFast's callers, and Rust.
+#[test]
+fn a_robot_may_have_any_name() {
+    let stored = stored::named(&["planar_2r"]).remove(0);
+    for name in ROBOTS.split_whitespace() {
+        let program = Program { name: name.to_owned(), ..stored.program.clone() };
+        let folder = ikfast::folder(&program, &Options::default());
+        let write = |file: &str, text: &str| fs::write(folder.path().join(file), text).unwrap();
+        write_pair(folder.path(), &Pair::new(&program, "5_solver"));
+        let main = "#include \"5_solver.h\"\nint main(void) { return 0; }\n";
+        write("main.c", main);
+        write("header.cpp", main);
+        write("single.c", &codegen::single_file::c(&program, "single.c", false));
+        write("5_solver.rs", &codegen::rust::emit(&program));
+        let runtime = format!("-I{}", super::harness::c_runtime().display());
+        let compiled = compile_solver(&program, folder.path(), &[], "c99")
+            .and_then(|()| compile_c(folder.path(), &["-c", "single.c"]))
+            .and_then(|()| ikfast::compile(folder.path(), &["-std=c++11", "-fsyntax-only", &runtime, "header.cpp"]))
+            .and_then(|()| ikfast::compile(folder.path(), &["-std=c++17", "-fsyntax-only", "5_ikfast.cpp"]))
+            .and_then(|()| rustc(folder.path(), &["--crate-type=lib", "--emit=metadata", "5_solver.rs"]));
+        if compiled.is_none() {
+            return;
+        }
+    }
+}
+
+/// The same of equations of motion, whose joints have such names, too.
+#[test]
+fn a_robot_of_equations_of_motion_may_have_any_name() {
+    let names: Vec<&str> = ROBOTS.split_whitespace().collect();
+    let described = include_str!("../corpus/dynamics/rrp.urdf");
+    for (place, name) in names.iter().enumerate() {
+        let mut parts = Robot::from_urdf(described).unwrap().parts().clone();
+        parts.name = (*name).to_owned();
+        parts
+            .joints
+            .iter_mut()
+            .enumerate()
+            .for_each(|(joint, own)| own.name = names[(place + joint) % names.len()].to_owned());
+        parts.actuators.clear();
+        let robot = Robot::new(parts).unwrap();
+        let equations = Equations::as_told(&robot, Base::Fixed).unwrap().without_friction();
+        let functions = vec![dynamics::Function::Inverse];
+        let form = dynamics::Form::Straight;
+        let printed =
+            dynamics::Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
+        let folder = tempfile::tempdir().unwrap();
+        let write = |file: &str, text: &str| fs::write(folder.path().join(file), text).unwrap();
+        let [header, source] = printed.c99("motion").unwrap();
+        write("motion.h", &header);
+        write("motion.c", &source);
+        write("main.cpp", "#include \"motion.h\"\nint main() { return 0; }\n");
+        write("motion.rs", &printed.rust().unwrap());
+        let runtime = format!("-I{}", super::harness::c_runtime().display());
+        let compiled = compile_c(folder.path(), &["-c", "motion.c"])
+            .and_then(|()| ikfast::compile(folder.path(), &["-std=c++11", "-fsyntax-only", &runtime, "main.cpp"]))
+            .and_then(|()| rustc(folder.path(), &["--crate-type=lib", "--emit=metadata", "motion.rs"]));
+        if compiled.is_none() {
+            return;
+        }
+    }
 }

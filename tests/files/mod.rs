@@ -144,3 +144,44 @@ fn permissions_are_those_of_an_ordinary_file() {
     write_atomically(&ours, b"y").unwrap();
     assert_eq!(mode(&ours) & 0o777, 0o640);
 }
+
+/// A temporary file that nobody has locked was left by a process that was killed.
+#[test]
+fn what_a_killed_process_left_goes_with_the_next_set() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for name in [".groebot-dead.tmp", ".groebot-alive.tmp", ".groebot-mine", "a.tmp"] {
+        fs::write(at(name), "half").unwrap();
+    }
+    fs::create_dir(at(".groebot-folder.tmp")).unwrap();
+    let alive = fs::File::open(at(".groebot-alive.tmp")).unwrap();
+    alive.lock().unwrap();
+    write_folder_atomically(folder.path(), &files(&[("1.txt", "new")]), &Watch::none()).unwrap();
+    let left = content(folder.path());
+    let names: Vec<&str> = left.keys().map(String::as_str).collect();
+    assert_eq!(names, [".groebot-alive.tmp", ".groebot-folder.tmp", ".groebot-mine", "1.txt", "a.tmp"]);
+    drop(alive);
+    write_folder_atomically(folder.path(), &files(&[("1.txt", "new")]), &Watch::none()).unwrap();
+    assert!(!at(".groebot-alive.tmp").exists());
+}
+
+/// Nobody takes the temporary file of a writer that is at work for a left-over one.
+#[test]
+fn single_files_and_sets_are_written_into_one_folder_at_once() {
+    let folder = tempdir().unwrap();
+    let single = |name: &'static str| {
+        let path = folder.path().join(name);
+        move || (0..200).for_each(|_| write_atomically(&path, b"single").unwrap())
+    };
+    let sets = || {
+        for _ in 0..100 {
+            write_folder_atomically(folder.path(), &files(&[("1.txt", "set")]), &Watch::none()).unwrap();
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(single("a.txt"));
+        scope.spawn(single("b.txt"));
+        scope.spawn(sets);
+    });
+    assert_eq!(content(folder.path()), map(&[("1.txt", "set"), ("a.txt", "single"), ("b.txt", "single")]));
+}

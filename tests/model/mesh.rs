@@ -18,7 +18,7 @@ fn ascii() -> String {
     format!("solid t\n{}endsolid t\n", FACES.iter().map(facet).collect::<String>())
 }
 
-fn binary() -> Vec<u8> {
+pub fn binary() -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes.extend(4u32.to_le_bytes());
     for face in FACES {
@@ -63,6 +63,88 @@ fn corners_of_triangles_are_read_and_scaled() {
         assert!(error.kind() == kind && error.message().contains(words), "{error}");
     }
     assert!(Meshes::default().points(&mesh("a.stl")).is_err());
+}
+
+/// What is wrong with a file of these bytes; none where all four corners are read.
+fn fault(bytes: impl AsRef<[u8]>) -> Option<groebot::Error> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("part.stl");
+    fs::write(&file, bytes).unwrap();
+    match Meshes::beside(&folder.path().join("robot.urdf")).triangles(&mesh("part.stl")) {
+        Ok(surface) => {
+            assert_eq!((surface.points.len() % 4, surface.triangles.len() % 4), (0, 0));
+            None
+        }
+        Err(error) => {
+            assert_eq!(error.place().file.as_deref(), Some(file.as_path()), "{error}");
+            Some(error)
+        }
+    }
+}
+
+#[test]
+fn all_kinds_of_stl_are_read() {
+    let mut head_of_text = binary();
+    head_of_text[..9].copy_from_slice(b"solid t\n\n");
+    let latin1 =
+        [b"solid n\xe4m\xe9\r\n".to_vec(), ascii().replacen("solid t\n", "", 1).replace('\n', "\r\n").into_bytes()]
+            .concat();
+    let whole: [Vec<u8>; 7] = [
+        ascii().into(),
+        binary(),
+        head_of_text,
+        ascii().to_uppercase().into(),
+        ascii().replace("solid t", "solid").into(),
+        latin1,
+        format!("\n  {}", ascii()).into(),
+    ];
+    for bytes in whole {
+        let error = fault(&bytes);
+        assert!(error.is_none(), "{}: {error:?}", String::from_utf8_lossy(&bytes));
+    }
+    // All solids of a text are read.
+    let folder = tempfile::tempdir().unwrap();
+    let moved = ascii().replace("vertex 1", "vertex 5");
+    fs::write(folder.path().join("two.stl"), ascii() + "\n" + &moved).unwrap();
+    let surface = Meshes::beside(&folder.path().join("robot.urdf")).triangles(&mesh("two.stl")).unwrap();
+    assert_eq!((surface.points.len(), surface.triangles.len()), (5, 8));
+}
+
+#[test]
+fn damage_is_named_with_its_place() {
+    let line = |number: usize, old: &str, new: &str| {
+        let lines: Vec<String> = ascii().lines().map(str::to_owned).collect();
+        let changed = lines[number - 1].replace(old, new);
+        assert_ne!(changed, lines[number - 1]);
+        [&lines[..number - 1], &[changed], &lines[number..]].concat().join("\n")
+    };
+    for (text, number) in [
+        (line(5, "vertex", "vertx"), 5),
+        (line(6, " 0", " nan"), 6),
+        (line(9, " 0", " zero"), 9),
+        (line(7, "endloop", ""), 8),
+        (line(30, "endsolid t", ""), 29),
+        (ascii().lines().take(12).collect::<Vec<_>>().join("\n"), 12),
+        (ascii() + "\nfacet", 32),
+    ] {
+        let error = fault(&text).unwrap();
+        assert_eq!((error.kind(), error.place().line), (ErrorKind::Syntax, Some(number)), "{error}: {text}");
+    }
+    let changed = |change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = binary();
+        change(&mut bytes);
+        fault(bytes).unwrap()
+    };
+    let short = changed(&|bytes| bytes.truncate(84 + 2 * 50 + 7));
+    assert!(short.message().contains("counts 4 triangles") && short.message().contains("in triangle 3"), "{short}");
+    let long = changed(&|bytes| bytes.extend([0; 50]));
+    assert!(long.message().contains("behind the last one"), "{long}");
+    let infinite = changed(&|bytes| bytes[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes()));
+    assert!(infinite.message().contains("triangle 2 is not finite"), "{infinite}");
+    assert!(fault("").unwrap().message().contains("this has 0"));
+    assert!(fault("solid\nendsolid\n").unwrap().message().contains("no triangle"));
+    // Whatever is cut off is missed.
+    assert!((0..binary().len()).all(|length| fault(&binary()[..length]).is_some()));
 }
 
 /// The points of a solid are on its surface, and as far out along each axis as it is.

@@ -56,7 +56,7 @@ fn what_is_no_room_is_refused() {
         ("size = [6.0, 5.0]", "", Some(1), "`size`"),
         ("[6.0, 5.0]", "[6.0, -5.0]", None, "positive"),
         ("wall = 0.1", "wall = -1", None, "walls of -1 m"),
-        ("resolution = 0.1", "resolution = 0", None, "a resolution of 0 m"),
+        ("resolution = 0.1", "resolution = 0", None, "a resolution of 0.0 m"),
         ("wall", "walls", Some(5), "`walls`"),
         ("\"lamp\"", "\"sofa\"", Some(10), "`sofa` is given twice"),
         ("circle = 0.25", "", Some(10), "one outline"),

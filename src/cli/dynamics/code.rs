@@ -10,7 +10,8 @@ use crate::cli::output::{Kind, Output};
 use crate::cli::{Outcome, console};
 use crate::codegen::dynamics::{Form, Function, Printed};
 use crate::dynamics::Base;
-use crate::{Error, ErrorKind, limits};
+use crate::model::Robot;
+use crate::{Error, ErrorKind, Result, limits};
 
 /// What is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -50,14 +51,9 @@ pub fn functions() -> impl TypedValueParser<Value = Function> {
 pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let output = arguments.output(None).expects([arguments.out.as_ref()])?;
     let (described, _) = described(&arguments.robot)?;
+    check(&described).map_err(|error| error.in_file(&arguments.robot))?;
     let meant = described.as_meant()?;
     let (robot, gravity) = arguments.part.of(&meant)?;
-    let masses = || robot.links().iter().any(|link| link.mass.is_some());
-    limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)
-        .and_then(|()| {
-            if masses() { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses")) }
-        })
-        .map_err(|error| error.in_file(&arguments.robot))?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let equations = arguments.equations(&robot, base)?.with_gravity(gravity);
     let mut remarks =
@@ -77,6 +73,15 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let notes = [&robot.parts().notes[..], equations.notes(), left_out.as_slice()].concat();
     console::tell(&notes);
     write(arguments, &output, language, &printed)
+}
+
+/// Fails, before any work, for a robot that is too long or weighs nothing.
+fn check(robot: &Robot) -> Result<()> {
+    limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)?;
+    if robot.links().iter().any(|link| link.mass.is_some()) {
+        return Ok(());
+    }
+    Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses"))
 }
 
 /// Takes all functions but forward dynamics where bodies without mass would have to move; tells that here and in the code.

@@ -16,7 +16,7 @@ use crate::robots;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The most joints of equations as polynomials.
-const MOST_JOINTS: usize = 7;
+const MOST_JOINTS: usize = crate::limits::SYMBOLIC_JOINTS;
 
 /// Tells the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {

@@ -10,7 +10,7 @@ use crate::number::{Ring, Style};
 use crate::{Error, ErrorKind, Result};
 
 /// The most terms of M, C and N together.
-pub const MOST_TERMS: usize = 100_000;
+pub const MOST_TERMS: usize = crate::limits::SYMBOLIC_TERMS;
 
 /// `M q'' + C q' + N = torques` as polynomials in cosines and sines (or ways) of the joints, their rates, and what bodies weigh. `M` is symmetric, and `C` that of
 /// Christoffel's symbols, RH0 (2-42).

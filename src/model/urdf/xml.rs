@@ -13,7 +13,7 @@ use crate::{Error, ErrorKind, Result};
 /// How many levels are kept: robot, link or joint, their parts, and two levels of these: a collision's geometry and its box.
 const KEPT: usize = 5;
 /// The most bytes of an element's text.
-const MOST_TEXT: usize = 200;
+const MOST_TEXT: usize = limits::XML_TEXT;
 /// The deepest nesting.
 const DEEPEST: usize = limits::XML_DEPTH;
 

@@ -14,9 +14,9 @@ pub const MAX_BITS: f64 = limits::EXPANSION_BITS;
 /// The highest total degree of an expanded summand.
 pub const MAX_DEGREE: u64 = limits::EXPANSION_DEGREE;
 /// The highest degree of a summand in the parameters, numerator and denominator together.
-pub const MAX_PARAMETER_DEGREE: u64 = 100;
+pub const MAX_PARAMETER_DEGREE: u64 = limits::EXPANSION_PARAMETER_DEGREE;
 /// The highest sum of the degrees of all denominators of one polynomial.
-pub const MAX_DENOMINATOR_DEGREE: u64 = 1000;
+pub const MAX_DENOMINATOR_DEGREE: u64 = limits::EXPANSION_DENOMINATOR_DEGREE;
 
 impl Heading {
     /// The ring of these variables over `field`, which has the parameters as generators.

@@ -34,9 +34,9 @@ pub use order::parse_order;
 /// The longest system that is read, in bytes.
 pub const MAX_SYSTEM_LENGTH: usize = limits::SYSTEM_BYTES;
 /// The most words (numbers, names, signs) of one polynomial.
-pub const MAX_WORDS: usize = 1_000_000;
+pub const MAX_WORDS: usize = limits::POLYNOMIAL_WORDS;
 /// The most variables and parameters together.
-pub const MAX_NAMES: usize = 1000;
+pub const MAX_NAMES: usize = limits::SYSTEM_NAMES;
 
 /// How a system is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -35,11 +35,7 @@ impl Scene {
         let mut seen: Vec<Seen> = robot.links().iter().map(&mut link).collect();
         bones::add(robot, &mut seen);
         if seen.iter().all(|link| link.parts.is_empty()) {
-            let text = format!(
-                "the robot `{}` has no shape, and no joint away from its parent: there is nothing to see; give a link a visual or a collision",
-                shown(robot.name())
-            );
-            return Err(Error::new(ErrorKind::BadValue, text));
+            return Err(robot.unseen(&scene.notes));
         }
         if let Some(trajectory) = trajectory {
             scene.times = trajectory.times.iter().map(|time| time - trajectory.times[0]).collect();

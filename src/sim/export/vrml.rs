@@ -19,7 +19,7 @@ use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 
 /// How deep nodes may stand in each other.
-const DEEPEST: usize = 64;
+const DEEPEST: usize = crate::limits::VRML_DEPTH;
 /// What the first line of a whole file is; the figure is a piece of one.
 const HEAD: &str = "#VRML V2.0 utf8";
 /// What is a word of its own wherever it stands.

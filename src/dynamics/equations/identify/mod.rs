@@ -20,8 +20,8 @@ use self::quantiles::{chi_square_999, student_95, widening};
 use super::{Equations, State, sign};
 use crate::{Error, ErrorKind, Result};
 
-/// The greatest size of a number of a log: squares of such numbers, and their sums, are far within doubles.
-const MOST: f64 = 1e12;
+/// The greatest size of a number of a log.
+const MOST: f64 = crate::limits::LOG_LARGEST;
 /// The least noise of a joint, as a share of the greatest torque: what misses less counts as exact.
 const EXACT: f64 = 1e-7;
 
