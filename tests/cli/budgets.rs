@@ -42,7 +42,7 @@ fn control_c_ends_every_command() {
         &["solve", text(&leg)],
         &["fk", text(&leg)],
         &["check", text(&ur5)],
-        &["explain", text(&root("derivations/ur5/0_chain.toml")), "-o", out],
+        &["explain", text(&root("derivations/general_6r/0_chain.toml")), "-o", out],
         &["reach", text(&ur5), "--orientations", "100000", "-o", &format!("{out}.json")],
         &["walk", "teo", "--steps", "200", "-o", out],
     ] {
