@@ -37,16 +37,10 @@ def y_of(time):
     return TOP + HEIGHT * (MOST - math.log10(time)) / (MOST - LEAST)
 
 
-def times(robot, joint, column):
-    """The exponents of distances and the times [us] of a robot's rows."""
-    rows = [row for row in csv.reader(RECORD.open()) if row[:2] == ["bounded", robot] and row[2].startswith(joint + " 1e")]
+def times(record, key, joint, column):
+    """The exponents of distances and the times [us] of the rows that begin with `key`."""
+    rows = [row for row in csv.reader(record.open()) if row[:2] == key and row[2].startswith(joint + " 1e")]
     return [(int(row[2].split("1e")[1]), float(row[column])) for row in rows]
-
-
-def times_of_peer(robot, contestant):
-    """The same of another solver, in the mean."""
-    rows = [row for row in csv.reader(PEERS.open()) if row[:2] == [robot, contestant]]
-    return [(int(row[2].split("1e")[1]), float(row[4])) for row in rows]
 
 
 def line(points, colour, dashes=""):
@@ -68,11 +62,11 @@ def frame():
 
 def curves():
     for place, (robot, (label, joint, colour)) in enumerate(ROBOTS.items()):
-        yield line(times(robot, joint, 4), colour)
-        yield line(times(robot, joint, 6), colour, "2 3")
+        yield line(times(RECORD, ["bounded", robot], joint, 4), colour)
+        yield line(times(RECORD, ["bounded", robot], joint, 6), colour, "2 3")
         yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * place}" fill="{colour}">{label}</text>'
     for place, ((robot, contestant), (label, colour)) in enumerate(OTHERS.items(), len(ROBOTS)):
-        yield line(times_of_peer(robot, contestant), colour, "8 4")
+        yield line(times(PEERS, [robot, contestant], "wrist", 4), colour, "8 4")
         yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * place}" fill="{colour}">{label} (dashed)</text>'
     y = TOP + 18 + 16 * (len(ROBOTS) + len(OTHERS))
     yield f'<text x="{LEFT + 10}" y="{y}">solid: mean, dotted: slowest of 200</text>'

@@ -1,4 +1,4 @@
-"""Time of a pose in ssik and EAIK against the distance of the wrist from where the robot is singular, and how many poses' joint values they lose.
+"""Time of a pose in ssik and EAIK against the distance of the wrist from where the robot is singular, and how many poses they do not solve.
 
     python3 -m venv peers && peers/bin/pip install ssik EAIK numpy
     peers/bin/python benches/singular/peers.py 200 >> benches/record/DATE-singular-peers.csv
@@ -71,7 +71,7 @@ def contestants(path, prebuilt):
         yield f"ssik {version('ssik')}", arm.fk, lambda pose: arm.solve(pose, respect_limits=False), lambda found: [one.q for one in found]
 
 
-def row(name, label, exponent, count, forward, solve, answers):
+def row(name, exponent, count, label, forward, solve, answers):
     poses = [np.asarray(forward(q)) for q in joint_values(count, 10.0**-exponent)]
     least, without, all_answers = np.full(count, np.inf), 0, 0
     for turn in range(ROUNDS):
@@ -91,8 +91,7 @@ def main():
     for name, (path, prebuilt) in ROBOTS.items():
         for contestant in contestants(path, prebuilt):
             for exponent in EXPONENTS:
-                label, forward, solve, answers = contestant
-                print(row(name, label, exponent, count, forward, solve, answers), flush=True)
+                print(row(name, exponent, count, *contestant), flush=True)
 
 
 if __name__ == "__main__":

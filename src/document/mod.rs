@@ -30,9 +30,9 @@ pub(crate) use certificate::{Certificate, Proves, head_of};
 pub(crate) use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub(crate) use json::JsonFormat;
-pub use text::{is_stdin, read_text, read_xml, unix_lines};
 #[cfg(feature = "cli")]
 pub(crate) use text::open;
+pub use text::{is_stdin, read_text, read_xml, unix_lines};
 pub(crate) use text::{read_bytes, text_of};
 
 /// The size limit that our own readers give to [`read_text`]: one megabyte.

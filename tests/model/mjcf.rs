@@ -114,22 +114,22 @@ fn links(robot: &Robot, q: &[f64]) -> Vec<Pose> {
 const LEAST_MASS: f64 = 1e-4;
 
 /// Freedoms, masses, centres of mass, and where the links are in three poses.
-fn compare(robot: &Robot, told: &Value, name: impl Fn(&str) -> String) {
+fn compare(robot: &Robot, reported: &Value, name: impl Fn(&str) -> String) {
     let leads = |joint: &&usize| robot.law(&robot.joints()[**joint]).leader == robot.joints()[**joint].name;
     let (moving, leaders) = (robot.moving().len(), robot.moving().iter().filter(leads).count());
-    assert_eq!(told["freedom"], 6 + moving, "{}", robot.name());
-    assert_eq!((&told["servos"], &told["ties"]), (&json!(leaders), &json!(moving - leaders)));
+    assert_eq!(reported["freedom"], 6 + moving, "{}", robot.name());
+    assert_eq!((&reported["servos"], &reported["ties"]), (&json!(leaders), &json!(moving - leaders)));
     for link in robot.links().iter().filter(|link| link.mass.is_some()) {
         let (inertia, own) = (link.inertia(), name(&link.name));
-        let mass = told["masses"][&own].as_f64().unwrap();
+        let mass = reported["masses"][&own].as_f64().unwrap();
         assert!((mass - inertia.mass().max(LEAST_MASS)).abs() <= 1e-12 * mass, "{own}: {mass} kg");
-        let centre: [f64; 3] = serde_json::from_value(told["centres"][&own].clone()).unwrap();
+        let centre: [f64; 3] = serde_json::from_value(reported["centres"][&own].clone()).unwrap();
         assert!(
             (inertia.centre_of_mass().coords - nalgebra::Vector3::from(centre)).norm() < 1e-12,
             "{own}: {centre:?}"
         );
     }
-    for (seed, pose) in told["poses"].as_array().unwrap().iter().enumerate() {
+    for (seed, pose) in reported["poses"].as_array().unwrap().iter().enumerate() {
         assert!(pose["off"].as_f64().unwrap() < 1e-12, "joints that follow: {pose}");
         for (link, expected) in robot.links().iter().zip(links(robot, &values(robot, seed))) {
             let [x, y, z, w, i, j, k]: [f64; 7] =
@@ -159,8 +159,8 @@ fn mujoco_sees_the_same_robot() {
     for robot in robots {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("robot.xml"), written(&robot, &mut Vec::new())).unwrap();
-        let Some(told) = mujoco(folder.path(), &poses(&robot)) else { return };
-        compare(&robot, &told, str::to_owned);
+        let Some(reported) = mujoco(folder.path(), &poses(&robot)) else { return };
+        compare(&robot, &reported, str::to_owned);
     }
 }
 
@@ -204,6 +204,6 @@ fn what_mujoco_does_not_take_is_written_in_another_way() {
     assert!(text.contains("face=\"0 1 2 0 2 3 ") && text.contains("BINARY.STL\" scale=\"-1 1 0.001\""), "{text}");
     assert!(!text.contains("good.stl") && !text.contains("bad.stl"));
     fs::write(folder.path().join("robot.xml"), text).unwrap();
-    let Some(told) = mujoco(folder.path(), &poses(&robot)) else { return };
-    compare(&robot, &told, |name| if name == "world" { "world_".to_owned() } else { name.to_owned() });
+    let Some(reported) = mujoco(folder.path(), &poses(&robot)) else { return };
+    compare(&robot, &reported, |name| if name == "world" { "world_".to_owned() } else { name.to_owned() });
 }

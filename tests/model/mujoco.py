@@ -30,7 +30,7 @@ def posed(values):
 
 with open(sys.argv[2], encoding="utf-8") as file:
     poses = [posed(values) for values in json.load(file)]
-told = {
+reported = {
     "freedom": model.nv,
     "servos": model.nu,
     "ties": model.neq,
@@ -38,4 +38,4 @@ told = {
     "centres": {body.name: list(body.ipos) for body in bodies},
     "poses": poses,
 }
-print(json.dumps(told))
+print(json.dumps(reported))
